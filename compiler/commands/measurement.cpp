@@ -1,11 +1,12 @@
 #include "commands/measurement.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
 #include "command_line/interruption.hpp"
 #include "command_line/run_app.hpp"
-#include "commands/parameter_setting.hpp"
+#include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
 #include "system/files.hpp"
 #include "text/errors.hpp"
@@ -23,33 +24,41 @@ std::string pictures_text(const PictureCount& pictures) {
          std::to_string(pictures.cached) + " from the cache";
 }
 
-}  // namespace
-
-void RoleOptions::add_options(remap::Command& app, const std::string& side) {
+// Adds the options that choose which parameters of a model are roughness, specular and diffuse.
+void add_role_options(remap::Command& app, const std::string& side, ParameterRoles& roles) {
   const std::string prefix = "--" + side;
-  app.add_option(prefix + "-roughness NAME[:CONVENTION]", roughness,
+  const auto roughness = [&roles](const std::string& option, const std::string& word) {
+    ParameterRoles changed = roles;
+    const std::size_t colon = word.find(':');
+    changed.roughness = word.substr(0, colon);
+    if (colon != std::string::npos)
+      changed.convention =
+          remap::one_of(remap::kConventions, "convention").read(option, word.substr(colon + 1));
+    return changed;
+  };
+  app.add_option(prefix + "-roughness NAME[:CONVENTION]", roles, remap::Reader<ParameterRoles>{roughness, {}},
                  "Parameter of the " + side + " that is its roughness (default: as the model declares it)");
-  app.add_option(prefix + "-specular NAME", specular, "Parameter that is its specular");
-  app.add_option(prefix + "-diffuse NAME", diffuse, "Parameter that is its diffuse");
-  app.add_option(prefix + "-set NAME=VALUE", settings, "Fixed value of another parameter; may be repeated")
-      ->allow_extra_args(false);
+  app.add_option(prefix + "-specular NAME", roles.specular, "Parameter that is its specular");
+  app.add_option(prefix + "-diffuse NAME", roles.diffuse, "Parameter that is its diffuse");
+  const auto value = [](const ParameterSetting& setting) {
+    if (setting.values.size() != 1)
+      setting.fail(std::to_string(setting.values.size()) + " values given (give one: sweeps are grey)");
+    return setting.values.front();
+  };
+  add_settings<double>(app, prefix + "-set NAME=VALUE", roles.fixed, value,
+                       "Fixed value of another parameter; may be repeated");
 }
 
-ParameterRoles RoleOptions::roles(const std::string& side) const {
-  ParameterRoles roles;
-  if (!roughness.empty()) cast_roughness(roughness, &roles);
-  roles.specular = specular;
-  roles.diffuse = diffuse;
-  for (const std::string& text : settings) {
-    const std::string option = "--" + side + "-set";
-    const ParameterSetting setting = parse_setting(option, text);
-    if (setting.values.size() != 1)
-      throw usage_error(option + " " + text + ": " + std::to_string(setting.values.size()) +
-                        " values given (give one: sweeps are grey)");
-    roles.fixed[setting.name] = setting.values[0];
-  }
-  return roles;
+remap::Reader<std::string> objective_name() {
+  return {[](const std::string& option, const std::string& word) {
+            if (std::find(kObjectives.begin(), kObjectives.end(), word) == kObjectives.end())
+              remap::fail_unknown(option, "objective", word, kObjectives);
+            return word;
+          },
+          {}};
 }
+
+}  // namespace
 
 void MeasurementOptions::add_table_options(remap::Command& app, const std::string& table) {
   app.option_group("Models");
@@ -64,11 +73,13 @@ void MeasurementOptions::add_table_options(remap::Command& app, const std::strin
 
 void MeasurementOptions::add_picture_options(remap::Command& app) {
   app.option_group("Pictures and how they are compared");
-  app.add_option("--objective NAME", objective,
-                 "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights");
-  app.add_option("--light LIGHTS", lights,
+  app.add_option("--objective NAME", objective, objective_name(),
+                 "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights")
+      ->default_text("natural");
+  app.add_option("--light LIGHTS", lights, remap::list_of(light_angle()),
                  "Lights, comma-separated: headlight, or degrees from the camera (overrides --objective)");
-  app.add_option("--weighting NAME", weighting, "uniform or relative (overrides --objective)");
+  app.add_option("--weighting NAME", weighting, remap::one_of(kWeightings, "weighting"),
+                 "Weights of the pixels, overriding --objective");
   app.add_option("--resolution", pair.resolution, "Width and height in pixels");
   app.add_option("--pixel-samples", pair.samples_per_axis, "N x N samples per pixel; 1: the pixel center");
   app.option_group(remap::kRareOptions);
@@ -77,8 +88,8 @@ void MeasurementOptions::add_picture_options(remap::Command& app) {
                "Do not correct for a constant factor between the lights of two renderers");
   add_accept_light_flag(app, pair.accept_light);
   app.option_group("Rare: parameters of models (remapc list --models, remapc renderers)");
-  source_roles.add_options(app, "source");
-  target_roles.add_options(app, "target");
+  add_role_options(app, "source", pair.source_roles);
+  add_role_options(app, "target", pair.target_roles);
 }
 
 void MeasurementOptions::add_execution_options(remap::Command& app) {
@@ -89,13 +100,14 @@ void MeasurementOptions::add_execution_options(remap::Command& app) {
 
 PairOptions MeasurementOptions::chosen_pair() const {
   PairOptions chosen = pair;
-  chosen.source_roles = source_roles.roles("source");
-  chosen.target_roles = target_roles.roles("target");
   const Objective preset = objective_preset(objective);
   chosen.objective = preset;
-  if (!lights.empty()) chosen.objective.lights = parse_lights(lights, distance);
+  if (lights) {
+    chosen.objective.lights.clear();
+    for (const double angle : *lights) chosen.objective.lights.push_back({angle, distance});
+  }
   for (Light& light : chosen.objective.lights) light.distance = distance;
-  if (!weighting.empty()) chosen.objective.weighting = weighting_from_name(weighting);
+  chosen.objective.weighting = weighting.value_or(preset.weighting);
   const bool is_preset =
       chosen.objective.lights == preset.lights && chosen.objective.weighting == preset.weighting;
   chosen.objective_name = is_preset ? objective : "custom";

@@ -17,21 +17,11 @@
 
 namespace remapc {
 
-// The options that choose which parameters of a model are roughness, specular and diffuse.
-struct RoleOptions {
-  std::string roughness, specular, diffuse;
-  std::vector<std::string> settings;
-
-  void add_options(remap::Command& app, const std::string& side);
-  // `side`: `source` or `target`. Throws kUsage for a setting that cannot be read or has more than one value.
-  ParameterRoles roles(const std::string& side) const;
-};
-
 struct MeasurementOptions {
-  PairOptions pair;  // its roles and its objective are those of the fields below
-  RoleOptions source_roles, target_roles;
+  PairOptions pair;  // without the objective, which the next fields choose
   std::string objective = "natural";
-  std::string lights, weighting;  // empty: as the objective has them
+  std::optional<std::vector<double>> lights;  // angles; these two as the objective has them where not given
+  std::optional<Weighting> weighting;
   double distance = 3.0;
   bool keep_irradiance = false;
   std::filesystem::path output;
@@ -44,7 +34,6 @@ struct MeasurementOptions {
   void add_table_options(remap::Command& app, const std::string& table);
   void add_picture_options(remap::Command& app);
   void add_execution_options(remap::Command& app);
-  // Throws kUsage for an unknown objective, weighting or light, and for roles that cannot be read.
   PairOptions chosen_pair() const;
 };
 

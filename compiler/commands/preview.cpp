@@ -6,7 +6,7 @@
 
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
-#include "commands/parameter_setting.hpp"
+#include "commands/option_readers.hpp"
 #include "commands/renderer_options.hpp"
 #include "manifest/fit_folder.hpp"
 #include "renderer/image_file.hpp"
@@ -21,23 +21,12 @@ struct PreviewCommand {
   std::string fit;
   std::filesystem::path fit_folder = "fits", output;
   PreviewOptions options;
-  std::vector<std::string> shapes = {"sphere", "torus"};
-  std::string light = "45";
-  double distance = 3.0;
   bool json = false;
   RendererOptions renderers;
   std::string environment;  // empty: one light
   double exposure = 1.0;
   LitPreviewOptions lit;  // takes alphas, specular, resolution and samples from `options`
 };
-
-PreviewOptions preview_options(const PreviewCommand& command) {
-  PreviewOptions options = command.options;
-  options.shapes.clear();
-  for (const std::string& name : command.shapes) options.shapes.push_back(shape_from_name(name));
-  options.light = parse_light(command.light, command.distance);
-  return options;
-}
 
 remap::Json material_json(const auto& figure) {
   return {{"alpha", figure.alpha},
@@ -114,9 +103,8 @@ void run_lit(const PreviewCommand& command, const remap::Fit& fit) {
 void run(const PreviewCommand& command) {
   remap::watch_interruptions();
   if (!command.environment.empty()) return run_lit(command, find_fit(command.fit, command.fit_folder));
-  const PreviewOptions options = preview_options(command);
   const remap::Fit fit = find_fit(command.fit, command.fit_folder);
-  report(command, fit, make_preview(*make_renderers(command.renderers), fit, options));
+  report(command, fit, make_preview(*make_renderers(command.renderers), fit, command.options));
 }
 
 void add_environment_options(remap::Command& command, PreviewCommand& options) {
@@ -166,14 +154,19 @@ void add_preview_command(remap::Command& app) {
       ->add_option("--specular VALUE or R,G,B", options.options.specular,
                    "Specular of the source (default: half the maximum of the fit's domain)")
       ->delimiter(',');
-  command->add_option("--shape SHAPE,...", options.shapes, "Shapes, comma-separated: sphere, torus")
-      ->delimiter(',');
-  command->add_option("--light LIGHT", options.light, "Light: headlight, or degrees from the camera");
+  command
+      ->add_option("--shape SHAPE,...", options.options.shapes,
+                   remap::list_of(remap::one_of(kShapes, "shape")), "Shapes, comma-separated")
+      ->default_text("sphere,torus");
+  command
+      ->add_option("--light LIGHT", options.options.light.angle, light_angle(),
+                   "Light: headlight, or degrees from the camera")
+      ->default_text("45");
   command->add_option("--resolution", options.options.resolution, "Width and height of each picture")
       ->range(16, 2048);
   add_environment_options(*command, options);
   command->option_group(remap::kRareOptions);
-  command->add_option("--distance", options.distance, "Distance of the light, in sphere radii");
+  command->add_option("--distance", options.options.light.distance, "Distance of the light, in sphere radii");
   command
       ->add_option("--pixel-samples", options.options.samples_per_axis,
                    "N x N samples per pixel; 1: the pixel center")

@@ -1,6 +1,6 @@
 // `remapc render` renders one picture of the sweep scene.
 #include "commands/commands.hpp"
-#include "commands/parameter_setting.hpp"
+#include "commands/option_readers.hpp"
 #include "commands/renderer_options.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/renderer.hpp"
@@ -12,20 +12,15 @@ namespace {
 
 struct RenderOptions {
   std::string model;
-  std::vector<std::string> settings;  // NAME=VALUE or NAME=R,G,B
-  std::string light = "headlight";
-  double distance = 3.0;
-  Scene scene;  // without the light
+  std::map<std::string, std::vector<double>> settings;
+  Scene scene;
   std::string output;
   RendererOptions renderers;
 };
 
-Material parse_material(const ModelDescription& model, const std::vector<std::string>& settings) {
-  Material material{model.name, {}};
-  for (const std::string& text : settings) {
-    const ParameterSetting setting = parse_setting("--set", text);
-    material.parameters[setting.name] = setting.values;
-  }
+Material material_of(const ModelDescription& model,
+                     const std::map<std::string, std::vector<double>>& settings) {
+  Material material{model.name, settings};
   for (const ParameterDescription& parameter : model.parameters) {
     if (material.parameters.contains(parameter.name)) continue;
     const bool has_standard =
@@ -41,14 +36,12 @@ Material parse_material(const ModelDescription& model, const std::vector<std::st
 void run(const RenderOptions& options) {
   const auto renderer = make_renderers(options.renderers);
   const ModelDescription model = renderer->model(options.model);
-  const Material material = parse_material(model, options.settings);
-  Scene scene = options.scene;
-  scene.light = parse_light(options.light, options.distance);
-  const Image image = renderer->render(material, scene);
+  const Material material = material_of(model, options.settings);
+  const Image image = renderer->render(material, options.scene);
 
   std::map<std::string, std::string> attributes = {{"remap:renderer", renderer->version_of(model.name)},
                                                    {"remap:model", model.name},
-                                                   {"remap:light", light_name(scene.light)}};
+                                                   {"remap:light", light_name(options.scene.light)}};
   for (const auto& [name, values] : material.parameters) {
     std::string text;
     for (const double value : values) text += (text.empty() ? "" : ",") + remap::number_text(value);
@@ -68,19 +61,22 @@ void add_render_command(remap::Command& app) {
       ->add_option("--model MODEL", options.model,
                    "Model, as mitsuba/ward; remapc list --models and remapc renderers list them")
       ->required();
-  command
-      ->add_option("--set NAME=VALUE or NAME=R,G,B", options.settings,
-                   "Parameter of the model; may be repeated")
-      ->allow_extra_args(false);
+  add_settings<std::vector<double>>(
+      *command, "--set NAME=VALUE or NAME=R,G,B", options.settings,
+      [](const ParameterSetting& setting) { return setting.values; },
+      "Parameter of the model; may be repeated");
   command->option_group("Output");
   command->add_option("-o,--output FILE", options.output, "EXR file to write, linear float")->required();
   command->option_group("Picture");
-  command->add_option("--light LIGHT", options.light, "Light: headlight, or degrees from the camera");
+  command
+      ->add_option("--light LIGHT", options.scene.light.angle, light_angle(),
+                   "Light: headlight, or degrees from the camera")
+      ->default_text("headlight");
   command->add_option("--resolution", options.scene.resolution, "Width and height in pixels");
   command->add_option("--pixel-samples", options.scene.samples_per_axis,
                       "N x N samples per pixel; 1: the pixel center");
   command->option_group(remap::kRareOptions);
-  command->add_option("--distance", options.distance, "Distance of the light, in sphere radii");
+  command->add_option("--distance", options.scene.light.distance, "Distance of the light, in sphere radii");
   command->add_option("--seed", options.scene.seed, "Seed of renderers with noise");
   add_renderer_options(*command, options.renderers);
   command->footer(

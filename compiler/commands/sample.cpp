@@ -1,32 +1,25 @@
 // `remapc sample` matches random materials of a model and writes a table of named parameters.
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
-#include "commands/parameter_setting.hpp"
+#include "commands/option_readers.hpp"
 #include "sweep/material_sample.hpp"
-#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
 
 struct SampleCommand : MeasurementOptions {
-  MaterialSampleOptions sample;  // without the pair and the ranges
-  std::vector<std::string> ranges;
+  MaterialSampleOptions sample;  // without the pair
 };
 
-MaterialSampleOptions chosen_sample(const SampleCommand& command) {
-  MaterialSampleOptions options = command.sample;
-  static_cast<PairOptions&>(options) = command.chosen_pair();
-  for (const std::string& text : command.ranges) {
-    const ParameterSetting setting = parse_setting("--range", text);
-    if (setting.values.size() != 2 || !(setting.values[0] < setting.values[1]))
-      throw usage_error("--range " + text + ": not a range (write NAME=MIN,MAX with MIN below MAX)");
-    options.ranges[setting.name] = {setting.values[0], setting.values[1]};
-  }
-  return options;
+remap::Range range_of(const ParameterSetting& setting) {
+  if (setting.values.size() != 2 || !(setting.values[0] < setting.values[1]))
+    setting.fail("not a range (write NAME=MIN,MAX with MIN below MAX)");
+  return {setting.values[0], setting.values[1]};
 }
 
 void run(const SampleCommand& command) {
-  const MaterialSampleOptions options = chosen_sample(command);
+  MaterialSampleOptions options = command.sample;
+  static_cast<PairOptions&>(options) = command.chosen_pair();
   Measurement measurement(command);
   const MaterialTable table =
       run_material_sample(measurement.renderer(), options, measurement.start("sample", options.count));
@@ -47,9 +40,8 @@ void add_options(remap::Command& app, SampleCommand& command) {
          "--vary NAME", sample.varied,
          "Vary this parameter of the source in addition to roughness, specular and diffuse; may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--range NAME=MIN,MAX", command.ranges,
-                 "Range of a parameter of the source, in its own unit; may be repeated")
-      ->allow_extra_args(false);
+  add_settings<remap::Range>(app, "--range NAME=MIN,MAX", sample.ranges, range_of,
+                             "Range of a parameter of the source, in its own unit; may be repeated");
   app.add_option(
          "--search NAME", sample.searched,
          "Match this parameter of the target in addition to roughness, specular and diffuse; may be repeated")

@@ -2,9 +2,11 @@
 #include "sweep/sweep.hpp"
 
 #include <iostream>
+#include <optional>
 
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
+#include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
 #include "sweep/provenance.hpp"
 #include "text/errors.hpp"
@@ -18,15 +20,10 @@ using remap::number_text;
 struct SweepCommand : MeasurementOptions {
   SweepOptions sweep;  // without the pair and the samples
   std::size_t roughness_samples = 30, specular_samples = 30;
-  std::vector<double> roughness_range = {0.01, 1.0}, specular_range;
-  TableInput samples_of;  // without a path: a grid
+  remap::Range roughness_range{0.01, 1.0};
+  std::optional<remap::Range> specular_range;  // none: the model's
+  TableInput samples_of;                       // without a path: a grid
 };
-
-remap::Range parse_range(const std::string& option, const std::vector<double>& values) {
-  if (values.size() != 2 || !(values[0] <= values[1]))
-    throw usage_error(option + ": not a range (write MIN,MAX with MIN not above MAX)");
-  return {values[0], values[1]};
-}
 
 void choose_samples(const SweepCommand& command, const Renderer& renderer, SweepOptions* options) {
   if (!command.samples_of.path.empty()) {
@@ -36,11 +33,11 @@ void choose_samples(const SweepCommand& command, const Renderer& renderer, Sweep
                         std::filesystem::path(command.samples_of.path).filename().string();
     return;
   }
-  const remap::Range alphas = parse_range("--roughness-range", command.roughness_range);
+  const remap::Range alphas = command.roughness_range;
   const remap::Range speculars =
-      command.specular_range.empty()
-          ? canonical_speculars(renderer, recast(renderer.model(options->source), options->source_roles))
-          : parse_range("--specular-range", command.specular_range);
+      command.specular_range
+          ? *command.specular_range
+          : canonical_speculars(renderer, recast(renderer.model(options->source), options->source_roles));
   options->samples = grid_samples(alphas, command.roughness_samples, speculars, command.specular_samples);
   options->sampling = grid_text(alphas, command.roughness_samples, speculars, command.specular_samples);
 }
@@ -75,13 +72,11 @@ void add_sample_options(remap::Command& app, SweepCommand& command) {
       ->range(1, kMostSamples);
   app.add_option("--specular-samples", command.specular_samples, "Number of source speculars for each alpha")
       ->range(1, kMostSamples);
-  app.add_option("--roughness-range MIN,MAX", command.roughness_range, "Range of the source's alpha")
-      ->delimiter(',')
-      ->expected(1, 2);
-  app.add_option("--specular-range MIN,MAX", command.specular_range,
-                 "Range of the source's specular, F0 for an index (default: the model's range)")
-      ->delimiter(',')
-      ->expected(1, 2);
+  app.add_option("--roughness-range MIN,MAX", command.roughness_range, number_range(),
+                 "Range of the source's alpha")
+      ->default_text("0.01,1");
+  app.add_option("--specular-range MIN,MAX", command.specular_range, number_range(),
+                 "Range of the source's specular, F0 for an index (default: the model's range)");
   app.add_option("--diffuse", command.sweep.diffuse, "Diffuse reflectance of the source in every sample");
   app.add_option("--samples-of FILE", command.samples_of.path,
                  "Use the samples of this table instead of a grid");
@@ -92,7 +87,7 @@ void add_options(remap::Command& app, SweepCommand& command) {
   add_sample_options(app, command);
   command.add_picture_options(app);
   app.option_group(remap::kRareOptions);
-  app.add_option("--columns MAP", command.samples_of.columns,
+  app.add_option("--columns MAP", command.samples_of.columns, columns_reader(),
                  "Names of columns in the table of --samples-of: sztrajman-2019, or OWN=FILE,...");
   app.add_option("--stages", command.sweep.stages,
                  "2: match diffuse, then specular; 1: all at once from a fixed start; 3: all at once from "

@@ -11,24 +11,22 @@ void TableInput::add_options(remap::Command& app, bool is_required) {
   remap::Option* table = app.add_option("table", path, "CSV table, of remapc sweep or of another program");
   if (is_required) table->required();
   app.option_group("Input");
-  app.add_option("--columns MAP", columns,
+  app.add_option("--columns MAP", columns, columns_reader(),
                  "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...");
   app.add_option("--source MODEL", source, "Source model (default: as the table names it)");
   app.add_option("--target MODEL", target, "Target model (default: as the table names it)");
 }
 
-ColumnMap TableInput::column_names() const { return columns.empty() ? ColumnMap{} : column_map(columns); }
-
 Table TableInput::read(std::string* bytes) const {
   std::string content = remap::read_file(path);
-  Table table = with_models(parse_table(content, path, column_names()));
+  Table table = with_models(parse_table(content, path, columns));
   if (bytes != nullptr) *bytes = std::move(content);
   return table;
 }
 
 AnyTable TableInput::read_any(std::string* bytes) const {
   std::string content = remap::read_file(path);
-  AnyTable table = parse_any_table(content, path, column_names());
+  AnyTable table = parse_any_table(content, path, columns);
   if (Table* sweep = std::get_if<Table>(&table)) *sweep = with_models(std::move(*sweep));
   if (bytes != nullptr) *bytes = std::move(content);
   return table;
@@ -38,6 +36,10 @@ Table TableInput::with_models(Table table) const {
   if (!source.empty()) table.source.model = source;
   if (!target.empty()) table.target.model = target;
   return table;
+}
+
+remap::Reader<ColumnMap> columns_reader() {
+  return {[](const std::string&, const std::string& word) { return column_map(word); }, {}};
 }
 
 void add_accept_light_flag(remap::Command& app, bool& accept_light) {

@@ -10,7 +10,7 @@ namespace remapc {
 
 struct TableInput {
   std::string path;
-  std::string columns;         // preset or own=file pairs; empty: own names
+  ColumnMap columns;
   std::string source, target;  // models; empty: as the table names them
 
   // `is_required`: whether the command needs a table.
@@ -23,9 +23,11 @@ struct TableInput {
   AnyTable read_any(std::string* bytes = nullptr) const;
 
  private:
-  ColumnMap column_names() const;
   Table with_models(Table table) const;
 };
+
+// Reads --columns.
+remap::Reader<ColumnMap> columns_reader();
 
 // Adds --accept-light, for what light_remark() (table/light.hpp) calls an error.
 void add_accept_light_flag(remap::Command& app, bool& accept_light);

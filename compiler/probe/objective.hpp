@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "remap/model.hpp"
 #include "renderer/scene.hpp"
 
 namespace remapc {
@@ -13,6 +14,9 @@ enum class Weighting {
   kUniform,   // L2 of linear radiance (the paper)
   kRelative,  // w = cos_view / (I / max(I) + floor), from the source picture I alone
 };
+
+inline constexpr remap::NamedValues<Weighting, 2> kWeightings = {
+    {{Weighting::kUniform, "uniform"}, {Weighting::kRelative, "relative"}}};
 
 // A match minimises, over the target's parameters, the sum over lights and pixels of w^2 (source - target)^2.
 struct Objective {
@@ -25,13 +29,7 @@ struct Objective {
 // degrees, relative weights; at the same cost it gains three quarters of what the best choice of light and
 // metric gains under environment maps. Throws kUsage for an unknown name.
 Objective objective_preset(const std::string& name);
-
-// `uniform` or `relative`. Throws kUsage for an unknown name.
-Weighting weighting_from_name(const std::string& name);
-std::string weighting_name(Weighting weighting);
-
-// Parses lights, comma-separated: `headlight` or degrees, each at `distance`. Throws kUsage.
-std::vector<Light> parse_lights(const std::string& text, double distance);
+inline const std::vector<std::string> kObjectives = {"natural", "paper"};
 
 // Returns w^2 for the pictures of one source material. `source` holds one picture of `view_cosines.size()`
 // pixels for each light, one after the other; max(I) is taken for each picture separately.

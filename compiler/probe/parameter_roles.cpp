@@ -59,17 +59,6 @@ void measure_widths(ModelDescription* model) {
 
 }  // namespace
 
-void cast_roughness(const std::string& text, ParameterRoles* roles) {
-  const std::size_t colon = text.find(':');
-  roles->roughness = text.substr(0, colon);
-  if (colon == std::string::npos) return;
-  const std::string word = text.substr(colon + 1);
-  roles->convention = remap::convention_from_name(word);
-  if (!roles->convention)
-    throw Error(ErrorKind::kUsage,
-                text + ": unknown convention " + word + remap::suggestion(word, remap::convention_names()));
-}
-
 ParameterRoles recorded_roles(const std::string& roughness, const std::string& specular,
                               const std::string& fixed) {
   ParameterRoles roles;

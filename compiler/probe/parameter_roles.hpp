@@ -20,9 +20,6 @@ struct ParameterRoles {
   std::map<std::string, double> fixed;  // by name
 };
 
-// Parses the roughness parameter of a command line, `NAME` or `NAME:CONVENTION`. Throws kUsage.
-void cast_roughness(const std::string& text, ParameterRoles* roles);
-
 // Reads back the roles recorded in a table of remapc sweep, from its comments `<side>_roughness_parameter`,
 // `<side>_specular` and `<side>_fixed`; an empty text stands for a missing comment.
 ParameterRoles recorded_roles(const std::string& roughness, const std::string& specular,

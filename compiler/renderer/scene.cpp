@@ -119,18 +119,6 @@ std::vector<float> view_cosines(int resolution, int samples_per_axis) {
   return cosines;
 }
 
-std::string shape_name(Shape shape) { return shape == Shape::kSphere ? "sphere" : "torus"; }
-
-Shape shape_from_name(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Shape shape : kShapes) {
-    if (shape_name(shape) == name) return shape;
-    names.push_back(shape_name(shape));
-  }
-  throw remap::Error(remap::ErrorKind::kUsage,
-                     "shape: unknown shape " + name + remap::suggestion(name, names));
-}
-
 bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit) {
   if (shape == Shape::kTorus) return torus_point(resolution, column, row, hit);
   if (!sphere_point(resolution, column, row, &hit->position)) return false;

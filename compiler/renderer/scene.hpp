@@ -3,10 +3,11 @@
 // sphere previews a conversion on another shape.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "remap/model.hpp"
 
 namespace remapc {
 
@@ -22,7 +23,8 @@ struct Light {
 
 // What the camera sees. Sweeps use the sphere.
 enum class Shape { kSphere, kTorus };
-inline constexpr std::array kShapes = {Shape::kSphere, Shape::kTorus};
+inline constexpr remap::NamedValues<Shape, 2> kShapes = {
+    {{Shape::kSphere, "sphere"}, {Shape::kTorus, "torus"}}};
 
 // One picture. `samples_per_axis` = 1 samples the pixel centre; N averages an N x N grid in each pixel.
 struct Scene {
@@ -55,9 +57,7 @@ bool sphere_point(int resolution, double column, double row, SurfacePoint* point
 std::vector<float> view_cosines(int resolution, int samples_per_axis);
 
 // Returns `sphere` or `torus`.
-std::string shape_name(Shape shape);
-// Throws kUsage for an unknown name, with the nearest.
-Shape shape_from_name(const std::string& name);
+inline std::string shape_name(Shape shape) { return std::string(remap::name_of(kShapes, shape)); }
 
 // The torus is centred at the origin, inside the unit sphere. Its axis is tilted from the camera towards +y,
 // so that the hole and both flanks are visible.

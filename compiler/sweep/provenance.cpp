@@ -77,7 +77,7 @@ void add_comparison(const Renderer& renderer, const PairOptions& options, Commen
   comments->emplace_back("renderer", versions_text(renderer, options));
   comments->emplace_back("objective", options.objective_name);
   comments->emplace_back("lights", lights_text(options.objective.lights));
-  comments->emplace_back("weighting", weighting_name(options.objective.weighting));
+  comments->emplace_back("weighting", std::string(remap::name_of(kWeightings, options.objective.weighting)));
   if (options.objective.weighting == Weighting::kRelative)
     comments->emplace_back("weighting_floor", number_text(options.objective.floor));
 }

@@ -151,17 +151,15 @@ ColumnMap column_map(const std::string& text) {
     map.target = {"mitsuba/as", remap::RoughnessConvention::kAlpha, "f0"};
     return map;
   }
-  if (text.find('=') == std::string::npos) {
-    const std::vector<std::string> presets = {"sztrajman-2019"};
-    throw Error(ErrorKind::kUsage, "columns: unknown preset " + text + " (or use OWN=FILE pairs)" +
-                                       remap::suggestion(text, presets));
-  }
+  if (text.find('=') == std::string::npos)
+    throw Error(ErrorKind::kUsage,
+                "--columns: unknown preset '" + text + "' (use sztrajman-2019, or OWN=FILE pairs)");
   for (const CsvCell& cell : split_csv_line(text, ',')) {
     const std::size_t equals = cell.text.find('=');
     const std::string own(cell.text.substr(0, equals));
     if (equals == std::string_view::npos ||
         std::find(kColumns.begin(), kColumns.end(), own) == kColumns.end())
-      throw Error(ErrorKind::kUsage, "columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
+      throw Error(ErrorKind::kUsage, "--columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
                                          remap::suggestion(own, kColumns));
     map.columns[own] = std::string(cell.text.substr(equals + 1));
   }

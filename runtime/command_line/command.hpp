@@ -2,6 +2,7 @@
 // it takes 5 to 10 s longer to compile.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -57,6 +58,21 @@ Reader<Value> one_of(const NamedValues<Value, Count>& table, const std::string& 
             return *value;
           },
           names_of(table)};
+}
+
+// A list of what `item` reads, separated by commas.
+template <typename Value>
+Reader<std::vector<Value>> list_of(const Reader<Value>& item) {
+  return {[read = item.read](const std::string& option, const std::string& words) {
+            std::vector<Value> all;
+            for (std::size_t begin = 0; begin <= words.size();) {
+              const std::size_t end = std::min(words.find(',', begin), words.size());
+              all.push_back(read(option, words.substr(begin, end - begin)));
+              begin = end + 1;
+            }
+            return all;
+          },
+          item.choices};
 }
 
 // An option that the command line gave.

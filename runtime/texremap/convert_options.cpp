@@ -76,16 +76,7 @@ ColorSpaceWord color_space_word(const std::string& option, const std::string& wo
 
 // A list such as `srgb` or `specular=linear,diffuse=srgb`.
 Reader<std::vector<ColorSpaceWord>> color_spaces() {
-  return {[](const std::string& option, const std::string& words) {
-            std::vector<ColorSpaceWord> all;
-            for (std::size_t begin = 0; begin < words.size();) {
-              const std::size_t end = std::min(words.find(',', begin), words.size());
-              all.push_back(color_space_word(option, words.substr(begin, end - begin)));
-              begin = end + 1;
-            }
-            return all;
-          },
-          {}};
+  return list_of(Reader<ColorSpaceWord>{color_space_word, {}});
 }
 
 void add_source_options(Command& command, ConvertOptions& options) {

@@ -19,7 +19,7 @@ TEST_CASE("objective: natural weighs each pixel by cos_view / (I / max(I) + 0.1)
 
 TEST_CASE("objective: natural uses the brightest pixel of each light separately") {
   Objective objective = objective_preset("natural");
-  objective.lights = parse_lights("headlight,60", 3.0);
+  objective.lights = {Light{}, Light{60.0}};
   const std::vector<float> source = {1.0f, 2.0f, 10.0f, 20.0f}, cosines = {1.0f, 1.0f};
   const auto weights = squared_weights(objective, source, cosines);
   CHECK(weights[0] == weights[2]);
@@ -33,10 +33,6 @@ TEST_CASE("objective: paper is a headlight and weights of 1") {
   CHECK(squared_weights(paper, source, cosines) == std::vector<float>{1.0f, 1.0f});
 }
 
-TEST_CASE("objective: lights are parsed, invalid ones refused") {
-  CHECK(parse_lights("headlight,45,-30", 5.0) == std::vector<Light>{{0.0, 5.0}, {45.0, 5.0}, {-30.0, 5.0}});
-  CHECK_THROWS_WITH(parse_lights("45,sun", 3.0), Catch::Contains("\"sun\""));
-  CHECK_THROWS_WITH(parse_lights("400", 3.0), Catch::Contains("degrees"));
+TEST_CASE("objective: an unknown name is refused with the nearest") {
   CHECK_THROWS_WITH(objective_preset("papper"), Catch::Contains("did you mean paper?"));
-  CHECK_THROWS_WITH(weighting_from_name("relativ"), Catch::Contains("did you mean relative?"));
 }

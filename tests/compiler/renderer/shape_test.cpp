@@ -77,8 +77,3 @@ TEST_CASE(
   }
   CHECK(shadowed > 20);
 }
-
-TEST_CASE("shape: the error for an unknown name names the nearest") {
-  for (const Shape shape : kShapes) CHECK(shape_from_name(shape_name(shape)) == shape);
-  CHECK_THROWS_WITH(shape_from_name("tours"), "shape: unknown shape tours (did you mean torus?)");
-}

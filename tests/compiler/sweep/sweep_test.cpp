@@ -172,9 +172,9 @@ TEST_CASE("sweep: several lights are matched together") {
   const auto renderer = make_builtin_renderer();
   SweepOptions options = sweep_options("mitsuba/beckmann", "mitsuba/ggx", "paper", {{0.3, 0.4}}, 96);
   const double headlight = sweep(*renderer, options).rows.front().alpha2;
-  options.objective.lights = parse_lights("70", 3.0);
+  options.objective.lights = {Light{70.0}};
   const double side = sweep(*renderer, options).rows.front().alpha2;
-  options.objective.lights = parse_lights("headlight,70", 3.0);
+  options.objective.lights = {Light{}, Light{70.0}};
   const double both = sweep(*renderer, options).rows.front().alpha2;
   CHECK(both > std::min(headlight, side));
   CHECK(both < std::max(headlight, side));

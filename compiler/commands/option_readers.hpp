@@ -1,0 +1,48 @@
+// Readers of options: lights, ranges, and numbers by the names of parameters.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "command_line/command.hpp"
+#include "remap/model.hpp"
+
+namespace remapc {
+
+// The angle of a light: `headlight`, or degrees from the camera.
+remap::Reader<double> light_angle();
+
+// `MIN,MAX`.
+remap::Reader<remap::Range> number_range();
+
+// `NAME=VALUE` or `NAME=VALUE,...`. Throws kUsage, opened by the option and the word.
+struct ParameterSetting {
+  ParameterSetting(const std::string& option, const std::string& word);
+  [[noreturn]] void fail(const std::string& reason) const;  // throws kUsage
+
+  std::string place;  // option and word, for messages
+  std::string name;
+  std::vector<double> values;
+};
+
+// Adds an option that is given once for each parameter. `value_of` makes the value of its name.
+template <typename Value>
+void add_settings(remap::Command& app, const std::string& names, std::map<std::string, Value>& values,
+                  const std::function<Value(const ParameterSetting&)>& value_of,
+                  const std::string& description) {
+  using Values = std::map<std::string, Value>;
+  constexpr int kMost = 1 << 16;
+  const auto read = [&values, value_of](const std::string& option, const std::string& word) {
+    const ParameterSetting setting(option, word);
+    Values all = values;
+    all[setting.name] = value_of(setting);
+    return all;
+  };
+  app.add_option(names, values, remap::Reader<Values>{read, {}}, description)
+      ->expected(1, kMost)
+      ->allow_extra_args(false);
+}
+
+}  // namespace remapc
