@@ -9,7 +9,6 @@
 #include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
 #include "sweep/provenance.hpp"
-#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

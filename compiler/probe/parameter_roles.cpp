@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "remap/error.hpp"
-#include "text/nearest_name.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "remap/error.hpp"
-#include "text/nearest_name.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

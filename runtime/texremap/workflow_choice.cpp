@@ -4,7 +4,6 @@
 
 #include "remap/error.hpp"
 #include "remap/path.hpp"
-#include "text/number_text.hpp"
 
 namespace remap {
 namespace {
