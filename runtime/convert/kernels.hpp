@@ -95,9 +95,6 @@ struct DiagnosisRows {
   float* doubts = nullptr;  // sums of Doubt, over 255
 };
 
-// Which texels follow another metallic: all, or those where it is undetermined (kGuessWidth).
-enum class FollowedTexels { kAll, kGuesses };
-
 // Kernels take rows of any length. An output row may be exactly the input row of the same parameter.
 struct Kernels {
   // By a lowered mapping. Returns the number of texels out of domain.
@@ -110,9 +107,9 @@ struct Kernels {
                   const SpecularRows<const float>& in, const MetallicRows<float>& out) noexcept;
   // Of those metallic values whose pictures are within a step of 8 bits of the best, the nearest to `wanted`,
   // with the base color that is best for it: replaces base color and metallic in `result`. Texels whose
-  // `wanted` is NaN stay, and with kGuesses those whose metallic is determined.
+  // `wanted` is NaN stay.
   void (*follow)(const workflow_code::Conventions& use, std::size_t count,
-                 const SpecularRows<const float>& in, const float* wanted, FollowedTexels which,
+                 const SpecularRows<const float>& in, const float* wanted,
                  const MetallicRows<float>& result) noexcept;
   // What diagnose() says of each texel. NaN in the material or in the result: residual and width NaN, no
   // doubt.

@@ -13,7 +13,6 @@ constexpr NamedValues<Parameter, kParameterCount> kParameters = {
      {Parameter::kBaseColor, "base_color"},
      {Parameter::kMetallic, "metallic"},
      {Parameter::kMetalMask, "metal_mask"},
-     {Parameter::kNearbyMetallic, "nearby_metallic"},
      {Parameter::kResidual, "residual"},
      {Parameter::kMetallicWidth, "metallic_width"},
      {Parameter::kDoubts, "doubts"}}};

@@ -126,11 +126,8 @@ class Project final : public Stage {
     const MetallicRows<float> to = {base[0], base[1], base[2], block.make(Parameter::kMetallic),
                                     block.make_unused()};
     kernels_.project(use_, prior_, block.size(), from, to);
-    const auto follow = [&](Parameter parameter, FollowedTexels which) {
-      if (block.has(parameter)) kernels_.follow(use_, block.size(), from, block.row(parameter), which, to);
-    };
-    follow(Parameter::kNearbyMetallic, FollowedTexels::kGuesses);
-    follow(Parameter::kMetalMask, FollowedTexels::kAll);
+    if (block.has(Parameter::kMetalMask))
+      kernels_.follow(use_, block.size(), from, block.row(Parameter::kMetalMask), to);
     if (block.is_wanted(Parameter::kResidual) || block.is_wanted(Parameter::kMetallicWidth) ||
         block.is_wanted(Parameter::kDoubts))
       kernels_.diagnose(use_, block.size(), from, {to[0], to[1], to[2], to[3], to[4]},

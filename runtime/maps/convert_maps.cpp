@@ -134,8 +134,7 @@ std::size_t channel_count(const SourceParameter& parameter) {
 
 Conversion::Conversion(const Converter& converter, const MapConversion& maps)
     : converter_(converter), maps_(maps), sources_(converter.sources()) {
-  for (const Parameter beside : {Parameter::kMetalMask, Parameter::kNearbyMetallic})
-    if (maps.sources.count(beside) > 0) sources_.push_back(beside);
+  if (maps.sources.count(Parameter::kMetalMask) > 0) sources_.push_back(Parameter::kMetalMask);
   require_fitting();
 }
 

@@ -49,9 +49,9 @@ MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row) {
     ++sum.texel_count;
     sum.residual_squares += static_cast<std::uint64_t>(std::llround(square / kResidualUnit));
     sum.largest_residual = std::max(sum.largest_residual, residual);
-    count_if_has(Doubt::kGuess, sum.guess);
+    count_if_has(Doubt::kUndetermined, sum.undetermined);
     count_if_has(Doubt::kDark, sum.dark);
-    count_if_has(Doubt::kTwoAnswers, sum.two_answers);
+    count_if_has(Doubt::kAmbiguous, sum.ambiguous);
     count_if_has(Doubt::kClamped, sum.clamped);
   }
   return sum;
@@ -72,9 +72,9 @@ MetallicStatistics& MetallicStatistics::operator+=(const MetallicStatistics& oth
   texel_count += other.texel_count;
   residual_squares += other.residual_squares;
   largest_residual = std::max(largest_residual, other.largest_residual);
-  guess += other.guess;
+  undetermined += other.undetermined;
   dark += other.dark;
-  two_answers += other.two_answers;
+  ambiguous += other.ambiguous;
   clamped += other.clamped;
   return *this;
 }

@@ -71,14 +71,14 @@ Json metallic_json(const MetallicStatistics& metallic) {
   return {{"texels", metallic.texel_count},
           {"rms_residual", metallic.rms_residual()},
           {"largest_residual", metallic.largest_residual},
-          {"guesses", metallic.guess.count},
-          {"guesses_in_the_dark", metallic.dark.count},
-          {"two_answers", metallic.two_answers.count},
+          {"undetermined", metallic.undetermined.count},
+          {"undetermined_dark", metallic.dark.count},
+          {"ambiguous", metallic.ambiguous.count},
           {"clamped", metallic.clamped.count},
           {"first",
-           {{"guess", position_json(metallic.guess.first)},
-            {"guess_in_the_dark", position_json(metallic.dark.first)},
-            {"two_answers", position_json(metallic.two_answers.first)},
+           {{"undetermined", position_json(metallic.undetermined.first)},
+            {"undetermined_dark", position_json(metallic.dark.first)},
+            {"ambiguous", position_json(metallic.ambiguous.first)},
             {"clamped", position_json(metallic.clamped.first)}}}};
 }
 

@@ -161,10 +161,10 @@ void print_confidence(const std::string& program, const std::string& place, cons
                                remapc::fixed(static_cast<double>(metallic.largest_residual), 3) + " at most";
   print_message(program, place + "not representable in metal-rough (residual): " + residual +
                              "; pictures differ by about 0.42 of it");
-  print_message(program, place + "metallic undetermined, no visible effect: " + share(metallic.guess.count) +
-                             " (too dark: " + share(metallic.dark.count) +
-                             "); ambiguous: " + share(metallic.two_answers.count) +
-                             "; clamped: " + share(metallic.clamped.count));
+  print_message(program,
+                place + "metallic undetermined, no visible effect: " + share(metallic.undetermined.count) +
+                    " (too dark: " + share(metallic.dark.count) + "); ambiguous: " +
+                    share(metallic.ambiguous.count) + "; clamped: " + share(metallic.clamped.count));
 }
 
 }  // namespace

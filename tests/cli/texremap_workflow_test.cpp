@@ -138,7 +138,7 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
       guesses += diagnosis.metallic_width > 0.2f;
     }
   const auto json = nlohmann::json::parse(result.output);
-  CHECK(json["metallic_confidence"]["guesses"] == guesses);
+  CHECK(json["metallic_confidence"]["undetermined"] == guesses);
   CHECK(json["estimated_dielectric_f0"]["value"].get<double>() == Approx(0.04).margin(0.001));
 }
 

@@ -54,7 +54,7 @@ struct MetallicStatistics {
   // Sum of squared residuals in units of 2^-40. The integer sum does not depend on the order.
   std::uint64_t residual_squares = 0;
   float largest_residual = 0.0f;
-  DoubtStatistics guess, dark, two_answers, clamped;
+  DoubtStatistics undetermined, dark, ambiguous, clamped;
 
   double rms_residual() const noexcept;
   MetallicStatistics& operator+=(const MetallicStatistics& other) noexcept;

@@ -50,28 +50,27 @@ enum class Parameter {
   kDiffuse,    // of the specular workflow
   kBaseColor,  // of the metallic workflow
   kMetallic,
-  kMetalMask,       // source only: chooses among metallic values that look alike
-  kNearbyMetallic,  // source only: metallic around a texel, used if its own is undetermined
-  kResidual,        // target only: the part of a texel that metal-rough cannot represent
-  kMetallicWidth,   // target only: the share of [0, 1] that metallic could take
-  kDoubts,          // target only: the sum of Doubt values, divided by 255, so that 8 bits hold it
+  kMetalMask,      // source only: chooses among metallic values that look alike
+  kResidual,       // target only: the part of a texel that metal-rough cannot represent
+  kMetallicWidth,  // target only: the share of [0, 1] that metallic could take
+  kDoubts,         // target only: the sum of Doubt values, divided by 255, so that 8 bits hold it
 };
-inline constexpr std::size_t kParameterCount = 10;
+inline constexpr std::size_t kParameterCount = 9;
 
 // Reasons why the metallic material of a texel may differ from the intended one; powers of two.
 enum class Doubt {
-  kClamped = 1,     // a parameter is outside [0, 1], or the base color would be
-  kTwoAnswers = 2,  // two separate metallic values look alike
-  kDark = 4,        // metallic is undetermined, because diffuse and specular are dark
-  kGuess = 8,       // metallic is undetermined: kMetallicWidth is above kGuessWidth
+  kClamped = 1,       // a parameter is outside [0, 1], or the base color would be
+  kAmbiguous = 2,     // two separate metallic values look alike
+  kDark = 4,          // metallic is undetermined, because diffuse and specular are dark
+  kUndetermined = 8,  // metallic is undetermined: kMetallicWidth is above kUndeterminedWidth
 };
 // The value of kMetallicWidth above which metallic is undetermined: maps authored in both workflows differ by
 // 0.15 RMS there, and by less than 0.01 below half of it.
-inline constexpr float kGuessWidth = 0.2f;
+inline constexpr float kUndeterminedWidth = 0.2f;
 // A texel is dark if diffuse and F0, linear, are below this value.
 inline constexpr float kDarkTexel = 0.06f;
 
-// `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `nearby_metallic`, `residual`,
+// `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `residual`,
 // `metallic_width`, `doubts`.
 std::string_view parameter_name(Parameter parameter);
 // The name in files and messages: `base_color`; always `roughness` for the width.
@@ -145,7 +144,7 @@ class Converter {
   // Models, width parameters and ranges of both ends.
   const ConverterInfo& info() const noexcept { return info_; }
   // The parameters that it needs, and those that it makes, each in the order of Parameter: width and specular
-  // of a BRDF, or those of a workflow. One that can diagnose may take kMetalMask or kNearbyMetallic as well.
+  // of a BRDF, or those of a workflow. One that can diagnose may take kMetalMask as well.
   const std::vector<Parameter>& sources() const noexcept { return sources_; }
   const std::vector<Parameter>& targets() const noexcept { return targets_; }
   bool has_source(Parameter parameter) const noexcept;

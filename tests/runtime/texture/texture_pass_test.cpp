@@ -165,17 +165,17 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands", "[
       const MapStatistics statistics = run_texture_pass(set, targets, *converter, options);
       if (!first) {
         first = statistics;
-        CHECK(statistics.metallic.guess.count > 1000);
+        CHECK(statistics.metallic.undetermined.count > 1000);
         continue;
       }
       for (const char* name : {"base_color.exr", "metallic.exr", "doubts.exr"})
         REQUIRE(read_image(folder.path() / "again" / name).bytes ==
                 read_image(folder.path() / "first" / name).bytes);
       CHECK(statistics.metallic.residual_squares == first->metallic.residual_squares);
-      CHECK(statistics.metallic.guess.count == first->metallic.guess.count);
-      REQUIRE(statistics.metallic.guess.first);
-      CHECK(statistics.metallic.guess.first->x == first->metallic.guess.first->x);
-      CHECK(statistics.metallic.guess.first->y == first->metallic.guess.first->y);
+      CHECK(statistics.metallic.undetermined.count == first->metallic.undetermined.count);
+      REQUIRE(statistics.metallic.undetermined.first);
+      CHECK(statistics.metallic.undetermined.first->x == first->metallic.undetermined.first->x);
+      CHECK(statistics.metallic.undetermined.first->y == first->metallic.undetermined.first->y);
     }
 }
 
