@@ -14,10 +14,12 @@ target_include_directories(remap_headers INTERFACE
   $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 
-set(tools texremap)
-if(TARGET remapc)
-  list(APPEND tools remapc)
-endif()
+set(tools "")
+foreach(tool texremap remapc)
+  if(TARGET ${tool})
+    list(APPEND tools ${tool})
+  endif()
+endforeach()
 foreach(tool IN LISTS tools)
   add_executable(remap::${tool} ALIAS ${tool})
 endforeach()

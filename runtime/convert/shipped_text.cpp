@@ -6,16 +6,31 @@ extern const char remap_shipped_text_begin[];
 extern const char remap_shipped_text_end[];
 }
 
-__asm__(
-    ".pushsection .rodata\n"
-    ".global remap_shipped_text_begin\n"
-    "remap_shipped_text_begin:\n"
-    ".incbin \"" REMAP_CONVERTERS_FILE
-    "\"\n"
-    ".global remap_shipped_text_end\n"
-    "remap_shipped_text_end:\n"
-    ".byte 0\n"
-    ".popsection\n");
+#define REMAP_TEXT_OF(name) #name
+#define REMAP_TEXT(name) REMAP_TEXT_OF(name)
+// What the assembler calls a name of C.
+#define REMAP_SYMBOL(name) REMAP_TEXT(__USER_LABEL_PREFIX__) #name
+#define REMAP_LABEL(name) ".globl " REMAP_SYMBOL(name) "\n" REMAP_SYMBOL(name) ":\n"
+
+#if defined(_WIN32)
+#define REMAP_ENTER_CONSTANTS ".section .rdata,\"dr\"\n"
+#define REMAP_LEAVE_CONSTANTS ".text\n"
+#elif defined(__APPLE__)
+#define REMAP_ENTER_CONSTANTS ".const\n"
+#define REMAP_LEAVE_CONSTANTS ".text\n"
+#else
+#define REMAP_ENTER_CONSTANTS ".pushsection .rodata\n"
+#define REMAP_LEAVE_CONSTANTS ".popsection\n"
+#endif
+
+// clang-format off
+__asm__(REMAP_ENTER_CONSTANTS
+        REMAP_LABEL(remap_shipped_text_begin)
+        ".incbin \"" REMAP_CONVERTERS_FILE "\"\n"
+        REMAP_LABEL(remap_shipped_text_end)
+        ".byte 0\n"
+        REMAP_LEAVE_CONSTANTS);
+// clang-format on
 
 namespace remap {
 

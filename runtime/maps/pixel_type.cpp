@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -136,16 +135,16 @@ float half_to_float(std::uint16_t half) noexcept {
   const std::uint32_t exponent = magnitude & kHalfExponent;
   const std::uint32_t normal = magnitude + kExponentShift;
   const std::uint32_t infinite = normal + kExponentShift;  // the largest exponent stays the largest
-  const float smallest_normal = std::bit_cast<float>(std::uint32_t{113} << 23);  // 2^-14
-  const float denormal = std::bit_cast<float>(normal + (std::uint32_t{1} << 23)) - smallest_normal;
+  const float smallest_normal = __builtin_bit_cast(float, std::uint32_t{113} << 23);  // 2^-14
+  const float denormal = __builtin_bit_cast(float, normal + (std::uint32_t{1} << 23)) - smallest_normal;
   std::uint32_t bits = normal;
   bits = exponent == kHalfExponent ? infinite : bits;
-  bits = exponent == 0 ? std::bit_cast<std::uint32_t>(denormal) : bits;
-  return std::bit_cast<float>(bits | static_cast<std::uint32_t>(half & 0x8000) << 16);
+  bits = exponent == 0 ? __builtin_bit_cast(std::uint32_t, denormal) : bits;
+  return __builtin_bit_cast(float, bits | static_cast<std::uint32_t>(half & 0x8000) << 16);
 }
 
 std::uint16_t float_to_half(float value) noexcept {
-  const std::uint32_t all = std::bit_cast<std::uint32_t>(value);
+  const std::uint32_t all = __builtin_bit_cast(std::uint32_t, value);
   const std::uint32_t sign = all & 0x80000000u;
   const std::uint32_t magnitude = all ^ sign;
   constexpr std::uint32_t kInfinity = std::uint32_t{255} << 23;
@@ -153,8 +152,8 @@ std::uint16_t float_to_half(float value) noexcept {
   constexpr std::uint32_t kHalfSmallestNormal = std::uint32_t{127 - 14} << 23;  // 2^-14
   // 0.5: one unit in its last place is the step of half denormals, 2^-24, so the addition rounds to it.
   constexpr std::uint32_t kDenormalMagic = std::uint32_t{(127 - 15) + (23 - 10) + 1} << 23;
-  const float lined_up = std::bit_cast<float>(magnitude) + std::bit_cast<float>(kDenormalMagic);
-  const std::uint32_t denormal = std::bit_cast<std::uint32_t>(lined_up) - kDenormalMagic;
+  const float lined_up = __builtin_bit_cast(float, magnitude) + __builtin_bit_cast(float, kDenormalMagic);
+  const std::uint32_t denormal = __builtin_bit_cast(std::uint32_t, lined_up) - kDenormalMagic;
   // Adds half of the dropped part minus one, plus the last kept bit, so that ties round to even.
   const std::uint32_t odd = (magnitude >> 13) & 1u;
   const std::uint32_t normal = (magnitude - (std::uint32_t{127 - 15} << 23) + 0xfffu + odd) >> 13;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -33,10 +32,10 @@ constexpr double log2_of(double value) noexcept {
   constexpr std::uint64_t kBitsOf2To52 = 0x4330000000000000;
   constexpr std::array kFactors = {2.885390081777851,   0.9617966941122649,  0.5770779426603044,
                                    0.41220922406110433, 0.31990680380701336, 0.28288502340748234};
-  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto bits = __builtin_bit_cast(std::uint64_t, value);
   const std::uint64_t biased = (bits - kRootOfHalf + kOne) >> kMantissaBits;  // the exponent and 1023
-  const double exponent = std::bit_cast<double>(biased | kBitsOf2To52) - (0x1p52 + 1023.0);
-  const auto mantissa = std::bit_cast<double>(bits - (biased << kMantissaBits) + kOne);
+  const double exponent = __builtin_bit_cast(double, biased | kBitsOf2To52) - (0x1p52 + 1023.0);
+  const auto mantissa = __builtin_bit_cast(double, bits - (biased << kMantissaBits) + kOne);
   const double t = (mantissa - 1.0) / (mantissa + 1.0);
   return exponent + t * polynomial(kFactors, t * t);
 }
@@ -50,7 +49,8 @@ constexpr double exp2_of(double x) noexcept {
                                    0.0001540343375125101, 1.5252672924850737e-05, 1.325964524488711e-06,
                                    1.0205905413765595e-07};
   const double shifted = x + kWhole;
-  const auto power = std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) << kMantissaBits) + kOne);
+  const auto power =
+      __builtin_bit_cast(double, (__builtin_bit_cast(std::uint64_t, shifted) << kMantissaBits) + kOne);
   return power * polynomial(kFactors, x - (shifted - kWhole));
 }
 
@@ -95,7 +95,7 @@ constexpr std::array<float, kLevels> next_levels() {
     const double exact = magnitude_to_linear((static_cast<double>(i) + 0.5) / 255.0);
     const auto rounded = static_cast<float>(exact);
     const bool is_below = static_cast<double>(rounded) < exact;
-    least[i] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) + is_below);
+    least[i] = __builtin_bit_cast(float, __builtin_bit_cast(std::uint32_t, rounded) + is_below);
   }
   least.back() = std::numeric_limits<float>::infinity();
   return least;
@@ -104,8 +104,8 @@ constexpr std::array<float, kLevels> next_levels() {
 // Floats between 2^-13, which is below level 1, and 1, by the upper half of their bits. No element has floats
 // of more than two levels.
 constexpr int kHalfBits = 16;
-constexpr std::uint32_t kFirstHalf = std::bit_cast<std::uint32_t>(0x1p-13f) >> kHalfBits;
-constexpr std::uint32_t kLastHalf = std::bit_cast<std::uint32_t>(1.0f) >> kHalfBits;
+constexpr std::uint32_t kFirstHalf = __builtin_bit_cast(std::uint32_t, 0x1p-13f) >> kHalfBits;
+constexpr std::uint32_t kLastHalf = __builtin_bit_cast(std::uint32_t, 1.0f) >> kHalfBits;
 
 constexpr auto kLinearLevels = linear_levels();
 constexpr auto kNextLevels = next_levels();
@@ -115,7 +115,7 @@ constexpr std::array<std::uint8_t, kLastHalf - kFirstHalf + 1> first_levels() {
   std::array<std::uint8_t, kLastHalf - kFirstHalf + 1> levels{};
   std::uint8_t level = 0;
   for (std::uint32_t i = 0; i < levels.size(); ++i) {
-    while (std::bit_cast<float>((kFirstHalf + i) << kHalfBits) >= kNextLevels[level]) ++level;
+    while (__builtin_bit_cast(float, (kFirstHalf + i) << kHalfBits) >= kNextLevels[level]) ++level;
     levels[i] = level;
   }
   return levels;
@@ -130,7 +130,7 @@ std::size_t store_srgb8(const float* values, std::size_t count, std::byte* first
     const float low = value > 0.0f ? value : 0.0f;
     const float within = low < 1.0f ? low : 1.0f;
     clipped += within != value;
-    const std::uint32_t half = std::max(std::bit_cast<std::uint32_t>(within) >> kHalfBits, kFirstHalf);
+    const std::uint32_t half = std::max(__builtin_bit_cast(std::uint32_t, within) >> kHalfBits, kFirstHalf);
     const std::uint8_t level = kFirstLevels[half - kFirstHalf];
     first[i * stride] = std::byte(level + (within >= kNextLevels[level]));
   }

@@ -25,11 +25,10 @@ void run_parallel(std::size_t count, unsigned jobs, const std::function<void(std
     }
   };
   const std::size_t threads = jobs == 0 ? std::max(1u, std::thread::hardware_concurrency()) : jobs;
-  {
-    std::vector<std::jthread> pool;
-    for (std::size_t t = 1; t < std::min(threads, count); ++t) pool.emplace_back(loop);
-    loop();
-  }
+  std::vector<std::thread> pool;  // libc++ has no std::jthread before 18
+  for (std::size_t t = 1; t < std::min(threads, count); ++t) pool.emplace_back(loop);
+  loop();
+  for (std::thread& thread : pool) thread.join();
   if (failure) std::rethrow_exception(failure);
 }
 

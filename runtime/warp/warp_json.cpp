@@ -2,8 +2,6 @@
 // take 400. Numbers of more than a byte are little-endian, floats as their bits.
 #include "warp/warp_json.hpp"
 
-#include <bit>
-
 #include "converter/converter_fields.hpp"
 #include "remap/error.hpp"
 #include "text/base64.hpp"
@@ -67,7 +65,7 @@ std::string palette_text(const std::vector<WarpTexel>& palette) {
   std::vector<std::uint32_t> values;
   values.reserve(palette.size() * kWarpParameters);
   for (const WarpTexel& texel : palette)
-    for (const float value : texel) values.push_back(std::bit_cast<std::uint32_t>(value));
+    for (const float value : texel) values.push_back(__builtin_bit_cast(std::uint32_t, value));
   return base64(bytes_of(values));
 }
 
@@ -76,7 +74,7 @@ std::vector<WarpTexel> read_palette(const Field& field) {
   field.require(values.size() % kWarpParameters == 0, "base64 of seven floats a texel");
   std::vector<WarpTexel> palette(values.size() / kWarpParameters);
   for (std::size_t i = 0; i < values.size(); ++i)
-    palette[i / kWarpParameters][i % kWarpParameters] = std::bit_cast<float>(values[i]);
+    palette[i / kWarpParameters][i % kWarpParameters] = __builtin_bit_cast(float, values[i]);
   return palette;
 }
 
