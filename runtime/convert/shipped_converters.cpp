@@ -4,8 +4,8 @@
 #include <utility>
 #include <variant>
 
-#include "convert/converter_file.hpp"
 #include "convert/brdf_stage.hpp"
+#include "convert/converter_file.hpp"
 #include "convert/shipped_text.hpp"
 #include "remap/error.hpp"
 #include "system/files.hpp"
