@@ -19,7 +19,7 @@
 #include <type_traits>
 #include <utility>
 
-#if defined(__clang__)  // a loop that cannot be vectorised under the user's flags is no fault
+#if defined(__clang__)  // silences the warning about loops that cannot be vectorised
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wpass-failed"
 #endif

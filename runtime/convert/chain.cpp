@@ -15,7 +15,7 @@ void require_joined(const std::vector<const Converter*>& steps) {
     const ConverterInfo &before = steps[i]->info(), &after = steps[i + 1]->info();
     if (before.target == after.source) continue;
     throw Error(ErrorKind::kInput, before.id + " then " + after.id + ": the first gives " +
-                                       side_text(before.target) + "; the second expected " +
+                                       side_text(before.target) + "; the second takes " +
                                        side_text(after.source));
   }
 }
