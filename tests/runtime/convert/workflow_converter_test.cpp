@@ -86,3 +86,37 @@ TEST_CASE("workflow converter: maps become metallic by the projection, whatever 
     CHECK(largest_difference(conversion, InstructionSet::kBaseline) < 1e-5);
   }
 }
+
+TEST_CASE("workflow converter: a grey diffuse row becomes three, of which it is the first") {
+  constexpr std::size_t kCount = 1500;  // more than a block
+  WorkflowStages stages;
+  SpecularWorkflow scaled;
+  scaled.diffuse = DiffuseConvention::kScaled;
+  stages.source = scaled;
+  stages.target = SpecularWorkflow{};
+  const auto converter = make_workflow_converter(stages);
+  std::vector<float> width(kCount, 0.5f), specular(kCount), grey(kCount), green(kCount), blue(kCount);
+  std::vector<std::vector<float>> specular_out(3, std::vector<float>(kCount));
+  for (std::size_t i = 0; i < kCount; ++i) {
+    specular[i] = static_cast<float>(i) / kCount;
+    grey[i] = static_cast<float>(i % 7) / 7.0f;
+  }
+  const std::vector<float> given = grey;
+  MaterialRows<const float> in;
+  in[Parameter::kWidth] = {{width.data()}, 1};
+  in[Parameter::kSpecular] = {{specular.data()}, 1};
+  in[Parameter::kDiffuse] = {{grey.data()}, 1};
+  MaterialRows<float> out;
+  out[Parameter::kWidth] = {{width.data()}, 1};
+  out[Parameter::kSpecular] = {{specular_out[0].data(), specular_out[1].data(), specular_out[2].data()}, 3};
+  out[Parameter::kDiffuse] = {{grey.data(), green.data(), blue.data()}, 3};
+  CHECK(converter->convert(kCount, in, out) == 0);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const float expected = given[i] * (1.0f - specular[i]);
+    CAPTURE(i);
+    REQUIRE(grey[i] == expected);
+    REQUIRE(green[i] == expected);
+    REQUIRE(blue[i] == expected);
+    for (const auto& row : specular_out) REQUIRE(row[i] == specular[i]);
+  }
+}
