@@ -77,7 +77,7 @@ remap::Network random_network(remap::Activation activation) {
 void write_network(const std::filesystem::path& folder, remap::Activation activation) {
   const remap::Network network = remapc::folded(random_network(activation));
   const std::string name = "network_" + std::string(remap::activation_name(activation));
-  remap::write_file(folder / (kind + ".hpp"),
+  remap::write_file(folder / (name + ".hpp"),
                     "#include <cstddef>\n#include <cstdint>\n#include <cstring>\n\nnamespace remap::" + name +
                         " {\n"
                         "inline std::uint32_t bits(float value) noexcept {\n"
