@@ -30,6 +30,7 @@ std::vector<Build<Function>> runnable() {
       if (can_run(flags)) found.push_back({code, flags, function});
   };
 #define REMAP_BUILD(Function, name, code, flags) consider(#code, #flags, &name);
+#include "builds.inc"
 #undef REMAP_BUILD
   return found;
 }
