@@ -56,8 +56,6 @@ std::size_t Converter::convert(std::size_t count, const float* width, std::span<
   return convert(count, in, out, outside);
 }
 
-bool Converter::self_test() const {
-  return std::all_of(stages_.begin(), stages_.end(), [](const auto& stage) { return stage->self_test(); });
-}
+bool Converter::self_test() const { return remap::self_test(stages_); }
 
 }  // namespace remap

@@ -88,4 +88,8 @@ std::size_t run_stages(std::span<const std::shared_ptr<const Stage>> stages, Blo
   return count;
 }
 
+bool self_test(std::span<const std::shared_ptr<const Stage>> stages) {
+  return std::all_of(stages.begin(), stages.end(), [](const auto& stage) { return stage->self_test(); });
+}
+
 }  // namespace remap

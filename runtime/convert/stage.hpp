@@ -89,5 +89,7 @@ class Stage {
 // Runs all stages over the block. Counts and flags the texels that are outside for any of them.
 std::size_t run_stages(std::span<const std::shared_ptr<const Stage>> stages, Block& block,
                        std::uint8_t* outside);
+// Whether all stages pass their tests.
+bool self_test(std::span<const std::shared_ptr<const Stage>> stages);
 
 }  // namespace remap

@@ -90,9 +90,7 @@ class KeepDielectrics final : public Stage {
     return count;
   }
 
-  bool self_test() const override {
-    return std::all_of(brdf_.begin(), brdf_.end(), [](const auto& stage) { return stage->self_test(); });
-  }
+  bool self_test() const override { return remap::self_test(brdf_); }
 
  private:
   StageList brdf_;
@@ -102,11 +100,11 @@ class KeepDielectrics final : public Stage {
 // To metallic by the projection, with what is asked for of its diagnosis.
 class Project final : public Stage {
  public:
-  // `width`: the parameter that the block has. `conversion` has the same or, if its workflows do not know it,
-  // alpha.
-  Project(const WorkflowConversion& conversion, double prior, RoughnessConvention width, InstructionSet set)
+  // `conversion`: by projection. `width`: the parameter that the block has; `conversion` has the same or, if
+  // its workflows do not know it, alpha.
+  Project(const WorkflowConversion& conversion, RoughnessConvention width, InstructionSet set)
       : use_(conventions_of(conversion)),
-        prior_(static_cast<float>(prior)),
+        prior_(static_cast<float>(std::get<Projection>(conversion.formula).prior)),
         width_(width),
         reads_alpha_(conversion.specular.width != width),
         kernels_(kernels(set)) {}
@@ -232,9 +230,8 @@ std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
   else
     list.insert(list.end(), brdf.begin(), brdf.end());
   if (target != nullptr)
-    list.push_back(
-        std::make_shared<Project>(conversion_of(*target, between, width, Projection{stages.prior}, info.id),
-                                  stages.prior, target_width, set));
+    list.push_back(std::make_shared<Project>(
+        conversion_of(*target, between, width, Projection{stages.prior}, info.id), target_width, set));
   else if (diffuse_of(stages.target) != between)
     list.push_back(std::make_shared<ScaleDiffuse>(diffuse_of(stages.target)));
   return std::make_unique<Converter>(std::move(info), parameters_of(stages.source), targets_of(stages.target),

@@ -115,9 +115,8 @@ ConverterGraph graph_of(const ConverterList& converters);
 // after another over whole rows. There must be 1 or more steps, all of width and specular and none a chain
 // itself.
 // - convert() counts texels outside the domain of any step, each once.
-// - info(): source of the first, target of the last; the domain is chained_domain(); the errors are the sums
-// of the
-//   steps', the image error unknown where one is; `steps` their ids.
+// - info(): source of the first, target of the last; the domain is chained_domain(); errors are sums over the
+//   steps, unknown where one is; `steps` their ids.
 // - self_test(): that of every step.
 // Throws kInput if a step does not take the model and parameters that the step before it makes.
 std::unique_ptr<Converter> make_chained_converter(const std::vector<const Converter*>& steps);
