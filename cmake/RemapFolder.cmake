@@ -1,5 +1,5 @@
-# remap_folder(TARGET FOLDER [PUBLIC LIBRARY...] [PRIVATE LIBRARY...]): the library TARGET of every .cpp file in FOLDER, without its
-# subfolders. A folder is one library; the order of folders in HACKING.md is the order of what they link.
+# remap_folder(TARGET FOLDER [PUBLIC LIBRARY...] [PRIVATE LIBRARY...]): the library TARGET of every .cpp file in FOLDER but main.cpp, without
+# its subfolders. A folder is one library; the order of folders in HACKING.md is the order of what they link.
 # With REMAP_UNITY its files are compiled a few at a time, which halves the compile time of the whole.
 # New files are found without configuring again, but for a project that has remap as a subfolder.
 set(REMAP_GLOB "")
@@ -10,6 +10,7 @@ option(REMAP_UNITY "Compile the files of a folder together" ON)
 function(remap_folder target folder)
   cmake_parse_arguments(PARSE_ARGV 2 LINK "" "" "PUBLIC;PRIVATE")
   file(GLOB sources ${REMAP_GLOB} ${folder}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main[.]cpp$")
   add_library(${target} STATIC ${sources})
   target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC ${LINK_PUBLIC} PRIVATE ${LINK_PRIVATE})

@@ -1,5 +1,5 @@
 // `remapc build`: makes the items of a manifest that are out of date.
-#include "manifest/build.hpp"
+#include "build/build.hpp"
 
 #include <chrono>
 #include <iostream>
@@ -9,11 +9,11 @@
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
+#include "core/json.hpp"
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
-#include "text/json.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct BuildCommand {
@@ -26,24 +26,23 @@ struct BuildCommand {
 void run_check(const BuildCommand& command, const Manifest& manifest) {
   const std::vector<std::string> reasons = stale(manifest, command.folders);
   if (command.json)
-    std::cout << remap::Json({{"items", manifest.items.size()}, {"stale", reasons}}).dump(2) << "\n";
+    std::cout << Json({{"items", manifest.items.size()}, {"stale", reasons}}).dump(2) << "\n";
   else
     for (const std::string& reason : reasons) std::cout << reason << "\n";
   if (!reasons.empty())
-    throw remap::Error(remap::ErrorKind::kInput, command.folders.fits.string() + ": " +
-                                                     std::to_string(reasons.size()) +
-                                                     " out of date (run `remapc build`)");
+    throw Error(ErrorKind::kInput, command.folders.fits.string() + ": " + std::to_string(reasons.size()) +
+                                       " out of date (run `remapc build`)");
 }
 
 void report(const BuildCommand& command, const Manifest& manifest, const BuildResult& result,
             double seconds) {
   const std::vector<std::string> vanished = vanished_items(manifest, command.folders);
   if (command.json) {
-    remap::Json json = {{"items", manifest.items.size()},
-                        {"seconds", seconds},
-                        {"pruned", result.pruned},
-                        {"vanished", vanished},
-                        {"built", remap::Json::list()}};
+    Json json = {{"items", manifest.items.size()},
+                 {"seconds", seconds},
+                 {"pruned", result.pruned},
+                 {"vanished", vanished},
+                 {"built", Json::list()}};
     for (const BuiltItem& item : result.built)
       json["built"].push_back({{"id", item.id},
                                {"table", item.table},
@@ -65,9 +64,9 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
     if (!item.kept_table.empty()) std::cerr << item.id << ": table kept: " << item.kept_table << "\n";
   for (const BuiltItem& item : result.built)
     std::cerr << item.id << ": " << (item.table ? "table, " : "") << (item.fit ? "fit, " : "") << "header in "
-              << remap::number_text(remap::rounded_up(item.seconds, 2)) << " s\n";
+              << number_text(rounded_up(item.seconds, 2)) << " s\n";
   std::cerr << manifest.items.size() << " items, " << result.built.size() << " built, "
-            << remap::number_text(remap::rounded_up(seconds, 2)) << " s\n";
+            << number_text(rounded_up(seconds, 2)) << " s\n";
 }
 
 void run(const BuildCommand& command) {
@@ -77,15 +76,15 @@ void run(const BuildCommand& command) {
     run_check(command, manifest);
     return;
   }
-  remap::watch_interruptions();
+  watch_interruptions();
   const auto renderer = make_renderers(command.renderers);
   BuildResult result;
   {
-    remap::Progress progress("build " + command.folders.fits.string(), manifest.items.size());
+    Progress progress("build " + command.folders.fits.string(), manifest.items.size());
     BuildExecution execution;
     execution.jobs = command.jobs;
     execution.force = command.force;
-    execution.cancelled = &remap::interruption();
+    execution.cancelled = &interruption();
     execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
     execution.prune = command.prune;
     result = build(*renderer, manifest, command.folders, execution);
@@ -96,8 +95,8 @@ void run(const BuildCommand& command) {
 
 }  // namespace
 
-void add_build_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_build_command(Command& app) {
+  Command* command = app.add_subcommand(
       "build", "Make every table, fit and header of fits/manifest.json that is out of date", kCompileStage);
   BuildCommand& options = set_work<BuildCommand>(*command, run);
   command->option_group("Folders");
@@ -111,7 +110,7 @@ void add_build_command(remap::Command& app) {
   command->add_flag("--prune", options.prune,
                     "Remove files of items that the manifest no longer lists, unless they were edited");
   command->add_flag("--json", options.json, "Print the result as JSON to standard output");
-  command->option_group(remap::kRareOptions);
+  command->option_group(kRareOptions);
   command->add_option("--jobs", options.jobs,
                       "Items made at a time, 0: one per core; the results do not depend on it");
   add_renderer_options(*command, options.renderers);
@@ -123,4 +122,4 @@ void add_build_command(remap::Command& app) {
       "Example:\n  remapc build");
 }
 
-}  // namespace remapc
+}  // namespace remap

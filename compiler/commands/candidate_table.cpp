@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "fit/rows/split.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 const std::string kNone = "-";
@@ -16,7 +16,7 @@ std::string pair_text(double first, double second) {
   return first == 0.0 && second == 0.0 ? kNone : digits(first) + ", " + digits(second);
 }
 
-std::string with_error(const remap::RelativeError& error) {
+std::string with_error(const RelativeError& error) {
   return error.standard_error == 0.0 ? digits(error.rms)
                                      : digits(error.rms) + " +- " + digits(error.standard_error);
 }
@@ -26,7 +26,7 @@ double shown_shift(double shift) { return shift < 1e-9 ? 0.0 : shift; }
 
 using Line = std::vector<std::string>;
 
-Line line_of(const remap::Candidate& candidate) {
+Line line_of(const CandidateRecord& candidate) {
   return {candidate.name,
           candidate.number_count == 0 ? kNone : std::to_string(candidate.number_count),
           digits(candidate.alpha.rms),
@@ -49,11 +49,11 @@ bool has_figures(const std::vector<Line>& lines, std::size_t column) {
 
 }  // namespace
 
-std::string candidate_text(const std::vector<remap::Candidate>& candidates, const std::string& specular) {
+std::string candidate_text(const std::vector<CandidateRecord>& candidates, const std::string& specular) {
   std::vector<Line> lines = {{"", "numbers", "alpha rms", "max", "relative", specular + " rms", "max",
                               "relative", "alpha at edge, raw", specular + " at edge, raw", "chroma shift",
                               ""}};
-  for (const remap::Candidate& candidate : candidates) lines.push_back(line_of(candidate));
+  for (const CandidateRecord& candidate : candidates) lines.push_back(line_of(candidate));
   std::vector<std::size_t> widths(lines[0].size(), 0);
   for (const Line& line : lines)
     for (std::size_t column = 0; column < line.size(); ++column)
@@ -70,24 +70,24 @@ std::string candidate_text(const std::vector<remap::Candidate>& candidates, cons
   return text;
 }
 
-std::string errors_text(const remap::Fit& fit, const std::string& rows) {
+std::string errors_text(const Fit& fit, const std::string& rows) {
   if (fit.split.held_out_rows == 0) return "errors unknown";
-  const auto text = [](const std::string& name, const remap::ErrorFigures& figures) {
+  const auto text = [](const std::string& name, const ErrorFigures& figures) {
     return name + " rms " + error_text(figures.rms) + " max " + error_text(figures.max);
   };
   return "on " + std::to_string(fit.split.held_out_rows) + " rows " + rows + ": " +
          text("alpha", fit.alpha_error) + ", " + text(fit.target.specular, fit.specular_error);
 }
 
-remap::Json figures_json(const remap::ErrorFigures& figures) {
+Json figures_json(const ErrorFigures& figures) {
   return {{"rms", figures.rms}, {"p99", figures.p99}, {"max", figures.max}};
 }
 
-static remap::Json relative_json(const remap::RelativeError& error) {
+static Json relative_json(const RelativeError& error) {
   return {{"rms", error.rms}, {"standard_error", error.standard_error}};
 }
 
-remap::Json candidate_json(const remap::Candidate& candidate) {
+Json candidate_json(const CandidateRecord& candidate) {
   return {{"name", candidate.name},
           {"numbers", candidate.number_count},
           {"alpha_error", figures_json(candidate.alpha)},
@@ -102,4 +102,4 @@ remap::Json candidate_json(const remap::Candidate& candidate) {
           {"verdict", candidate.verdict}};
 }
 
-}  // namespace remapc
+}  // namespace remap

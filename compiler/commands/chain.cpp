@@ -1,20 +1,20 @@
 // `remapc chain` and `remapc invert` make a fit from other fits.
 #include <iostream>
 
+#include "build/build.hpp"
+#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/inverse_table.hpp"
-#include "fit/rows/split.hpp"
+#include "lower/fit_file.hpp"
 #include "lower/lower.hpp"
-#include "manifest/build.hpp"
-#include "manifest/fit_folder.hpp"
-#include "model/fit_file.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
-#include "text/json.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct ChainCommand {
@@ -25,22 +25,22 @@ struct ChainCommand {
   bool json = false;
 };
 
-std::filesystem::path write_fit(const ChainCommand& command, const remap::Fit& fit) {
+std::filesystem::path write_fit(const ChainCommand& command, const Fit& fit) {
   const std::filesystem::path path = command.output / (fit.id + ".json");
-  remap::write_file(path, fit_to_json(fit));
+  write_file(path, fit_to_json(fit));
   return path;
 }
 
 void run_chain(const ChainCommand& command) {
-  std::vector<remap::Fit> steps;
+  std::vector<Fit> steps;
   for (const std::string& name : command.steps) steps.push_back(find_fit(name, command.fit_folder));
-  remap::Fit chain = composed_fit(steps, command.id);
+  Fit chain = composed_fit(steps, command.id);
   add_converter(&chain);
-  const remap::Lowered& lowered = chain.converter->lowered;
+  const Lowered& lowered = chain.converter->lowered;
   const std::filesystem::path path = write_fit(command, chain);
   const std::string& steps_text = chain.method.at("against its steps one after another");
   if (command.json) {
-    const remap::Json json = {
+    const Json json = {
         {"fit", path.string()},
         {"id", chain.id},
         {"domain",
@@ -61,21 +61,21 @@ void run_chain(const ChainCommand& command) {
 }
 
 void run_invert(const ChainCommand& command) {
-  const remap::Fit fit = find_fit(command.fit, command.fit_folder);
+  const Fit fit = find_fit(command.fit, command.fit_folder);
   const std::string bytes = fit_to_json(fit);
   FitOptions options;
   options.id = command.id;
   const Table table = inverse_table(fit, bytes);
-  remap::Fit inverse = fit_table(table, table_text(table), options).fit;
+  Fit inverse = fit_table(table, table_text(table), options).fit;
   add_converter(&inverse);
   const std::filesystem::path path = write_fit(command, inverse);
   if (command.json) {
-    const remap::Json json = {{"fit", path.string()},
-                              {"id", inverse.id},
-                              {"inverse_of", fit.id},
-                              {"kind", kind_name(inverse.mapping)},
-                              {"alpha_error", figures_json(inverse.alpha_error)},
-                              {"specular_error", figures_json(inverse.specular_error)}};
+    const Json json = {{"fit", path.string()},
+                       {"id", inverse.id},
+                       {"inverse_of", fit.id},
+                       {"kind", kind_name(inverse.mapping)},
+                       {"alpha_error", figures_json(inverse.alpha_error)},
+                       {"specular_error", figures_json(inverse.specular_error)}};
     std::cout << json.dump(2) << "\n";
     return;
   }
@@ -83,7 +83,7 @@ void run_invert(const ChainCommand& command) {
             << errors_text(inverse, "of the exact inverse held out") << "\n";
 }
 
-void add_new_fit_options(remap::Command& app, ChainCommand& command) {
+void add_new_fit_options(Command& app, ChainCommand& command) {
   app.option_group("Input");
   app.add_option("--fits FOLDER", command.fit_folder, "Folder where ids are looked up");
   app.option_group("Output");
@@ -94,8 +94,8 @@ void add_new_fit_options(remap::Command& app, ChainCommand& command) {
 
 }  // namespace
 
-void add_chain_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_chain_command(Command& app) {
+  Command* command = app.add_subcommand(
       "chain", "Compose several fits into one, whose header converts in a single pass", kCompileStage);
   ChainCommand& options = set_work<ChainCommand>(*command, run_chain);
   command->add_option("steps", options.steps, "Fits in order: files, or ids in the folder of fits")
@@ -109,8 +109,8 @@ void add_chain_command(remap::Command& app) {
       "    -o mine");
 }
 
-void add_invert_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_invert_command(Command& app) {
+  Command* command = app.add_subcommand(
       "invert", "Fit the inverse of a fit: from its target's parameters to its source's", kCompileStage);
   ChainCommand& options = set_work<ChainCommand>(*command, run_invert);
   command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
@@ -120,4 +120,4 @@ void add_invert_command(remap::Command& app) {
       "Example:\n  remapc invert mitsuba_ggx_to_cycles_2_7_ggx -o mine");
 }
 
-}  // namespace remapc
+}  // namespace remap

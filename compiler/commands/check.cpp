@@ -6,10 +6,10 @@
 
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
-#include "text/errors.hpp"
-#include "text/json.hpp"
+#include "core/errors.hpp"
+#include "core/json.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct CheckOptions {
@@ -25,7 +25,7 @@ struct Checked {
 };
 
 void print_json(const Checked& checked) {
-  remap::Json json = {{"table", checked.name}, {"rows", checked.rows}, {"findings", remap::Json::list()}};
+  Json json = {{"table", checked.name}, {"rows", checked.rows}, {"findings", Json::list()}};
   for (const Finding& finding : checked.findings)
     json["findings"].push_back({{"severity", severity_name(finding.severity)},
                                 {"kind", finding.kind},
@@ -60,8 +60,8 @@ void run(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check_command(remap::Command& app) {
-  remap::Command* command =
+void add_check_command(Command& app) {
+  Command* command =
       app.add_subcommand("check", "Look for faults in a table before it is fitted", kMeasureStage);
   CheckOptions& options = set_work<CheckOptions>(*command, run);
   options.table.add_options(*command);
@@ -72,4 +72,4 @@ void add_check_command(remap::Command& app) {
       "The exit code is 1 if the table cannot be fitted.\n\nExample:\n  remapc check ward_to_as.csv");
 }
 
-}  // namespace remapc
+}  // namespace remap

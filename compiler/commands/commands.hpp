@@ -4,7 +4,7 @@
 
 #include "command_line/command.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The headings under which `remapc --help` lists the commands, in the order of work.
 inline constexpr const char* kMeasureStage = "Measure";
@@ -14,28 +14,26 @@ inline constexpr const char* kLookStage = "Look";
 inline constexpr const char* kRendererStage = "Renderers";
 inline constexpr const char* kWarpStage = "Warp";
 
-using remap::set_work;
+void add_sweep_command(Command& app);
+void add_sample_command(Command& app);
+void add_render_command(Command& app);
+void add_check_command(Command& app);
 
-void add_sweep_command(remap::Command& app);
-void add_sample_command(remap::Command& app);
-void add_render_command(remap::Command& app);
-void add_check_command(remap::Command& app);
+void add_fit_command(Command& app);
+void add_compare_command(Command& app);
 
-void add_fit_command(remap::Command& app);
-void add_compare_command(remap::Command& app);
+void add_emit_command(Command& app);
+void add_chain_command(Command& app);
+void add_invert_command(Command& app);
+void add_build_command(Command& app);
 
-void add_emit_command(remap::Command& app);
-void add_chain_command(remap::Command& app);
-void add_invert_command(remap::Command& app);
-void add_build_command(remap::Command& app);
+void add_list_command(Command& app);
+void add_show_command(Command& app);
+void add_preview_command(Command& app);
+void add_eval_command(Command& app);
 
-void add_list_command(remap::Command& app);
-void add_show_command(remap::Command& app);
-void add_preview_command(remap::Command& app);
-void add_eval_command(remap::Command& app);
+void add_renderers_command(Command& app);
 
-void add_renderers_command(remap::Command& app);
+void add_warp_command(Command& app);
 
-void add_warp_command(remap::Command& app);
-
-}  // namespace remapc
+}  // namespace remap

@@ -2,19 +2,19 @@
 #include <algorithm>
 #include <iostream>
 
+#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
+#include "core/errors.hpp"
+#include "core/json.hpp"
 #include "fit/baselines.hpp"
 #include "fit/edge.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/rows/split.hpp"
-#include "manifest/fit_folder.hpp"
 #include "report/fit_plot.hpp"
-#include "text/errors.hpp"
-#include "text/json.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct CompareOptions {
@@ -25,18 +25,18 @@ struct CompareOptions {
 };
 
 struct NamedFit {
-  remap::Fit fit;
+  Fit fit;
   std::string file;
 };
 
 // The errors of a fit or a formula on the rows of the table.
 struct Entry {
-  remap::Candidate candidate;
-  remap::Json origin;   // where it comes from, for JSON
+  CandidateRecord candidate;
+  Json origin;          // where it comes from, for JSON
   std::string why_not;  // why a formula does not apply; empty if it does
 };
 
-bool converts(const remap::Fit& fit, const Table& table) {
+bool converts(const Fit& fit, const Table& table) {
   return (table.source.model.empty() || fit.source.model == table.source.model) &&
          (table.target.model.empty() || fit.target.model == table.target.model);
 }
@@ -45,14 +45,14 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
   std::vector<NamedFit> fits;
   const auto file_of = [&](const std::string& id) { return (options.fit_folder / (id + ".json")).string(); };
   for (const std::string& name : options.fits) {
-    const remap::Fit fit = find_fit(name, options.fit_folder);
+    const Fit fit = find_fit(name, options.fit_folder);
     if (!converts(fit, table))
       throw input_error(name + ": converts " + fit.source.model + " to " + fit.target.model +
                         ", but the table is of " + table.source.model + " to " + table.target.model);
     fits.push_back({fit, std::filesystem::is_regular_file(name) ? name : file_of(name)});
   }
   if (options.fits.empty() && std::filesystem::is_directory(options.fit_folder))
-    for (const remap::Fit& fit : load_fits(options.fit_folder))
+    for (const Fit& fit : load_fits(options.fit_folder))
       if (converts(fit, table)) fits.push_back({fit, file_of(fit.id)});
   return fits;
 }
@@ -66,14 +66,14 @@ std::string shown_name(const NamedFit& one, const std::vector<NamedFit>& all) {
 
 Entry entry_of(const NamedFit& named, const std::string& name, const std::vector<TableRow>& rows,
                const std::string& digest) {
-  const remap::Fit& fit = named.fit;
+  const Fit& fit = named.fit;
   const bool own_table = fit.table.sha256 == digest;
   const std::vector<TableRow> inside = rows_inside(rows, fit.domain);
   const std::size_t outside = rows.size() - inside.size();
   const RowErrors errors = row_errors(fit, inside);
-  remap::Candidate candidate;
+  CandidateRecord candidate;
   candidate.name = name + " (" + fit_label(fit) + ")";
-  candidate.number_count = remap::number_count(fit.mapping);
+  candidate.number_count = number_count(fit.mapping);
   candidate.alpha = errors.alpha;
   candidate.specular = errors.specular;
   candidate.chroma_shift = look_beyond(fit.mapping, mapping_domain(fit)).chroma_shift;
@@ -90,7 +90,7 @@ Entry entry_of(const NamedFit& named, const std::string& name, const std::vector
 }
 
 Entry entry_of(const Baseline& baseline, const std::vector<TableRow>& rows) {
-  remap::Candidate candidate;
+  CandidateRecord candidate;
   candidate.name = baseline.name;
   candidate.verdict = baseline.map ? baseline.formula : "does not apply: " + baseline.why_not;
   if (baseline.map) {
@@ -102,9 +102,9 @@ Entry entry_of(const Baseline& baseline, const std::vector<TableRow>& rows) {
 }
 
 void print_json(const Table& table, std::size_t row_count, const std::vector<Entry>& entries) {
-  remap::Json json = {{"table", table.name}, {"rows", row_count}, {"entries", remap::Json::list()}};
+  Json json = {{"table", table.name}, {"rows", row_count}, {"entries", Json::list()}};
   for (const Entry& entry : entries) {
-    remap::Json one = candidate_json(entry.candidate);
+    Json one = candidate_json(entry.candidate);
     one.update(entry.origin);
     json["entries"].push_back(std::move(one));
   }
@@ -138,7 +138,7 @@ void run(const CompareOptions& options) {
     print_json(table, rows.size(), entries);
     return;
   }
-  std::vector<remap::Candidate> candidates;
+  std::vector<CandidateRecord> candidates;
   for (const Entry& entry : entries)
     if (entry.why_not.empty()) candidates.push_back(entry.candidate);
   std::cout << table.name << ": " << rows.size() << " usable rows\n"
@@ -147,8 +147,8 @@ void run(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_compare_command(Command& app) {
+  Command* command = app.add_subcommand(
       "compare", "Compare fits and formulas in common use on the usable rows of a table", kFitStage);
   CompareOptions& options = set_work<CompareOptions>(*command, run);
   options.table.add_options(*command);
@@ -165,4 +165,4 @@ void add_compare_command(remap::Command& app) {
       "Example:\n  remapc compare ward_to_as.csv mitsuba_ward_to_mitsuba_as");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,17 +4,14 @@
 #include <algorithm>
 #include <iostream>
 
+#include "build/fit_folder.hpp"
 #include "command_line/command.hpp"
 #include "commands/commands.hpp"
-#include "manifest/fit_folder.hpp"
+#include "core/files.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 struct EmitCommand {
   std::vector<std::string> fits;  // files or ids
@@ -41,9 +38,9 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   const auto add_header = [&](const auto& fit, std::string text) {
     files.push_back({options.output / (fit.id + ".hpp"), std::move(text)});
   };
-  for (const remap::Fit& fit : chosen.fits) add_header(fit, emit_header(fit));
-  for (const remap::WorkflowFit& fit : chosen.analytic) add_header(fit, emit_header(fit));
-  for (const remap::WarpMapFit& fit : chosen.warps) add_header(fit, emit_header(fit));
+  for (const Fit& fit : chosen.fits) add_header(fit, emit_header(fit));
+  for (const WorkflowFit& fit : chosen.analytic) add_header(fit, emit_header(fit));
+  for (const WarpMapFit& fit : chosen.warps) add_header(fit, emit_header(fit));
   if (options.all) files.push_back({options.output / kConverterListName, emit_converter_list(chosen.fits)});
   return files;
 }
@@ -55,7 +52,7 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
   for (const GeneratedFile& file : files) {
     if (!std::filesystem::exists(file.path))
       found.push_back(file.path.string() + ": missing");
-    else if (remap::read_file(file.path) != file.content)
+    else if (read_file(file.path) != file.content)
       found.push_back(file.path.string() + ": differs from its fit");
   }
   if (!options.all || !std::filesystem::is_directory(options.output)) return found;
@@ -77,7 +74,7 @@ void run(const EmitCommand& options) {
   const std::vector<GeneratedFile> files = generate(options);
   if (!options.check) {
     for (const GeneratedFile& file : files) {
-      remap::write_file(file.path, file.content);
+      write_file(file.path, file.content);
       std::cerr << file.path.string() << "\n";
     }
     return;
@@ -91,8 +88,8 @@ void run(const EmitCommand& options) {
 
 }  // namespace
 
-void add_emit_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_emit_command(Command& app) {
+  Command* command = app.add_subcommand(
       "emit", "Write the C++ headers of fits, or of all fits together with the data of texremap",
       kCompileStage);
   EmitCommand& options = set_work<EmitCommand>(*command, run);
@@ -112,4 +109,4 @@ void add_emit_command(remap::Command& app) {
       "  remapc emit --all --check");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,19 +2,19 @@
 #include <array>
 #include <iostream>
 
+#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/number_text.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/rows/split.hpp"
-#include "manifest/fit_folder.hpp"
-#include "model/interpreter.hpp"
-#include "system/files.hpp"
-#include "text/errors.hpp"
-#include "text/json.hpp"
-#include "text/number_text.hpp"
+#include "lower/interpreter.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct EvalOptions {
@@ -27,12 +27,12 @@ struct EvalOptions {
 };
 
 // The converted values of a grid over the domain, in the models' own parameters.
-std::string grid_text(const remap::Fit& fit, std::size_t steps) {
-  const auto at = [steps](const remap::Range& range, std::size_t step) {
+std::string grid_text(const Fit& fit, std::size_t steps) {
+  const auto at = [steps](const Range& range, std::size_t step) {
     const double share = static_cast<double>(step) / static_cast<double>(steps - 1);
     return step + 1 == steps ? range.max : range.min + (range.max - range.min) * share;
   };
-  const auto names = [](const std::string& prefix, const remap::ModelSide& side) {
+  const auto names = [](const std::string& prefix, const ModelSide& side) {
     return prefix + std::string(convention_name(side.roughness)) + "," + prefix + side.specular;
   };
   std::string text = names("source_", fit.source) + "," + names("target_", fit.target) + "\n";
@@ -42,23 +42,23 @@ std::string grid_text(const remap::Fit& fit, std::size_t steps) {
       const std::array<double, 1> specular = {at(specular_range(fit), j)};
       std::array<double, 1> out{};
       const double target_width = evaluate_texel(fit, width, specular, out);
-      text += remap::number_text(width) + "," + remap::number_text(specular[0]) + "," +
-              remap::number_text(target_width) + "," + remap::number_text(out[0]) + "\n";
+      text += number_text(width) + "," + number_text(specular[0]) + "," + number_text(target_width) + "," +
+              number_text(out[0]) + "\n";
     }
   return text;
 }
 
-void write_grid(const remap::Fit& fit, const EvalOptions& options) {
+void write_grid(const Fit& fit, const EvalOptions& options) {
   const std::string text = grid_text(fit, options.grid);
   if (options.output.empty()) {
     std::cout << text;
     return;
   }
-  remap::create_parent(options.output);
-  remap::write_file(options.output, text);
+  create_parent(options.output);
+  write_file(options.output, text);
 }
 
-void print_errors(const remap::Fit& fit, const EvalOptions& options) {
+void print_errors(const Fit& fit, const EvalOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
   const std::vector<TableRow> usable = answer_rows(table), rows = rows_inside(usable, fit.domain);
@@ -67,17 +67,17 @@ void print_errors(const remap::Fit& fit, const EvalOptions& options) {
   const RowErrors errors = row_errors(fit, rows);
   const bool same_table = sha256(bytes) == fit.table.sha256;
   if (options.json) {
-    const remap::Json json = {{"fit", fit.id},
-                              {"table", table.name},
-                              {"fitted_from_this_table", same_table},
-                              {"rows", rows.size()},
-                              {"rows_outside_domain", outside},
-                              {"alpha_error", figures_json(errors.alpha)},
-                              {"specular_error", figures_json(errors.specular)}};
+    const Json json = {{"fit", fit.id},
+                       {"table", table.name},
+                       {"fitted_from_this_table", same_table},
+                       {"rows", rows.size()},
+                       {"rows_outside_domain", outside},
+                       {"alpha_error", figures_json(errors.alpha)},
+                       {"specular_error", figures_json(errors.specular)}};
     std::cout << json.dump(2) << "\n";
     return;
   }
-  const auto print = [](const std::string& name, const remap::ErrorFigures& f) {
+  const auto print = [](const std::string& name, const ErrorFigures& f) {
     std::cout << "  " << name << ": rms " << error_text(f.rms) << ", 99 % " << error_text(f.p99) << ", max "
               << error_text(f.max) << "\n";
   };
@@ -93,7 +93,7 @@ void run(const EvalOptions& options) {
     throw usage_error("eval: name a table, or use --grid");
   if (options.grid == 0 && !options.output.empty())
     throw usage_error("--output can only be used with --grid");
-  const remap::Fit fit = find_fit(options.fit, options.fit_folder);
+  const Fit fit = find_fit(options.fit, options.fit_folder);
   if (options.grid == 0)
     print_errors(fit, options);
   else
@@ -102,8 +102,8 @@ void run(const EvalOptions& options) {
 
 }  // namespace
 
-void add_eval_command(remap::Command& app) {
-  remap::Command* command =
+void add_eval_command(Command& app) {
+  Command* command =
       app.add_subcommand("eval", "Print the errors of a fit on a table, or its values on a grid", kLookStage);
   EvalOptions& options = set_work<EvalOptions>(*command, run);
   command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
@@ -124,4 +124,4 @@ void add_eval_command(remap::Command& app) {
       "  remapc eval mitsuba_ward_to_mitsuba_as --grid 33 -o ward_to_as.csv");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -10,21 +10,21 @@
 #include "commands/commands.hpp"
 #include "commands/share_progress.hpp"
 #include "commands/table_input.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/network/material_network.hpp"
 #include "fit/parametric/parametric_form.hpp"
-#include "fit/rows/split.hpp"
+#include "lower/fit_file.hpp"
+#include "lower/limits.hpp"
 #include "lower/lower.hpp"
-#include "model/fit_file.hpp"
-#include "model/limits.hpp"
 #include "report/fit_plot.hpp"
-#include "system/files.hpp"
 #include "table/domain.hpp"
 #include "table/light.hpp"
-#include "text/errors.hpp"
-#include "text/json.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
@@ -32,7 +32,7 @@ constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
 // The kinds of fits, and first the best by cross-validation.
 const auto kModels = [] {
-  remap::NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
+  NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
   for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};
   return models;
 }();
@@ -48,7 +48,7 @@ struct FitCommand {
 };
 
 // Options of one regression are errors together with another one.
-void require_consistent(const FitCommand& command, const remap::Command& app) {
+void require_consistent(const FitCommand& command, const Command& app) {
   const std::string given(command.options.kind);
   const auto require_model = [&](const std::string& option, const std::string& model) {
     if (app.count(option) != 0 && !given.empty() && given != model)
@@ -59,16 +59,16 @@ void require_consistent(const FitCommand& command, const remap::Command& app) {
   if (!command.options.regression.form.empty()) find_form(command.options.regression.form);
 }
 
-void report(const FitCommand& command, const std::filesystem::path& path, const remap::Fit& fit) {
+void report(const FitCommand& command, const std::filesystem::path& path, const Fit& fit) {
   if (command.json) {
-    remap::Json json = {{"fit", path.string()},
-                        {"id", fit.id},
-                        {"kind", kind_name(fit.mapping)},
-                        {"method", fit.method},
-                        {"alpha_error", figures_json(fit.alpha_error)},
-                        {"specular_error", figures_json(fit.specular_error)},
-                        {"candidates", remap::Json::list()}};
-    for (const remap::Candidate& candidate : fit.candidates)
+    Json json = {{"fit", path.string()},
+                 {"id", fit.id},
+                 {"kind", kind_name(fit.mapping)},
+                 {"method", fit.method},
+                 {"alpha_error", figures_json(fit.alpha_error)},
+                 {"specular_error", figures_json(fit.specular_error)},
+                 {"candidates", Json::list()}};
+    for (const CandidateRecord& candidate : fit.candidates)
       json["candidates"].push_back(candidate_json(candidate));
     std::cout << json.dump(2) << "\n";
     return;
@@ -86,11 +86,10 @@ void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, 
     width = units;
   }
   numbers += outputs * (width + 1);
-  if (hidden.size() < remap::kMostLayers && numbers <= remap::kMostNetworkNumbers) return;
+  if (hidden.size() < kMostLayers && numbers <= kMostNetworkNumbers) return;
   throw usage_error("--layers: a network of " + std::to_string(hidden.size() + 1) + " layers and " +
                     std::to_string(numbers) + " numbers is too large (at most " +
-                    std::to_string(remap::kMostLayers) + " and " +
-                    std::to_string(remap::kMostNetworkNumbers) + ")");
+                    std::to_string(kMostLayers) + " and " + std::to_string(kMostNetworkNumbers) + ")");
 }
 
 // A table of metallic materials can only be fitted from specular to metallic, by a network.
@@ -104,7 +103,7 @@ void require_material_options(const FitCommand& command) {
   if (!command.plot.empty()) throw usage_error("--plot: not available for a table of materials (remove it)");
 }
 
-MaterialNetworkOptions network_options(const FitCommand& command, const remap::Command& app) {
+MaterialNetworkOptions network_options(const FitCommand& command, const Command& app) {
   const MlpOptions& mlp = command.options.regression.mlp;
   MaterialNetworkOptions options;
   options.id = command.options.id;
@@ -117,15 +116,15 @@ MaterialNetworkOptions network_options(const FitCommand& command, const remap::C
   return options;
 }
 
-void report(const FitCommand& command, const std::filesystem::path& path, const remap::WorkflowFit& fit) {
-  const remap::NetworkTraining& training = *fit.training;
+void report(const FitCommand& command, const std::filesystem::path& path, const WorkflowFit& fit) {
+  const NetworkTraining& training = *fit.training;
   if (command.json) {
-    const remap::Json json = {{"fit", path.string()},
-                              {"id", fit.id},
-                              {"kind", material_kind(fit)},
-                              {"method", training.method},
-                              {"base_color_error", figures_json(training.base_color)},
-                              {"metallic_error", figures_json(training.metallic)}};
+    const Json json = {{"fit", path.string()},
+                       {"id", fit.id},
+                       {"kind", material_kind(fit)},
+                       {"method", training.method},
+                       {"base_color_error", figures_json(training.base_color)},
+                       {"metallic_error", figures_json(training.metallic)}};
     std::cout << json.dump(2) << "\n";
     return;
   }
@@ -150,36 +149,35 @@ void require_output_folder(const std::filesystem::path& folder) {
 }
 
 void run_on(const MaterialTable& table, const std::string& bytes, const FitCommand& command,
-            const remap::Command& app) {
+            const Command& app) {
   require_material_options(command);
   LightMatch light = light_match(table.comments);
   light.accepted = light.accepted || command.options.accept_light;
   require_light(light, table.name);
   require_layers(command.options.regression.mlp.hidden, 6, 4);
   require_output_folder(command.folder);
-  const remap::WorkflowFit fit = [&] {
+  const WorkflowFit fit = [&] {
     ShareProgress progress("fit", command.table.path);
     return fit_material_network(table, bytes, network_options(command, app), std::ref(progress));
   }();
   const std::filesystem::path path = command.folder / (fit.id + ".json");
-  remap::write_file(path, fit_to_json(fit));
+  write_file(path, fit_to_json(fit));
   report(command, path, fit);
 }
 
 // A fit that cannot be lowered is kept for remapc: only texremap and headers need its converter.
-void lower_if_possible(const FitCommand& command, remap::Fit* fit) {
+void lower_if_possible(const FitCommand& command, Fit* fit) {
   try {
     add_converter(fit, {command.tolerance, 10.0 * command.tolerance});
-  } catch (const remap::Error& error) {
-    if (error.kind() != remap::ErrorKind::kNumeric) throw;
-    remap::print_message(
-        "remapc", "warning: " + fit->id +
-                      ": neither texremap nor emit can use this fit: it cannot be lowered (" + error.what() +
-                      ")");
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kNumeric) throw;
+    print_message("remapc", "warning: " + fit->id +
+                                ": neither texremap nor emit can use this fit: it cannot be lowered (" +
+                                error.what() + ")");
   }
 }
 
-void run_on(const Table& given, const std::string& bytes, const FitCommand& command, const remap::Command&) {
+void run_on(const Table& given, const std::string& bytes, const FitCommand& command, const Command&) {
   const Table table = command.swap ? swapped(given) : given;
   require_layers(command.options.regression.mlp.hidden, 2, 1);
   require_output_folder(command.folder);
@@ -190,24 +188,23 @@ void run_on(const Table& given, const std::string& bytes, const FitCommand& comm
   }();
   lower_if_possible(command, &fitted.fit);
   const std::filesystem::path path = command.folder / (fitted.fit.id + ".json");
-  remap::write_file(path, fit_to_json(fitted.fit));
+  write_file(path, fit_to_json(fitted.fit));
   if (!command.plot.empty())
-    write_plot(command.plot, table,
-               fitted.compared.empty() ? std::vector<remap::Fit>{fitted.fit} : fitted.compared);
+    write_plot(command.plot, table, fitted.compared.empty() ? std::vector<Fit>{fitted.fit} : fitted.compared);
   report(command, path, fitted.fit);
 }
 
-void run(const FitCommand& command, const remap::Command& app) {
+void run(const FitCommand& command, const Command& app) {
   require_consistent(command, app);
   std::string bytes;
   const AnyTable input = command.table.read_any(&bytes);
   std::visit([&](const auto& table) { run_on(table, bytes, command, app); }, input);
 }
 
-void add_regression_options(remap::Command& app, FitCommand& command) {
+void add_regression_options(Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
   app.option_group("Regression");
-  app.add_option("--model NAME", command.options.kind, remap::one_of(kModels, "kind of fit"),
+  app.add_option("--model NAME", command.options.kind, one_of(kModels, "kind of fit"),
                  "parametric: polynomials and exponentials; series: of Chebyshev polynomials; svr: support "
                  "vectors; mlp: a "
                  "small network; auto: the simplest of them that is as good as the best by cross-validation, "
@@ -216,7 +213,7 @@ void add_regression_options(remap::Command& app, FitCommand& command) {
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
-  app.option_group(remap::kRareOptions);
+  app.option_group(kRareOptions);
   app.add_option(
       "--form FORM", regression.form,
       "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by cross-validation)");
@@ -224,9 +221,9 @@ void add_regression_options(remap::Command& app, FitCommand& command) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->range(1, kMostUnits);
-  app.add_option("--activation NAME", regression.mlp.activation,
-                 remap::one_of(remap::kActivations, "activation function"), "Network: activation function")
-      ->default_text(std::string(remap::activation_name(regression.mlp.activation)));
+  app.add_option("--activation NAME", regression.mlp.activation, one_of(kActivations, "activation function"),
+                 "Network: activation function")
+      ->default_text(std::string(activation_name(regression.mlp.activation)));
   app.add_option("--starts", regression.mlp.starts, "Network: trainings, of which the best is kept")
       ->range(1, kMostStarts);
   app.add_option("--held-out", command.options.held_out_fraction,
@@ -240,7 +237,7 @@ void add_regression_options(remap::Command& app, FitCommand& command) {
   app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it");
 }
 
-void add_output_options(remap::Command& app, FitCommand& command) {
+void add_output_options(Command& app, FitCommand& command) {
   app.option_group("Output");
   app.add_option("-o,--output FOLDER", command.folder, "Folder for the fit, <id>.json");
   app.add_option("--id ID", command.options.id, "Id of the fit (default: <source>_to_<target>)");
@@ -251,8 +248,8 @@ void add_output_options(remap::Command& app, FitCommand& command) {
 
 }  // namespace
 
-void add_fit_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json", kFitStage);
+void add_fit_command(Command& app) {
+  Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json", kFitStage);
   FitCommand& options =
       set_work<FitCommand>(*command, [command](const FitCommand& given) { run(given, *command); });
   options.table.add_options(*command);
@@ -262,4 +259,4 @@ void add_fit_command(remap::Command& app) {
   command->footer(form_list() + "\nExample:\n  remapc fit ward_to_as.csv -o fits --plot fits/ward_to_as.svg");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,19 +2,17 @@
 #include <iomanip>
 #include <iostream>
 
+#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
-#include "manifest/fit_folder.hpp"
+#include "core/json.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "renderer/renderer.hpp"
 #include "table/domain.hpp"
-#include "text/json.hpp"
-#include "text/number_text.hpp"
-#include "text/report_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 struct ListOptions {
   std::filesystem::path fit_folder = "fits";
@@ -22,32 +20,31 @@ struct ListOptions {
 };
 
 void list_models(bool json) {
-  remap::Json list = remap::Json::list();
+  Json list = Json::list();
   for (const ModelDescription& model : make_builtin_renderer()->models()) {
-    remap::Json parameters;
+    Json parameters;
     std::string text;
     for (const ParameterDescription& parameter : model.parameters) {
       parameters[parameter.name] = {parameter.range.min, parameter.range.max};
       text += "  " + parameter.name + " " + range_text(parameter.range);
     }
-    list.push_back({{"model", model.name},
-                    {"roughness", remap::convention_name(model.roughness)},
-                    {"parameters", parameters}});
+    list.push_back(
+        {{"model", model.name}, {"roughness", convention_name(model.roughness)}, {"parameters", parameters}});
     if (!json) std::cout << std::left << std::setw(26) << model.name << text << "\n";
   }
   if (json) std::cout << list.dump(2) << "\n";
 }
 
 void list_fits(const ListOptions& options) {
-  remap::Json list = remap::Json::list();
-  const auto add = [&](const remap::Json& fit, const std::string& text) {
+  Json list = Json::list();
+  const auto add = [&](const Json& fit, const std::string& text) {
     list.push_back(fit);
     if (!options.json)
       std::cout << std::left << std::setw(40) << *fit.find("id")->text() << " " << std::setw(11)
                 << *fit.find("kind")->text() << text << "\n";
   };
   const FitFolder folder = load_fit_folder(options.fit_folder);
-  for (const remap::Fit& fit : folder.fits)
+  for (const Fit& fit : folder.fits)
     add({{"id", fit.id},
          {"source", fit.source.model},
          {"target", fit.target.model},
@@ -55,20 +52,20 @@ void list_fits(const ListOptions& options) {
          {"alpha_rms_error", fit.alpha_error.rms},
          {"specular_rms_error", fit.specular_error.rms}},
         errors_text(fit, "held out"));
-  for (const remap::WorkflowFit& fit : folder.analytic) {
+  for (const WorkflowFit& fit : folder.analytic) {
     const std::string formula(formula_name(fit.conversion.formula));
     add({{"id", fit.id},
          {"source", fit.conversion.source_model()},
          {"target", fit.conversion.target_model()},
-         {"kind", remap::material_kind(fit)},
+         {"kind", material_kind(fit)},
          {"formula", formula}},
         formula + ", whole materials");
   }
-  for (const remap::WarpMapFit& fit : folder.warps)
+  for (const WarpMapFit& fit : folder.warps)
     add({{"id", fit.id},
          {"source", fit.source_model},
          {"target", fit.template_model},
-         {"kind", remap::kWarpKind},
+         {"kind", kWarpKind},
          {"copy_rms_error", fit.copy_rms_error}},
         "appearance of a template, whole materials" +
             (fit.copy_rms_error < 0.0 ? "" : "; " + percent(fit.copy_rms_error) + " from an exact copy"));
@@ -78,8 +75,8 @@ void list_fits(const ListOptions& options) {
 
 }  // namespace
 
-void add_list_command(remap::Command& app) {
-  remap::Command* command =
+void add_list_command(Command& app) {
+  Command* command =
       app.add_subcommand("list", "List the fits of a folder, or the built-in models", kLookStage);
   ListOptions& options = set_work<ListOptions>(
       *command, [](const ListOptions& given) { given.models ? list_models(given.json) : list_fits(given); });
@@ -92,4 +89,4 @@ void add_list_command(remap::Command& app) {
   command->footer("Example:\n  remapc list --models");
 }
 
-}  // namespace remapc
+}  // namespace remap

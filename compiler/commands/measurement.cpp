@@ -8,14 +8,14 @@
 #include "command_line/run_app.hpp"
 #include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
-#include "system/files.hpp"
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
-std::string one_decimal(double value) { return remap::number_text(std::round(10.0 * value) / 10.0); }
+std::string one_decimal(double value) { return number_text(std::round(10.0 * value) / 10.0); }
 
 // `, 12 pictures rendered and 30 from the cache`; empty if no worker was used.
 std::string pictures_text(const PictureCount& pictures) {
@@ -25,18 +25,17 @@ std::string pictures_text(const PictureCount& pictures) {
 }
 
 // Adds the options that choose which parameters of a model are roughness, specular and diffuse.
-void add_role_options(remap::Command& app, const std::string& side, ParameterRoles& roles) {
+void add_role_options(Command& app, const std::string& side, ParameterRoles& roles) {
   const std::string prefix = "--" + side;
   const auto roughness = [&roles](const std::string& option, const std::string& word) {
     ParameterRoles changed = roles;
     const std::size_t colon = word.find(':');
     changed.roughness = word.substr(0, colon);
     if (colon != std::string::npos)
-      changed.convention =
-          remap::one_of(remap::kConventions, "convention").read(option, word.substr(colon + 1));
+      changed.convention = one_of(kConventions, "convention").read(option, word.substr(colon + 1));
     return changed;
   };
-  app.add_option(prefix + "-roughness NAME[:CONVENTION]", roles, remap::Reader<ParameterRoles>{roughness, {}},
+  app.add_option(prefix + "-roughness NAME[:CONVENTION]", roles, Reader<ParameterRoles>{roughness, {}},
                  "Parameter of the " + side + " that is its roughness (default: as the model declares it)");
   app.add_option(prefix + "-specular NAME", roles.specular, "Parameter that is its specular");
   app.add_option(prefix + "-diffuse NAME", roles.diffuse, "Parameter that is its diffuse");
@@ -49,10 +48,10 @@ void add_role_options(remap::Command& app, const std::string& side, ParameterRol
                        "Fixed value of another parameter; may be repeated");
 }
 
-remap::Reader<std::string> objective_name() {
+Reader<std::string> objective_name() {
   return {[](const std::string& option, const std::string& word) {
             if (std::find(kObjectives.begin(), kObjectives.end(), word) == kObjectives.end())
-              remap::fail_unknown(option, "objective", word, kObjectives);
+              fail_unknown(option, "objective", word, kObjectives);
             return word;
           },
           {}};
@@ -60,7 +59,7 @@ remap::Reader<std::string> objective_name() {
 
 }  // namespace
 
-void MeasurementOptions::add_table_options(remap::Command& app, const std::string& table) {
+void MeasurementOptions::add_table_options(Command& app, const std::string& table) {
   app.option_group("Models");
   app.add_option("--source MODEL", pair.source, "Model to convert from")->required();
   app.add_option("--target MODEL", pair.target, "Model to convert to")->required();
@@ -71,18 +70,18 @@ void MeasurementOptions::add_table_options(remap::Command& app, const std::strin
   app.add_flag("--quiet", quiet, "Print no progress and no summary");
 }
 
-void MeasurementOptions::add_picture_options(remap::Command& app) {
+void MeasurementOptions::add_picture_options(Command& app) {
   app.option_group("Pictures and how they are compared");
   app.add_option("--objective NAME", objective, objective_name(),
                  "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights")
       ->default_text("natural");
-  app.add_option("--light LIGHTS", lights, remap::list_of(light_angle()),
+  app.add_option("--light LIGHTS", lights, list_of(light_angle()),
                  "Lights, comma-separated: headlight, or degrees from the camera (overrides --objective)");
-  app.add_option("--weighting NAME", weighting, remap::one_of(kWeightings, "weighting"),
+  app.add_option("--weighting NAME", weighting, one_of(kWeightings, "weighting"),
                  "Weights of the pixels, overriding --objective");
   app.add_option("--resolution", pair.resolution, "Width and height in pixels");
   app.add_option("--pixel-samples", pair.samples_per_axis, "N x N samples per pixel; 1: the pixel center");
-  app.option_group(remap::kRareOptions);
+  app.option_group(kRareOptions);
   app.add_option("--distance", distance, "Distance of the lights, in sphere radii");
   app.add_flag("--no-irradiance-matching", keep_irradiance,
                "Do not correct for a constant factor between the lights of two renderers");
@@ -92,8 +91,8 @@ void MeasurementOptions::add_picture_options(remap::Command& app) {
   add_role_options(app, "target", pair.target_roles);
 }
 
-void MeasurementOptions::add_execution_options(remap::Command& app) {
-  app.option_group(remap::kRareOptions);
+void MeasurementOptions::add_execution_options(Command& app) {
+  app.option_group(kRareOptions);
   app.add_option("--jobs", jobs, "Threads, 0: one per core; the table does not depend on it");
   add_renderer_options(app, renderers);
 }
@@ -116,34 +115,34 @@ PairOptions MeasurementOptions::chosen_pair() const {
 }
 
 Measurement::Measurement(const MeasurementOptions& options) : options_(options) {
-  remap::watch_interruptions();
+  watch_interruptions();
   renderer_ = make_renderers(options.renderers);
 }
 
 SweepExecution Measurement::start(const std::string& label, std::size_t rows) {
   if (!options_.force && std::filesystem::exists(options_.output))
     throw output_error(options_.output.string() + ": already exists (--force overwrites)");
-  remap::create_parent(options_.output);
+  create_parent(options_.output);
   const std::string models = label + " " + options_.pair.source + " -> " + options_.pair.target;
   progress_.emplace(models, rows, !options_.quiet);
   renderer_->watch(
       [this, models](const PictureCount& pictures) { progress_->relabel(models + pictures_text(pictures)); });
   return {options_.jobs, [this](std::size_t done, std::size_t) { progress_->advance_to(done); },
-          &remap::interruption()};
+          &interruption()};
 }
 
 void Measurement::write(const std::string& table, const Comments& comments) {
   renderer_->watch(nullptr);
   progress_.reset();
-  remap::write_file(options_.output, table);
+  write_file(options_.output, table);
   light_ = light_match(comments);
   if (const auto remark = light_remark(light_))
-    remap::print_message("remapc", "warning: " + options_.output.string() + ": " + remark->text);
+    print_message("remapc", "warning: " + options_.output.string() + ": " + remark->text);
   for (const std::string& remark : renderer_->remarks()) std::cerr << "remapc: " << remark << "\n";
 }
 
 void Measurement::report(const std::map<std::string, std::size_t>& statuses, double rms_error,
-                         const remap::Json& fields) const {
+                         const Json& fields) const {
   const std::string table = options_.output.string();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const PictureCount pictures = renderer_->pictures();
@@ -155,14 +154,14 @@ void Measurement::report(const std::map<std::string, std::size_t>& statuses, dou
   }
   if (options_.json) {
     const auto remark = light_remark(light_);
-    remap::Json json = {{"table", table}};
+    Json json = {{"table", table}};
     if (fields.fields() != nullptr) json.update(fields);
     json.update({{"rows", rows},
                  {"status", statuses},
                  {"rms_image_error", rms_error},
                  {kLightScaleComment, light_.scale},
                  {kDiffuseErrorComment, light_.diffuse_error},
-                 {"light_warning", remark ? remap::Json(remark->text) : nullptr},
+                 {"light_warning", remark ? Json(remark->text) : nullptr},
                  {"pictures_rendered", pictures.rendered},
                  {"pictures_cached", pictures.cached},
                  {"seconds", seconds}});
@@ -174,4 +173,4 @@ void Measurement::report(const std::map<std::string, std::size_t>& statuses, dou
   }
 }
 
-}  // namespace remapc
+}  // namespace remap

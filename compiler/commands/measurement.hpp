@@ -10,12 +10,12 @@
 
 #include "command_line/progress.hpp"
 #include "commands/renderer_options.hpp"
-#include "sweep/sweep_options.hpp"
+#include "core/json.hpp"
+#include "measure/sweep_options.hpp"
 #include "table/light.hpp"
 #include "table/table.hpp"
-#include "text/json.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct MeasurementOptions {
   PairOptions pair;  // without the objective, which the next fields choose
@@ -31,9 +31,9 @@ struct MeasurementOptions {
 
   // Add options to `app`: the models and the table; how pictures are made and compared; threads and
   // renderers.
-  void add_table_options(remap::Command& app, const std::string& table);
-  void add_picture_options(remap::Command& app);
-  void add_execution_options(remap::Command& app);
+  void add_table_options(Command& app, const std::string& table);
+  void add_picture_options(Command& app);
+  void add_execution_options(Command& app);
   PairOptions chosen_pair() const;
 };
 
@@ -52,7 +52,7 @@ class Measurement {
   void write(const std::string& table, const Comments& comments);
   // Prints the summary of the rows as a line, or as JSON after the table's name and the fields of `json`.
   template <typename Row>
-  void report(const std::vector<Row>& rows, const remap::Json& json = nullptr) const {
+  void report(const std::vector<Row>& rows, const Json& json = nullptr) const {
     std::map<std::string, std::size_t> statuses;
     double square = 0.0;
     for (const Row& row : rows) {
@@ -63,14 +63,13 @@ class Measurement {
   }
 
  private:
-  void report(const std::map<std::string, std::size_t>& statuses, double rms_error,
-              const remap::Json& fields) const;
+  void report(const std::map<std::string, std::size_t>& statuses, double rms_error, const Json& fields) const;
 
   const MeasurementOptions& options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::optional<remap::Progress> progress_;  // of rows; its label also counts the pictures of workers
+  std::optional<Progress> progress_;  // of rows; its label also counts the pictures of workers
   std::unique_ptr<RendererSet> renderer_;
   LightMatch light_;
 };
 
-}  // namespace remapc
+}  // namespace remap

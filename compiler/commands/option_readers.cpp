@@ -2,14 +2,14 @@
 
 #include <sstream>
 
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 
-remap::Reader<double> light_angle() {
+Reader<double> light_angle() {
   return {[](const std::string& option, const std::string& word) {
-            const auto angle = word == "headlight" ? 0.0 : remap::parse_number(word);
+            const auto angle = word == "headlight" ? 0.0 : parse_number(word);
             if (!angle || !(*angle > -180.0 && *angle <= 180.0))
               throw usage_error(option + ": invalid value '" + word +
                                 "' (choose headlight, or degrees from -180 to 180)");
@@ -18,14 +18,14 @@ remap::Reader<double> light_angle() {
           {}};
 }
 
-remap::Reader<remap::Range> number_range() {
+Reader<Range> number_range() {
   return {[](const std::string& option, const std::string& word) {
             const std::size_t comma = word.find(',');
-            const auto min = remap::parse_number(word.substr(0, comma));
-            const auto max = comma == std::string::npos ? min : remap::parse_number(word.substr(comma + 1));
+            const auto min = parse_number(word.substr(0, comma));
+            const auto max = comma == std::string::npos ? min : parse_number(word.substr(comma + 1));
             if (comma == std::string::npos || !min || !max || !(*min <= *max))
               throw usage_error(option + ": not a range (write MIN,MAX with MIN not above MAX)");
-            return remap::Range{*min, *max};
+            return Range{*min, *max};
           },
           {}};
 }
@@ -35,7 +35,7 @@ ParameterSetting::ParameterSetting(const std::string& option, const std::string&
   if (name == word) fail("'=' missing (write NAME=VALUE or NAME=R,G,B)");
   std::istringstream items(word.substr(name.size() + 1));
   for (std::string item; std::getline(items, item, ',');) {
-    const auto value = remap::parse_number(item);
+    const auto value = parse_number(item);
     if (!value) fail("'" + item + "' is not a number");
     values.push_back(*value);
   }
@@ -43,4 +43,4 @@ ParameterSetting::ParameterSetting(const std::string& option, const std::string&
 
 void ParameterSetting::fail(const std::string& reason) const { throw usage_error(place + ": " + reason); }
 
-}  // namespace remapc
+}  // namespace remap

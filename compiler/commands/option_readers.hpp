@@ -9,13 +9,13 @@
 #include "command_line/command.hpp"
 #include "remap/model.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The angle of a light: `headlight`, or degrees from the camera.
-remap::Reader<double> light_angle();
+Reader<double> light_angle();
 
 // `MIN,MAX`.
-remap::Reader<remap::Range> number_range();
+Reader<Range> number_range();
 
 // `NAME=VALUE` or `NAME=VALUE,...`. Throws kUsage, opened by the option and the word.
 struct ParameterSetting {
@@ -29,7 +29,7 @@ struct ParameterSetting {
 
 // Adds an option that is given once for each parameter. `value_of` makes the value of its name.
 template <typename Value>
-void add_settings(remap::Command& app, const std::string& names, std::map<std::string, Value>& values,
+void add_settings(Command& app, const std::string& names, std::map<std::string, Value>& values,
                   const std::function<Value(const ParameterSetting&)>& value_of,
                   const std::string& description) {
   using Values = std::map<std::string, Value>;
@@ -40,9 +40,9 @@ void add_settings(remap::Command& app, const std::string& names, std::map<std::s
     all[setting.name] = value_of(setting);
     return all;
   };
-  app.add_option(names, values, remap::Reader<Values>{read, {}}, description)
+  app.add_option(names, values, Reader<Values>{read, {}}, description)
       ->expected(1, kMost)
       ->allow_extra_args(false);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,17 +4,17 @@
 #include <iomanip>
 #include <iostream>
 
+#include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "commands/renderer_options.hpp"
-#include "manifest/fit_folder.hpp"
+#include "core/errors.hpp"
+#include "core/json.hpp"
+#include "core/number_text.hpp"
 #include "renderer/image_file.hpp"
-#include "text/errors.hpp"
-#include "text/json.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct PreviewCommand {
@@ -28,24 +28,24 @@ struct PreviewCommand {
   LitPreviewOptions lit;  // takes alphas, specular, resolution and samples from `options`
 };
 
-remap::Json material_json(const auto& figure) {
+Json material_json(const auto& figure) {
   return {{"alpha", figure.alpha},
           {"target_alpha", figure.target_alpha},
           {"target_specular", figure.target_specular},
           {"in_domain", figure.in_domain}};
 }
 
-remap::Json similarity_json(const auto& figure) { return {{"ssim", figure.ssim}, {"rms", figure.rms}}; }
+Json similarity_json(const auto& figure) { return {{"ssim", figure.ssim}, {"rms", figure.rms}}; }
 
-remap::Json figure_json(const PreviewFigure& figure) {
-  remap::Json json = {{"shape", shape_name(figure.shape)}};
+Json figure_json(const PreviewFigure& figure) {
+  Json json = {{"shape", shape_name(figure.shape)}};
   json.update(material_json(figure));
   json.update(similarity_json(figure));
   return json;
 }
 
-remap::Json figure_json(const LitFigure& figure) {
-  remap::Json json = material_json(figure);
+Json figure_json(const LitFigure& figure) {
+  Json json = material_json(figure);
   json["copied"] = similarity_json(figure.copied);
   json["converted"] = similarity_json(figure.converted);
   return json;
@@ -71,26 +71,26 @@ void print_figures(const std::vector<LitFigure>& figures) {
 }
 
 // Writes and prints a preview of either kind.
-void report(const PreviewCommand& command, const remap::Fit& fit, const auto& preview) {
+void report(const PreviewCommand& command, const Fit& fit, const auto& preview) {
   if (!command.output.empty()) write_png(command.output, preview.sheet);
   if (!command.json) {
     std::cout << fit.source.model << " -> " << fit.target.model
               << (command.environment.empty() ? "" : " under " + command.environment) << ", specular";
-    for (const double value : preview.specular) std::cout << " " << remap::number_text(value);
+    for (const double value : preview.specular) std::cout << " " << number_text(value);
     std::cout << "\n";
     return print_figures(preview.figures);
   }
-  remap::Json json = {{"fit", fit.id}, {"source", fit.source.model}, {"target", fit.target.model}};
+  Json json = {{"fit", fit.id}, {"source", fit.source.model}, {"target", fit.target.model}};
   if (!command.environment.empty()) json["environment"] = command.environment;
   json["specular"] = preview.specular;
-  json["figures"] = remap::Json::list();
+  json["figures"] = Json::list();
   for (const auto& figure : preview.figures) json["figures"].push_back(figure_json(figure));
   if (!command.output.empty()) json["picture"] = command.output.string();
   std::cout << json.dump(2) << "\n";
 }
 
 // Under an environment: the source, copied numbers, converted numbers.
-void run_lit(const PreviewCommand& command, const remap::Fit& fit) {
+void run_lit(const PreviewCommand& command, const Fit& fit) {
   const Environment environment = environment_for_preview(command.environment, command.exposure);
   LitPreviewOptions options = command.lit;
   options.alphas = command.options.alphas;
@@ -101,13 +101,13 @@ void run_lit(const PreviewCommand& command, const remap::Fit& fit) {
 }
 
 void run(const PreviewCommand& command) {
-  remap::watch_interruptions();
+  watch_interruptions();
   if (!command.environment.empty()) return run_lit(command, find_fit(command.fit, command.fit_folder));
-  const remap::Fit fit = find_fit(command.fit, command.fit_folder);
+  const Fit fit = find_fit(command.fit, command.fit_folder);
   report(command, fit, make_preview(*make_renderers(command.renderers), fit, command.options));
 }
 
-void add_environment_options(remap::Command& command, PreviewCommand& options) {
+void add_environment_options(Command& command, PreviewCommand& options) {
   command.option_group("Environment");
   command
       .add_option("--environment NAME or FILE", options.environment,
@@ -121,7 +121,7 @@ void add_environment_options(remap::Command& command, PreviewCommand& options) {
       ->range(16, 65536);
 }
 
-void require_environment(const remap::Command& command, const PreviewCommand& options) {
+void require_environment(const Command& command, const PreviewCommand& options) {
   for (const char* option : {"--exposure", "--diffuse", "--directions"})
     if (options.environment.empty() && command.count(option) > 0)
       throw usage_error(std::string(option) + " needs --environment");
@@ -129,8 +129,8 @@ void require_environment(const remap::Command& command, const PreviewCommand& op
 
 }  // namespace
 
-void add_preview_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_preview_command(Command& app) {
+  Command* command = app.add_subcommand(
       "preview", "Render a source model and its conversion side by side, and print their similarity",
       kLookStage);
   PreviewCommand& options = set_work<PreviewCommand>(*command, [command](const PreviewCommand& given) {
@@ -155,8 +155,8 @@ void add_preview_command(remap::Command& app) {
                    "Specular of the source (default: half the maximum of the fit's domain)")
       ->delimiter(',');
   command
-      ->add_option("--shape SHAPE,...", options.options.shapes,
-                   remap::list_of(remap::one_of(kShapes, "shape")), "Shapes, comma-separated")
+      ->add_option("--shape SHAPE,...", options.options.shapes, list_of(one_of(kShapes, "shape")),
+                   "Shapes, comma-separated")
       ->default_text("sphere,torus");
   command
       ->add_option("--light LIGHT", options.options.light.angle, light_angle(),
@@ -165,7 +165,7 @@ void add_preview_command(remap::Command& app) {
   command->add_option("--resolution", options.options.resolution, "Width and height of each picture")
       ->range(16, 2048);
   add_environment_options(*command, options);
-  command->option_group(remap::kRareOptions);
+  command->option_group(kRareOptions);
   command->add_option("--distance", options.options.light.distance, "Distance of the light, in sphere radii");
   command
       ->add_option("--pixel-samples", options.options.samples_per_axis,
@@ -180,4 +180,4 @@ void add_preview_command(remap::Command& app) {
       "    -o preview.png");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,12 +2,12 @@
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "commands/renderer_options.hpp"
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/renderer.hpp"
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct RenderOptions {
@@ -44,7 +44,7 @@ void run(const RenderOptions& options) {
                                                    {"remap:light", light_name(options.scene.light)}};
   for (const auto& [name, values] : material.parameters) {
     std::string text;
-    for (const double value : values) text += (text.empty() ? "" : ",") + remap::number_text(value);
+    for (const double value : values) text += (text.empty() ? "" : ",") + number_text(value);
     attributes["remap:" + name] = text;
   }
   write_exr(options.output, image, attributes);
@@ -52,8 +52,8 @@ void run(const RenderOptions& options) {
 
 }  // namespace
 
-void add_render_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_render_command(Command& app) {
+  Command* command = app.add_subcommand(
       "render", "Render one picture of the sweep scene: a sphere under a point light", kMeasureStage);
   RenderOptions& options = set_work<RenderOptions>(*command, run);
   command->option_group("Material");
@@ -75,7 +75,7 @@ void add_render_command(remap::Command& app) {
   command->add_option("--resolution", options.scene.resolution, "Width and height in pixels");
   command->add_option("--pixel-samples", options.scene.samples_per_axis,
                       "N x N samples per pixel; 1: the pixel center");
-  command->option_group(remap::kRareOptions);
+  command->option_group(kRareOptions);
   command->add_option("--distance", options.scene.light.distance, "Distance of the light, in sphere radii");
   command->add_option("--seed", options.scene.seed, "Seed of renderers with noise");
   add_renderer_options(*command, options.renderers);
@@ -85,4 +85,4 @@ void add_render_command(remap::Command& app) {
       "    --set specular=0.9,0.6,0.2 --light 45 -o sphere.exr");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,9 +5,9 @@
 #include "command_line/run_app.hpp"
 #include "worker/renderer_set.hpp"
 
-namespace remapc {
+namespace remap {
 
-void add_renderer_options(remap::Command& app, RendererOptions& options) {
+void add_renderer_options(Command& app, RendererOptions& options) {
   app.option_group("Rare: external renderers (remapc renderers lists them)");
   app.add_option("--worker NAME=COMMAND", options.workers,
                  "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; "
@@ -25,11 +25,9 @@ void add_renderer_options(remap::Command& app, RendererOptions& options) {
 WorkerSettings worker_settings(const RendererOptions& options) {
   WorkerSettings settings = options.settings;
   if (!options.no_cache) settings.cache = options.cache.empty() ? default_cache_folder() : options.cache;
-  settings.limits.cancelled = &remap::interruption();
-  settings.on_start = remap::watch_interruptions;
-  settings.on_warning = [](const std::string& message) {
-    remap::print_message("remapc", "warning: " + message);
-  };
+  settings.limits.cancelled = &interruption();
+  settings.on_start = watch_interruptions;
+  settings.on_warning = [](const std::string& message) { print_message("remapc", "warning: " + message); };
   return settings;
 }
 
@@ -37,4 +35,4 @@ std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options) {
   return std::make_unique<RendererSet>(known_workers(options.workers), worker_settings(options));
 }
 
-}  // namespace remapc
+}  // namespace remap

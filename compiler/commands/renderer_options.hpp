@@ -10,7 +10,7 @@
 #include "command_line/command.hpp"
 #include "worker/renderer_set.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct RendererOptions {
   std::vector<std::string> workers;  // NAME=COMMAND
@@ -20,11 +20,11 @@ struct RendererOptions {
 };
 
 // Adds the options as a rare group. `options` must outlive the callback of `app`.
-void add_renderer_options(remap::Command& app, RendererOptions& options);
+void add_renderer_options(Command& app, RendererOptions& options);
 
 WorkerSettings worker_settings(const RendererOptions& options);
 
 // The built-in renderer and all known workers. Throws as known_workers() does.
 std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options);
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,12 +5,12 @@
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
+#include "core/json.hpp"
 #include "remap/error.hpp"
 #include "table/domain.hpp"
-#include "text/json.hpp"
 #include "worker/renderer_set.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct RenderersCommand {
@@ -18,13 +18,13 @@ struct RenderersCommand {
   bool json = false;
 };
 
-remap::Json model_json(const ModelDescription& model) {
-  remap::Json parameters;
+Json model_json(const ModelDescription& model) {
+  Json parameters;
   for (const ParameterDescription& parameter : model.parameters) {
     parameters[parameter.name] = {{"role", role_word(parameter.role)},
                                   {"range", {parameter.range.min, parameter.range.max}}};
     if (parameter.role == ParameterRole::kRoughness)
-      parameters[parameter.name]["convention"] = remap::convention_name(model.roughness);
+      parameters[parameter.name]["convention"] = convention_name(model.roughness);
     if (parameter.role == ParameterRole::kOther) parameters[parameter.name]["default"] = parameter.standard;
   }
   return {{"model", model.name}, {"noise", model.noise}, {"parameters", parameters}};
@@ -38,22 +38,22 @@ void print_model(const ModelDescription& model) {
 }
 
 void run(const RenderersCommand& command) {
-  remap::watch_interruptions();
+  watch_interruptions();
   WorkerSettings settings = worker_settings(command.renderers);
   settings.processes = 1;
-  remap::Json list = remap::Json::list();
+  Json list = Json::list();
   for (const WorkerEntry& entry : known_workers(command.renderers.workers)) {
     try {
       const WorkerRenderer renderer(entry, settings);
-      remap::Json models = remap::Json::list();
+      Json models = Json::list();
       if (!command.json) std::cout << entry.name << ": " << renderer.version() << "\n";
       for (const ModelDescription& model : renderer.models()) {
         models.push_back(model_json(model));
         if (!command.json) print_model(model);
       }
       list.push_back({{"name", entry.name}, {"version", renderer.version()}, {"models", models}});
-    } catch (const remap::Error& error) {
-      if (error.kind() != remap::ErrorKind::kInput) throw;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
       list.push_back({{"name", entry.name}, {"missing", error.what()}, {"install", entry.install}});
       if (command.json) continue;
       if (entry.install.empty())
@@ -67,8 +67,8 @@ void run(const RenderersCommand& command) {
 
 }  // namespace
 
-void add_renderers_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_renderers_command(Command& app) {
+  Command* command = app.add_subcommand(
       "renderers", "List the external renderers on this machine: versions, models, parameters",
       kRendererStage);
   RenderersCommand& options = set_work<RenderersCommand>(*command, run);
@@ -79,4 +79,4 @@ void add_renderers_command(remap::Command& app) {
   command->footer("Example:\n  remapc renderers");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,16 +2,16 @@
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
 #include "commands/option_readers.hpp"
-#include "sweep/material_sample.hpp"
+#include "measure/material_sample.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct SampleCommand : MeasurementOptions {
   MaterialSampleOptions sample;  // without the pair
 };
 
-remap::Range range_of(const ParameterSetting& setting) {
+Range range_of(const ParameterSetting& setting) {
   if (setting.values.size() != 2 || !(setting.values[0] < setting.values[1]))
     setting.fail("not a range (write NAME=MIN,MAX with MIN below MAX)");
   return {setting.values[0], setting.values[1]};
@@ -30,7 +30,7 @@ void run(const SampleCommand& command) {
 
 constexpr std::size_t kMostSamples = 1'000'000;
 
-void add_options(remap::Command& app, SampleCommand& command) {
+void add_options(Command& app, SampleCommand& command) {
   MaterialSampleOptions& sample = command.sample;
   command.add_table_options(app, "CSV table to write, with a column per parameter and channel");
   app.option_group("Materials");
@@ -40,8 +40,8 @@ void add_options(remap::Command& app, SampleCommand& command) {
          "--vary NAME", sample.varied,
          "Vary this parameter of the source in addition to roughness, specular and diffuse; may be repeated")
       ->allow_extra_args(false);
-  add_settings<remap::Range>(app, "--range NAME=MIN,MAX", sample.ranges, range_of,
-                             "Range of a parameter of the source, in its own unit; may be repeated");
+  add_settings<Range>(app, "--range NAME=MIN,MAX", sample.ranges, range_of,
+                      "Range of a parameter of the source, in its own unit; may be repeated");
   app.add_option(
          "--search NAME", sample.searched,
          "Match this parameter of the target in addition to roughness, specular and diffuse; may be repeated")
@@ -53,8 +53,8 @@ void add_options(remap::Command& app, SampleCommand& command) {
 
 }  // namespace
 
-void add_sample_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_sample_command(Command& app) {
+  Command* command = app.add_subcommand(
       "sample", "Match random materials of many parameters with the target model, and write the table",
       kMeasureStage);
   SampleCommand& options = set_work<SampleCommand>(*command, run);
@@ -68,4 +68,4 @@ void add_sample_command(remap::Command& app) {
       "    --search metallic --grey -o ggx_to_metallic.csv");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,7 +7,7 @@
 #include "command_line/progress.hpp"
 #include "remap/error.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Shows a progress line `<command> <subject>` while it exists, and makes signals (interruption.hpp) stop the
 // work. Pass it by std::ref where a FitProgress is expected.
@@ -15,20 +15,19 @@ class ShareProgress {
  public:
   ShareProgress(const std::string& command, const std::string& subject)
       : command_(command), progress_(command + " " + subject, kUnits) {
-    remap::watch_interruptions();
+    watch_interruptions();
   }
 
   // `share` of the work is finished, 0 to 1. Throws kInterrupted after a signal.
   void operator()(double share) {
-    if (remap::interruption())
-      throw remap::Error(remap::ErrorKind::kInterrupted, command_ + ": interrupted; nothing was written");
+    if (interruption()) throw Error(ErrorKind::kInterrupted, command_ + ": interrupted; nothing was written");
     progress_.advance_to(static_cast<std::size_t>(static_cast<double>(kUnits) * share));
   }
 
  private:
   static constexpr std::size_t kUnits = 1000;
   std::string command_;
-  remap::Progress progress_;
+  Progress progress_;
 };
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,24 +4,22 @@
 #include <iomanip>
 #include <iostream>
 
+#include "build/fit_folder.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
-#include "fit/rows/split.hpp"
-#include "manifest/fit_folder.hpp"
-#include "model/fit_file.hpp"
-#include "model/interpreter.hpp"
-#include "model/inverse.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+#include "lower/fit_file.hpp"
+#include "lower/interpreter.hpp"
+#include "lower/inverse.hpp"
 #include "remap/error.hpp"
 #include "table/domain.hpp"
 #include "table/light.hpp"
-#include "text/number_text.hpp"
-#include "text/report_text.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 struct ShowOptions {
   std::filesystem::path fit_folder = "fits";
@@ -29,11 +27,11 @@ struct ShowOptions {
   bool json = false;
 };
 
-std::string side_text(const remap::ModelSide& side) {
-  return side.model + " (" + std::string(remap::convention_name(side.roughness)) + ", " + side.specular + ")";
+std::string side_text(const ModelSide& side) {
+  return side.model + " (" + std::string(convention_name(side.roughness)) + ", " + side.specular + ")";
 }
 
-std::string figures_text(const remap::ErrorFigures& f, const std::string& p99 = "99 %") {
+std::string figures_text(const ErrorFigures& f, const std::string& p99 = "99 %") {
   return "rms " + error_text(f.rms) + ", " + p99 + " " + error_text(f.p99) + ", max " + error_text(f.max);
 }
 
@@ -56,7 +54,7 @@ std::string specular_power(std::size_t power) {
   return power == 1 ? " s" : " s^" + std::to_string(power);
 }
 
-std::string curve_text(const remap::AlphaCurve& curve) {
+std::string curve_text(const AlphaCurve& curve) {
   std::string text = curve.start == 0.0 ? "" : summand(curve.start, true);
   const auto add = [&](double coefficient, const std::string& function) {
     if (coefficient != 0.0) text += summand(coefficient, text.empty()) + " " + function;
@@ -69,14 +67,14 @@ std::string curve_text(const remap::AlphaCurve& curve) {
 
 std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
 
-std::string series_text(const remap::TexelSeries& series) {
+std::string series_text(const TexelSeries& series) {
   return "a Chebyshev series, degree " + std::to_string(series.coefficients.front().size() - 1) +
          " in alpha, " + std::to_string(series.coefficients.size() - 1) + " in specular";
 }
 
 // Prints a mapping as formulas of a = alpha1 and s = specular1.
 struct PrintMapping {
-  void operator()(const remap::Parametric& form) const {
+  void operator()(const Parametric& form) const {
     for (std::size_t j = 0; j < form.alpha.size(); ++j) {
       std::cout << (j == 0 ? "  alpha2 = (" : "\n         + (");
       for (std::size_t i = 0; i < form.alpha[j].size(); ++i)
@@ -91,56 +89,56 @@ struct PrintMapping {
     }
     std::cout << "  phi(c, x) = (1 - exp(-c x)) / c\n";
   }
-  void operator()(const remap::Svr& svr) const {
+  void operator()(const Svr& svr) const {
     print("alpha2", svr.alpha);
     print("specular2", svr.specular);
   }
-  void operator()(const remap::Mlp& mlp) const {
+  void operator()(const Mlp& mlp) const {
     print("alpha2", mlp.alpha);
     print("specular2", mlp.specular);
   }
-  void operator()(const remap::Series& series) const {
+  void operator()(const Series& series) const {
     print("alpha2", series.alpha);
     print("specular2", series.specular);
   }
-  void operator()(const remap::Chain& chain) const {
-    for (const remap::ChainStep& step : chain.steps) {
+  void operator()(const Chain& chain) const {
+    for (const ChainStep& step : chain.steps) {
       std::cout << "  " << step.id << "\n";
       std::visit(*this, step.mapping);
     }
   }
 
  private:
-  static void print(const std::string& output, const remap::KernelExpansion& expansion) {
+  static void print(const std::string& output, const KernelExpansion& expansion) {
     std::cout << "  " << output << ": " << expansion.count() << " Gaussians of "
               << inputs_text(expansion.inputs.size()) << ", gamma " << number_text(expansion.gamma) << "\n";
   }
-  static void print(const std::string& output, const remap::Network& network) {
+  static void print(const std::string& output, const Network& network) {
     std::cout << "  " << output << ": a network of " << inputs_text(network.inputs.size()) << ", layers";
-    for (const remap::Layer& layer : network.layers) std::cout << " " << layer.output_count();
+    for (const Layer& layer : network.layers) std::cout << " " << layer.output_count();
     std::cout << ", " << activation_name(network.activation) << "\n";
   }
-  static void print(const std::string& output, const remap::TexelSeries& series) {
+  static void print(const std::string& output, const TexelSeries& series) {
     std::cout << "  " << output << ": " << series_text(series) << "\n";
   }
 };
 
-std::string percent_text(double share) { return number_text(remap::rounded_up(100.0 * share, 2)) + " %"; }
+std::string percent_text(double share) { return number_text(rounded_up(100.0 * share, 2)) + " %"; }
 
 // The shares of the domain in which the target is at no limit, at that of alpha, at that of specular, and at
 // both.
-std::array<double, 4> regime_shares(const remap::Fit& fit) {
+std::array<double, 4> regime_shares(const Fit& fit) {
   constexpr int kSteps = 100;
   constexpr double kAtLimit = 1.0 - 1e-9;
-  const remap::Regimes& regimes = fit.regimes;
+  const Regimes& regimes = fit.regimes;
   std::array<double, 4> shares{};
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
-      const auto middle = [](const remap::Range& range, int step) {
+      const auto middle = [](const Range& range, int step) {
         return range.min + (range.max - range.min) * (step + 0.5) / kSteps;
       };
-      const remap::MappedTexel texel =
-          remap::evaluate_fit(fit, middle(fit.domain.alpha, i), middle(fit.domain.specular, j));
+      const MappedTexel texel =
+          evaluate_fit(fit, middle(fit.domain.alpha, i), middle(fit.domain.specular, j));
       const bool is_wide = texel.alpha >= regimes.alpha_limit * kAtLimit,
                  is_bright = regimes.specular_limit && texel.specular >= *regimes.specular_limit * kAtLimit;
       shares[(is_wide ? 1 : 0) + (is_bright ? 2 : 0)] += 1.0 / (kSteps * kSteps);
@@ -148,55 +146,55 @@ std::array<double, 4> regime_shares(const remap::Fit& fit) {
   return shares;
 }
 
-void print_regimes(const remap::Fit& fit) {
-  const remap::Regimes& regimes = fit.regimes;
+void print_regimes(const Fit& fit) {
+  const Regimes& regimes = fit.regimes;
   const std::array<double, 4> shares = regime_shares(fit);
   if (shares[0] > 1.0 - 1e-9) return;
   std::cout << "At the limits of " << fit.target.model << ", in shares of the domain\n  neither "
             << percent_text(shares[0]) << "\n  alpha " << number_text(regimes.alpha_limit) << ": "
             << percent_text(shares[1]);
   if (regimes.wide)
-    std::cout << "; from alpha1 " << number_text(remap::rounded_up(regimes.wide->specular.alpha.min, 3))
+    std::cout << "; from alpha1 " << number_text(rounded_up(regimes.wide->specular.alpha.min, 3))
               << ", specular2 is " << series_text(regimes.wide->specular);
   if (regimes.specular_limit)
     std::cout << "\n  " << fit.target.specular << " " << number_text(*regimes.specular_limit) << ": "
               << percent_text(shares[2]);
   if (regimes.bright)
-    std::cout << "; from specular1 " << number_text(remap::rounded_up(regimes.bright->specular.min, 3))
+    std::cout << "; from specular1 " << number_text(rounded_up(regimes.bright->specular.min, 3))
               << ", alpha2 is " << series_text(*regimes.bright);
   std::cout << "\n  both " << percent_text(shares[3]) << "\n";
 }
 
-void print_method(const remap::Fit& fit) {
+void print_method(const Fit& fit) {
   if (!fit.method.empty()) std::cout << "Method\n";
   print_entries(fit.method);
   if (!fit.candidates.empty())
     std::cout << "Compared with\n" << candidate_text(fit.candidates, fit.target.specular);
 }
 
-std::string rows_text(const remap::Fit& fit) {
+std::string rows_text(const Fit& fit) {
   if (fit.split.held_out_rows == 0) return "its steps (errors propagated)";
   return "its table: " + std::to_string(fit.split.held_out_rows) + " rows held out (" +
          std::to_string(fit.split.trained_rows) + " trained, seed " + std::to_string(fit.split.seed) + ")";
 }
 
-void print_lowering(const remap::Fit& fit) {
+void print_lowering(const Fit& fit) {
   if (!fit.converter) {
     std::cout << "No header: the fit could not be lowered (remapc fit --lower)\n";
     return;
   }
-  const remap::Lowered& lowered = fit.converter->lowered;
+  const Lowered& lowered = fit.converter->lowered;
   std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha_bound())
             << ", " << fit.target.specular << " within " << error_text(lowered.specular_bound())
             << (lowered.wide || lowered.bright ? " (proven; at joints of regimes sampled)\n" : " (proven)\n");
 }
 
 // Prints the round trip through the inverse converter in `folder`, if there is one.
-void print_round_trip(const remap::Fit& fit, const std::filesystem::path& folder) {
-  const auto path = folder / (remap::converter_id(fit.target.model, fit.source.model) + ".json");
+void print_round_trip(const Fit& fit, const std::filesystem::path& folder) {
+  const auto path = folder / (converter_id(fit.target.model, fit.source.model) + ".json");
   if (!std::filesystem::is_regular_file(path)) return;
-  const remap::Fit back = remap::load_fit(path);
-  const remap::RoundTrip trip = remap::round_trip(fit, back);
+  const Fit back = load_fit(path);
+  const RoundTrip trip = round_trip(fit, back);
   std::cout << "Round trip through " << back.id << "\n";
   if (trip.share == 0.0) {
     std::cout << "  the domains do not overlap\n";
@@ -208,17 +206,17 @@ void print_round_trip(const remap::Fit& fit, const std::filesystem::path& folder
   };
   print("alpha", trip.alpha_median, trip.alpha_p99);
   print(fit.source.specular, trip.specular_median, trip.specular_p99);
-  if (!remap::returns(trip))
+  if (!returns(trip))
     std::cout << "  (!) does not return to the start: the models differ, so each direction has its own best "
                  "match\n";
 }
 
 // Prints the three sources of error: difference of the models, of fit and table, of header and fit.
-void print_trust(const remap::Fit& fit) {
+void print_trust(const Fit& fit) {
   if (fit.image_similarity) {
     std::cout << "Difference of the models at the best match\n  picture "
               << figures_text(fit.image_similarity->image_error) << ", relative to the source picture\n";
-    for (const remap::SphereSimilarity& sphere : fit.image_similarity->ssim)
+    for (const SphereSimilarity& sphere : fit.image_similarity->ssim)
       std::cout << "  sphere  SSIM " << std::fixed << std::setprecision(3) << sphere.ssim << " at alpha "
                 << std::defaultfloat << number_text(sphere.alpha) << "\n";
   } else {
@@ -234,7 +232,7 @@ void print_trust(const remap::Fit& fit) {
   print_lowering(fit);
 }
 
-void show_card(const remap::Fit& fit, const ShowOptions& options) {
+void show_card(const Fit& fit, const ShowOptions& options) {
   std::cout << fit.id << "\n"
             << "  from    " << side_text(fit.source) << "\n"
             << "  to      " << side_text(fit.target) << "\n"
@@ -253,14 +251,14 @@ void show_card(const remap::Fit& fit, const ShowOptions& options) {
   print_entries(fit.table.comments);
 }
 
-void print_parameters(const std::string& title, const std::vector<remap::MaterialParameter>& parameters) {
+void print_parameters(const std::string& title, const std::vector<MaterialParameter>& parameters) {
   std::cout << title << "\n";
-  for (const remap::MaterialParameter& parameter : parameters)
+  for (const MaterialParameter& parameter : parameters)
     std::cout << "  " << std::left << std::setw(11) << parameter.name
               << (parameter.channel_count == 3 ? "RGB, " : "") << parameter.meaning << ", 0 to 1\n";
 }
 
-void print_training(const remap::NetworkTraining& training) {
+void print_training(const NetworkTraining& training) {
   std::cout << "Errors on " << training.split.held_out_rows << " rows held out of training (seed "
             << training.split.seed << ")\n  base color  " << figures_text(training.base_color, "p99")
             << "\n  metallic     " << figures_text(training.metallic, "p99") << "\nTraining\n";
@@ -269,12 +267,12 @@ void print_training(const remap::NetworkTraining& training) {
   print_entries(training.table.comments);
 }
 
-void show_card(const remap::WorkflowFit& fit, const ShowOptions&) {
-  const remap::WorkflowConversion& conversion = fit.conversion;
+void show_card(const WorkflowFit& fit, const ShowOptions&) {
+  const WorkflowConversion& conversion = fit.conversion;
   std::cout << fit.id << "\n"
             << "  from    " << conversion.source_model() << "\n"
             << "  to      " << conversion.target_model() << "\n"
-            << "  kind    " << remap::material_kind(fit) << ", by remapc " << fit.tool_version << "\n"
+            << "  kind    " << material_kind(fit) << ", by remapc " << fit.tool_version << "\n"
             << "  F0 of a dielectric " << number_text(conversion.metallic.dielectric_f0) << "; diffuse "
             << diffuse_convention_name(conversion.specular.diffuse) << " in the specular workflow, "
             << diffuse_convention_name(conversion.metallic.diffuse) << " in the metallic one\n";
@@ -285,13 +283,13 @@ void show_card(const remap::WorkflowFit& fit, const ShowOptions&) {
   if (fit.training) print_training(*fit.training);
 }
 
-void show_card(const remap::WarpMapFit& fit, const ShowOptions&) {
-  const remap::ParameterTable& table = fit.warp.table;
+void show_card(const WarpMapFit& fit, const ShowOptions&) {
+  const ParameterTable& table = fit.warp.table;
   std::cout << fit.id << "\n  from    " << fit.source_model << "\n  to      " << fit.template_model
-            << "\n  kind    " << remap::kWarpKind << ", by remapc " << fit.tool_version << "\n";
+            << "\n  kind    " << kWarpKind << ", by remapc " << fit.tool_version << "\n";
   print_remarks(fit.remarks);
-  const bool quadratic = std::holds_alternative<remap::QuadraticTerms>(fit.warp.coordinates.terms),
-             copied = std::holds_alternative<remap::CopiedNodes>(table.entries);
+  const bool quadratic = std::holds_alternative<QuadraticTerms>(fit.warp.coordinates.terms),
+             copied = std::holds_alternative<CopiedNodes>(table.entries);
   std::cout << "Mapping\n  " << fit.warp.coordinates.dimension << " appearance coordinates, "
             << (quadratic ? "quadratic" : "in closed form") << "; " << table.nodes << " nodes each, "
             << (copied ? "nearest copied" : "blended") << "; " << byte_count(fit.warp) << " bytes\n";
@@ -302,16 +300,16 @@ void show_card(const remap::WarpMapFit& fit, const ShowOptions&) {
   print_entries(fit.method);
 }
 
-void warn_of_light(const remap::Fit& fit) {
+void warn_of_light(const Fit& fit) {
   const Comments comments(fit.table.comments.begin(), fit.table.comments.end());
   if (const auto remark = light_remark(light_match(comments)))
-    remap::print_message("remapc", "warning: " + fit.id + ": " + remark->text);
+    print_message("remapc", "warning: " + fit.id + ": " + remark->text);
 }
-void warn_of_light(const remap::WorkflowFit&) {}
-void warn_of_light(const remap::WarpMapFit&) {}
+void warn_of_light(const WorkflowFit&) {}
+void warn_of_light(const WarpMapFit&) {}
 
 void show(const ShowOptions& options) {
-  const remap::AnyFit fit = find_any_fit(options.fit, options.fit_folder);
+  const AnyFit fit = find_any_fit(options.fit, options.fit_folder);
   std::visit(
       [&](const auto& any) {
         if (options.json)
@@ -325,8 +323,8 @@ void show(const ShowOptions& options) {
 
 }  // namespace
 
-void add_show_command(remap::Command& app) {
-  remap::Command* command =
+void add_show_command(Command& app) {
+  Command* command =
       app.add_subcommand("show", "Show a fit: models, domain, errors, mapping and its table", kLookStage);
   ShowOptions& options = set_work<ShowOptions>(*command, show);
   command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
@@ -337,4 +335,4 @@ void add_show_command(remap::Command& app) {
   command->footer("Example:\n  remapc show mitsuba_ward_to_mitsuba_as");
 }
 
-}  // namespace remapc
+}  // namespace remap

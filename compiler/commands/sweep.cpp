@@ -1,5 +1,5 @@
 // `remapc sweep` matches a grid of materials of two models and writes a table.
-#include "sweep/sweep.hpp"
+#include "measure/sweep.hpp"
 
 #include <iostream>
 #include <optional>
@@ -8,20 +8,18 @@
 #include "commands/measurement.hpp"
 #include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
-#include "sweep/provenance.hpp"
-#include "text/number_text.hpp"
+#include "core/number_text.hpp"
+#include "measure/provenance.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 struct SweepCommand : MeasurementOptions {
   SweepOptions sweep;  // without the pair and the samples
   std::size_t roughness_samples = 30, specular_samples = 30;
-  remap::Range roughness_range{0.01, 1.0};
-  std::optional<remap::Range> specular_range;  // none: the model's
-  TableInput samples_of;                       // without a path: a grid
+  Range roughness_range{0.01, 1.0};
+  std::optional<Range> specular_range;  // none: the model's
+  TableInput samples_of;                // without a path: a grid
 };
 
 void choose_samples(const SweepCommand& command, const Renderer& renderer, SweepOptions* options) {
@@ -32,8 +30,8 @@ void choose_samples(const SweepCommand& command, const Renderer& renderer, Sweep
                         std::filesystem::path(command.samples_of.path).filename().string();
     return;
   }
-  const remap::Range alphas = command.roughness_range;
-  const remap::Range speculars =
+  const Range alphas = command.roughness_range;
+  const Range speculars =
       command.specular_range
           ? *command.specular_range
           : canonical_speculars(renderer, recast(renderer.model(options->source), options->source_roles));
@@ -47,7 +45,7 @@ void warn_of_subpixel(const Table& table, const SweepOptions& options) {
   for (const TableRow& row : table.rows) rows += row.alpha1 < limit ? 1 : 0;
   if (rows != 0)
     std::cerr << "remapc: warning: " << rows << " rows have alpha1 below "
-              << number_text(remap::rounded_up(limit, 2))
+              << number_text(rounded_up(limit, 2))
               << ", where the highlight is smaller than a pixel (increase --resolution or --pixel-samples)\n";
 }
 
@@ -65,7 +63,7 @@ void run(const SweepCommand& command) {
 
 constexpr int kMostSamples = 4096;  // of each axis
 
-void add_sample_options(remap::Command& app, SweepCommand& command) {
+void add_sample_options(Command& app, SweepCommand& command) {
   app.option_group("Samples");
   app.add_option("--roughness-samples", command.roughness_samples, "Number of source alphas")
       ->range(1, kMostSamples);
@@ -81,11 +79,11 @@ void add_sample_options(remap::Command& app, SweepCommand& command) {
                  "Use the samples of this table instead of a grid");
 }
 
-void add_options(remap::Command& app, SweepCommand& command) {
+void add_options(Command& app, SweepCommand& command) {
   command.add_table_options(app, "CSV table to write");
   add_sample_options(app, command);
   command.add_picture_options(app);
-  app.option_group(remap::kRareOptions);
+  app.option_group(kRareOptions);
   app.add_option("--columns MAP", command.samples_of.columns, columns_reader(),
                  "Names of columns in the table of --samples-of: sztrajman-2019, or OWN=FILE,...");
   app.add_option("--stages", command.sweep.stages,
@@ -97,8 +95,8 @@ void add_options(remap::Command& app, SweepCommand& command) {
 
 }  // namespace
 
-void add_sweep_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_sweep_command(Command& app) {
+  Command* command = app.add_subcommand(
       "sweep", "Match a grid of source materials with the target model, and write the table", kMeasureStage);
   SweepCommand& options = set_work<SweepCommand>(*command, run);
   add_options(*command, options);
@@ -111,4 +109,4 @@ void add_sweep_command(remap::Command& app) {
       "    --target mitsuba/ggx -o half_metal.csv");
 }
 
-}  // namespace remapc
+}  // namespace remap

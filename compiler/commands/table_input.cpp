@@ -3,12 +3,12 @@
 #include <utility>
 
 #include "command_line/command.hpp"
-#include "system/files.hpp"
+#include "core/files.hpp"
 
-namespace remapc {
+namespace remap {
 
-void TableInput::add_options(remap::Command& app, bool is_required) {
-  remap::Option* table = app.add_option("table", path, "CSV table, of remapc sweep or of another program");
+void TableInput::add_options(Command& app, bool is_required) {
+  Option* table = app.add_option("table", path, "CSV table, of remapc sweep or of another program");
   if (is_required) table->required();
   app.option_group("Input");
   app.add_option("--columns MAP", columns, columns_reader(),
@@ -18,14 +18,14 @@ void TableInput::add_options(remap::Command& app, bool is_required) {
 }
 
 Table TableInput::read(std::string* bytes) const {
-  std::string content = remap::read_file(path);
+  std::string content = read_file(path);
   Table table = with_models(parse_table(content, path, columns));
   if (bytes != nullptr) *bytes = std::move(content);
   return table;
 }
 
 AnyTable TableInput::read_any(std::string* bytes) const {
-  std::string content = remap::read_file(path);
+  std::string content = read_file(path);
   AnyTable table = parse_any_table(content, path, columns);
   if (Table* sweep = std::get_if<Table>(&table)) *sweep = with_models(std::move(*sweep));
   if (bytes != nullptr) *bytes = std::move(content);
@@ -38,13 +38,13 @@ Table TableInput::with_models(Table table) const {
   return table;
 }
 
-remap::Reader<ColumnMap> columns_reader() {
+Reader<ColumnMap> columns_reader() {
   return {[](const std::string&, const std::string& word) { return column_map(word); }, {}};
 }
 
-void add_accept_light_flag(remap::Command& app, bool& accept_light) {
+void add_accept_light_flag(Command& app, bool& accept_light) {
   app.add_flag("--accept-light", accept_light,
                "Go on where the source's light is rescaled so that specular changes by more than 5 %");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,7 +6,7 @@
 #include "command_line/command.hpp"
 #include "table/material_table.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct TableInput {
   std::string path;
@@ -14,7 +14,7 @@ struct TableInput {
   std::string source, target;  // models; empty: as the table names them
 
   // `is_required`: whether the command needs a table.
-  void add_options(remap::Command& app, bool is_required = true);
+  void add_options(Command& app, bool is_required = true);
 
   // Reads the file once. `bytes`, if not null, receives its content. Throws kInput and kUsage as parse_table
   // does; a table of named parameters is an error.
@@ -27,9 +27,9 @@ struct TableInput {
 };
 
 // Reads --columns.
-remap::Reader<ColumnMap> columns_reader();
+Reader<ColumnMap> columns_reader();
 
 // Adds --accept-light, for what light_remark() (table/light.hpp) calls an error.
-void add_accept_light_flag(remap::Command& app, bool& accept_light);
+void add_accept_light_flag(Command& app, bool& accept_light);
 
-}  // namespace remapc
+}  // namespace remap

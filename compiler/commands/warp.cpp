@@ -7,20 +7,20 @@
 
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
-#include "model/fit_file.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+#include "lower/fit_file.hpp"
 #include "remap/version.hpp"
 #include "report/warp_report.hpp"
-#include "system/files.hpp"
-#include "text/errors.hpp"
-#include "text/json.hpp"
-#include "text/number_text.hpp"
-#include "text/report_text.hpp"
-#include "warp/input/copied_set.hpp"
-#include "warp/input/strokes.hpp"
-#include "warp/input/tabulated_set.hpp"
-#include "warp/input/texture_material.hpp"
+#include "warp/copied_set.hpp"
+#include "warp/strokes.hpp"
+#include "warp/tabulated_set.hpp"
+#include "warp/texture_material.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 struct WarpCommand {
@@ -53,11 +53,11 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& s
 }
 
 WarpOptions options_of(const WarpCommand& command, AppearanceDistance usual) {
-  return {remap::value_named(kAppearanceDistances, command.distance).value_or(usual), command.exact};
+  return {value_named(kAppearanceDistances, command.distance).value_or(usual), command.exact};
 }
 
-remap::WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t stroke_count) {
-  remap::WarpMapFit file;
+WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t stroke_count) {
+  WarpMapFit file;
   file.id = command.output.empty() ? "warp" : command.output.stem().string();
   file.source_model = command.source_model;
   file.template_model = command.target_model;
@@ -68,11 +68,11 @@ remap::WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::
                  {"source", std::filesystem::path(command.source).filename().string()},
                  {"template", std::filesystem::path(command.target).filename().string()}};
   file.remarks = warnings_of(fit.diagnostics);
-  file.tool_version = remap::kVersion;
+  file.tool_version = kVersion;
   return file;
 }
 
-WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::WarpMapFit& file) {
+WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const WarpMapFit& file) {
   const WarpDiagnostics& found = fit.diagnostics;
   return {
       "Warp " + file.id,
@@ -92,7 +92,7 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
       static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
 }
 
-remap::Json report_of(const WarpDiagnostics& found) {
+Json report_of(const WarpDiagnostics& found) {
   return {{"dimensions", found.dimensions},
           {"source_dimensions", found.source_dimensions},
           {"template_dimensions", found.target_dimensions},
@@ -118,13 +118,13 @@ void print_words(const std::filesystem::path& name, const WarpDiagnostics& found
             << ", folds " << percent(found.fold_share) << ", distance of strokes "
             << percent(found.stroke_distance) << " of the template's spread\n"
             << more;
-  for (const std::string& warning : warnings_of(found)) remap::print_message("remapc", "warning: " + warning);
+  for (const std::string& warning : warnings_of(found)) print_message("remapc", "warning: " + warning);
 }
 
 void require_outputs(const WarpCommand& command) {
   if (command.output.empty() && command.copy.empty())
     throw usage_error("--output is required (or --copy FOLDER)");
-  if (!command.output.empty() && !remap::is_valid_id(command.output.stem().string()))
+  if (!command.output.empty() && !is_valid_id(command.output.stem().string()))
     throw usage_error("--output: " + command.output.string() +
                       " is not usable as an id (use letters, digits and single underscores before .json)");
   if (!command.report.empty()) require_report_path(command.report);
@@ -140,13 +140,13 @@ void warp_textures(const WarpCommand& command) {
   const WarpFit fit =
       fit_warp(source.material, target.material, strokes, options_of(command, AppearanceDistance::kRelative));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  remap::WarpMapFit file = fit_file(command, fit, strokes.size());
-  if (source.is_albedo) file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
-  file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
+  WarpMapFit file = fit_file(command, fit, strokes.size());
+  if (source.is_albedo) file.method[kWarpSourceMaps] = kDiffuseAlone;
+  file.copy_rms_error = rounded_up(copy_rms_error(fit, source.material, target.material), 3);
 
-  remap::Json json;
+  Json json;
   if (!command.output.empty()) {
-    remap::write_file(command.output, fit_to_json(file));
+    write_file(command.output, fit_to_json(file));
     json["fit"] = command.output.string();
   }
   if (!command.copy.empty())
@@ -215,8 +215,7 @@ void warp_tables(const WarpCommand& command) {
       write_copied_set(command.copy, copy_exactly(match, from, to), frame_of(source),
                        {to, frame_of(target), table != nullptr ? table->table : std::filesystem::path()});
   if (!command.json) return print_words(command.copy, match.diagnostics);
-  remap::Json json = {{"diagnostics", report_of(match.diagnostics)},
-                      {"warnings", warnings_of(match.diagnostics)}};
+  Json json = {{"diagnostics", report_of(match.diagnostics)}, {"warnings", warnings_of(match.diagnostics)}};
   for (const std::filesystem::path& file : files) json["files"].push_back(file.string());
   std::cout << json.dump(2) << "\n";
 }
@@ -228,7 +227,7 @@ void run(const WarpCommand& command) {
     warp_textures(command);
 }
 
-void add_stroke_options(remap::Command& app, WarpCommand& command) {
+void add_stroke_options(Command& app, WarpCommand& command) {
   app.option_group("Strokes");
   app.add_option(
          "--strokes SOURCE_IMAGE TEMPLATE_IMAGE", command.paintings,
@@ -243,22 +242,22 @@ void add_stroke_options(remap::Command& app, WarpCommand& command) {
       ->delimiter(' ');
 }
 
-void add_model_options(remap::Command& app, WarpCommand& command) {
+void add_model_options(Command& app, WarpCommand& command) {
   app.option_group("Models");
   app.add_option("--source-model MODEL", command.source_model, "BRDF model of the source's maps");
   app.add_option("--template-model MODEL", command.target_model,
                  "BRDF model of the template's maps and of the result");
   app.add_flag("--exact", command.exact, "Copy texels of the template instead of blending them");
-  app.option_group(remap::kRareOptions);
+  app.option_group(kRareOptions);
   app.add_option("--distance", command.distance,
                  "Distance between reflectances (default: relative; plain for scattering profiles)")
-      ->one_of(remap::names_of(kAppearanceDistances));
+      ->one_of(names_of(kAppearanceDistances));
 }
 
 }  // namespace
 
-void add_warp_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
+void add_warp_command(Command& app) {
+  Command* command = app.add_subcommand(
       "warp", "Give one texture set the reflectance of another, guided by strokes (An et al. 2011)",
       kWarpStage);
   WarpCommand& options = set_work<WarpCommand>(*command, run);
@@ -284,4 +283,4 @@ void add_warp_command(remap::Command& app) {
       "    --stroke brown_body.png green_body.png -o leaf.json");
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -1,4 +1,4 @@
-// The domain rule as C++: the text of runtime/convert/code, which texremap also runs over vectors of texels,
+// The domain rule as C++: the text of runtime/stages/code, which texremap also runs over vectors of texels,
 // with the definitions that this text needs.
 #include <limits>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // What the rule needs of one converter.
@@ -64,7 +64,7 @@ std::string limit_literal(const std::optional<float>& limit) {
 }
 
 // Calls the function of a regime; one that a table does not have continues the mapping.
-std::string regime_call(const std::string& name, const std::optional<remap::LoweredSeries>& regime,
+std::string regime_call(const std::string& name, const std::optional<LoweredSeries>& regime,
                         const std::string& otherwise) {
   if (!regime) return otherwise;
   const auto held = [](const std::string& value, float least) {
@@ -74,7 +74,7 @@ std::string regime_call(const std::string& name, const std::optional<remap::Lowe
          held("specular", regime->specular_from) + ")";
 }
 
-std::string regime_functions(const remap::Lowered& lowered) {
+std::string regime_functions(const Lowered& lowered) {
   const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
   const auto wide = lowered.wide ? std::optional(lowered.wide->specular) : std::nullopt;
   std::optional<float> mapping_to;
@@ -96,11 +96,11 @@ struct RuleParts {
   std::string functions, loops;
 };
 
-bool alpha_depends_on_specular(const remap::Lowered& lowered) {
+bool alpha_depends_on_specular(const Lowered& lowered) {
   return lowered.alpha.polynomial.degrees.size() > 1 || lowered.bright.has_value();
 }
 
-RuleParts parts_of(const remap::ConverterData& converter, const MappingCode& code) {
+RuleParts parts_of(const ConverterData& converter, const MappingCode& code) {
   const std::string by_specular = alpha_depends_on_specular(converter.lowered) ? "true" : "false";
   switch (code.form) {
     case CodeForm::kProportional:
@@ -121,7 +121,7 @@ RuleParts parts_of(const remap::ConverterData& converter, const MappingCode& cod
 
 }  // namespace
 
-std::string block_code(const remap::ConverterData& converter, const std::string& specular_name,
+std::string block_code(const ConverterData& converter, const std::string& specular_name,
                        const MappingCode& code) {
   const RuleParts parts = parts_of(converter, code);
   return code_files({"lanes", "domain"}) + (code.form == CodeForm::kRegimes ? code_files({"limits"}) : "") +
@@ -135,4 +135,4 @@ std::string block_code(const remap::ConverterData& converter, const std::string&
          code_files({"count_outside"}) + parts.loops;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,17 +2,14 @@
 #include <algorithm>
 #include <array>
 
+#include "core/number_text.hpp"
 #include "emit/convention_text.hpp"
 #include "emit/emit.hpp"
 #include "emit/header_data.hpp"
 #include "remap/error.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Fit;
-using remap::number_text;
 
 // Refuses names of variables of the template: with such a parameter the header would not compile.
 void require_free_name(const std::string& name) {
@@ -20,16 +17,16 @@ void require_free_name(const std::string& name) {
                                                        "out",    "from",   "to",    "row", "widths",
                                                        "detail", "golden", "passed"};
   if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return;
-  throw remap::Error(remap::ErrorKind::kInput, "emit: the specular parameter " + name +
-                                                   " has the name of a variable of the header (rename it)");
+  throw Error(ErrorKind::kInput, "emit: the specular parameter " + name +
+                                     " has the name of a variable of the header (rename it)");
 }
 
-std::string error_text(const std::string& name, const remap::ErrorFigures& figures) {
+std::string error_text(const std::string& name, const ErrorFigures& figures) {
   return name + " rms " + two_digits(figures.rms) + ", 99 % " + two_digits(figures.p99) + ", max " +
          two_digits(figures.max);
 }
 
-std::string range_text(const std::string& name, const remap::Range& range) {
+std::string range_text(const std::string& name, const Range& range) {
   return name + " " + number_text(range.min) + " to " + number_text(range.max);
 }
 
@@ -61,7 +58,7 @@ std::string provenance(const Fit& fit, const std::string& description) {
          range_text(fit.source.specular, fit.domain.specular) + ".";
 }
 
-HeaderEnd end_of(const remap::ModelSide& side) {
+HeaderEnd end_of(const ModelSide& side) {
   require_free_name(side.specular);
   return {
       side.model,
@@ -73,7 +70,7 @@ HeaderEnd end_of(const remap::ModelSide& side) {
 }  // namespace
 
 HeaderData describe(const Fit& fit) {
-  const remap::ConverterData& converter = require_converter(fit);
+  const ConverterData& converter = require_converter(fit);
   HeaderData data;
   data.id = fit.id;
   data.title = fit.source.model + " to " + fit.target.model +
@@ -81,11 +78,11 @@ HeaderData describe(const Fit& fit) {
   data.provenance = provenance(fit, mapping_text(converter.lowered));
   data.source = end_of(fit.source);
   data.target = end_of(fit.target);
-  for (const remap::GoldenTexel& g : converter.golden)
+  for (const GoldenTexel& g : converter.golden)
     data.golden.push_back(
         {{g.width, g.specular}, {g.width_out, g.specular_out}, {g.width_within, g.specular_within}});
   data.code = converter;
   return data;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,19 +3,16 @@
 #include <array>
 #include <cmath>
 
+#include "core/report_text.hpp"
 #include "emit/header_data.hpp"
-#include "text/report_text.hpp"
-#include "workflow/conversion.hpp"
+#include "stages/conversion.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
-using remap::WarpTexel;
-using remap::WorkflowConversion;
-
 HeaderEnd end_of(const std::string& model, const std::string& workflow, std::string_view diffuse,
-                 std::vector<remap::MaterialParameter> parameters) {
-  for (remap::MaterialParameter& parameter : parameters) parameter.meaning += ", 0 to 1";
+                 std::vector<MaterialParameter> parameters) {
+  for (MaterialParameter& parameter : parameters) parameter.meaning += ", 0 to 1";
   return {model, std::move(parameters), workflow, std::string(diffuse)};
 }
 
@@ -25,34 +22,34 @@ std::string title_of(const HeaderEnd& source, const HeaderEnd& target) {
 }
 
 // Metallic materials over the range: dielectrics, metals, blends, dark and bright.
-std::vector<remap::MetallicMaterial> golden_materials() {
+std::vector<MetallicMaterial> golden_materials() {
   return {{{0.5f, 0.25f, 0.125f}, 0.0f, 0.5f},           {{1.0f, 0.75f, 0.375f}, 1.0f, 0.25f},
           {{0.75f, 0.5f, 0.25f}, 0.5f, 0.75f},           {{0.25f, 0.5f, 0.875f}, 0.25f, 0.375f},
           {{0.875f, 0.125f, 0.5f}, 0.75f, 1.0f},         {{0.125f, 0.125f, 0.125f}, 0.0f, 0.125f},
           {{0.9375f, 0.9375f, 0.9375f}, 0.125f, 0.625f}, {{0.5f, 0.5f, 0.5f}, 1.0f, 0.0f}};
 }
 
-std::vector<float> values_of(const remap::MetallicMaterial& material) {
+std::vector<float> values_of(const MetallicMaterial& material) {
   const auto& [color, metallic, width] = material;
   return {color[0], color[1], color[2], metallic, width};
 }
-std::vector<float> values_of(const remap::SpecularMaterial& material) {
+std::vector<float> values_of(const SpecularMaterial& material) {
   const auto& [diffuse, specular, width] = material;
   return {diffuse[0], diffuse[1], diffuse[2], specular[0], specular[1], specular[2], width};
 }
 
-GoldenValues golden_values(const WorkflowConversion& conversion, const remap::MetallicMaterial& metallic) {
+GoldenValues golden_values(const WorkflowConversion& conversion, const MetallicMaterial& metallic) {
   WorkflowConversion forward = conversion;
-  forward.formula = remap::Equation2{};
-  remap::SpecularMaterial specular = to_specular(forward, metallic);
+  forward.formula = Equation2{};
+  SpecularMaterial specular = to_specular(forward, metallic);
   if (!conversion.is_to_metallic()) return {values_of(metallic), values_of(specular), {}};
   // A metallic material cannot represent this one: its last channel is darker.
   if (metallic.metallic == 0.5f) specular.specular[2] *= 0.5f;
   return {values_of(specular), values_of(to_metallic(conversion, specular)), {}};
 }
 
-std::string training_lines(const remap::NetworkTraining& training) {
-  const auto text = [](const remap::ErrorFigures& figures) {
+std::string training_lines(const NetworkTraining& training) {
+  const auto text = [](const ErrorFigures& figures) {
     return "rms " + two_digits(figures.rms) + ", max " + two_digits(figures.max);
   };
   return "Table " + training.table.name + ", sha256 " + training.table.sha256 + "; seed " +
@@ -60,7 +57,7 @@ std::string training_lines(const remap::NetworkTraining& training) {
          text(training.base_color) + "; metallic " + text(training.metallic) + ".\n";
 }
 
-std::string provenance(const remap::WorkflowFit& fit) {
+std::string provenance(const WorkflowFit& fit) {
   std::string text = "By " + formula_text(fit.conversion.formula) + ".\n";
   if (fit.training) text += training_lines(*fit.training);
   for (const std::string& remark : fit.remarks) text += remark + "\n";
@@ -70,8 +67,8 @@ std::string provenance(const remap::WorkflowFit& fit) {
 
 // Texels over the whole range, the same on every machine: fractions of multiples of irrational numbers.
 WarpTexel candidate(std::size_t number) {
-  constexpr std::array<double, remap::kWarpParameters> kSteps = {0.7548777, 0.5698403, 0.4301597, 0.8191725,
-                                                                 0.6710436, 0.5497005, 0.4503046};
+  constexpr std::array<double, kWarpParameters> kSteps = {0.7548777, 0.5698403, 0.4301597, 0.8191725,
+                                                          0.6710436, 0.5497005, 0.4503046};
   WarpTexel texel;
   for (std::size_t p = 0; p < texel.size(); ++p) {
     const double place = static_cast<double>(number + 1) * kSteps[p];
@@ -82,16 +79,16 @@ WarpTexel candidate(std::size_t number) {
 
 // The distance of a texel, in nodes, to where the nearest node changes. Blended tables have no such
 // places: 1.
-double distance_to_tie(const remap::CompiledWarp& warp, const WarpTexel& texel) {
+double distance_to_tie(const CompiledWarp& warp, const WarpTexel& texel) {
   double distance = 1.0;
-  if (!std::holds_alternative<remap::CopiedNodes>(warp.table.entries)) return distance;
+  if (!std::holds_alternative<CopiedNodes>(warp.table.entries)) return distance;
   const auto position = node_position_of(warp, texel);
   for (std::size_t k = 0; k < warp.coordinates.dimension; ++k)
     distance = std::min(distance, std::fabs(position[k] - std::floor(position[k]) - 0.5));
   return distance;
 }
 
-std::vector<GoldenValues> golden_values(const remap::CompiledWarp& warp) {
+std::vector<GoldenValues> golden_values(const CompiledWarp& warp) {
   constexpr std::size_t kTexels = 8, kCandidates = 512;
   std::vector<GoldenValues> golden;
   for (std::size_t i = 0; i < kCandidates && golden.size() < kTexels; ++i) {
@@ -103,8 +100,8 @@ std::vector<GoldenValues> golden_values(const remap::CompiledWarp& warp) {
   return golden;
 }
 
-std::string provenance(const remap::WarpMapFit& fit) {
-  const bool copied = std::holds_alternative<remap::CopiedNodes>(fit.warp.table.entries);
+std::string provenance(const WarpMapFit& fit) {
+  const bool copied = std::holds_alternative<CopiedNodes>(fit.warp.table.entries);
   std::string text = std::string("By an appearance warp (An et al. 2011): reflectances of a template, ") +
                      (copied ? "copied" : "blended between\nnodes of a table") + ".\n";
   for (const auto& [key, value] : fit.method) text += key + ": " + value + "\n";
@@ -118,7 +115,7 @@ std::string provenance(const remap::WarpMapFit& fit) {
 
 }  // namespace
 
-HeaderData describe(const remap::WorkflowFit& fit) {
+HeaderData describe(const WorkflowFit& fit) {
   WorkflowConversion conversion = fit.conversion;
   require_valid(conversion, fit.id);
   HeaderData data;
@@ -133,17 +130,17 @@ HeaderData describe(const remap::WorkflowFit& fit) {
   if (!to_metallic) std::swap(data.source, data.target);
   data.title = title_of(data.source, data.target);
   data.provenance = provenance(fit);
-  for (const remap::MetallicMaterial& material : golden_materials())
+  for (const MetallicMaterial& material : golden_materials())
     data.golden.push_back(golden_values(conversion, material));
-  if (auto* learned = std::get_if<remap::LearnedNetwork>(&conversion.formula))
+  if (auto* learned = std::get_if<LearnedNetwork>(&conversion.formula))
     learned->network = folded(learned->network);
   data.code = std::move(conversion);
   return data;
 }
 
-HeaderData describe(const remap::WarpMapFit& fit) {
+HeaderData describe(const WarpMapFit& fit) {
   require_valid(fit.warp, fit.id);
-  const std::vector<remap::MaterialParameter> parameters = {
+  const std::vector<MaterialParameter> parameters = {
       {"diffuse", 3, "diffuse reflectance"},
       {"specular", 3, "specular reflectance at normal incidence, or scale"},
       {"alpha", 1, "microfacet width"}};
@@ -158,4 +155,4 @@ HeaderData describe(const remap::WarpMapFit& fit) {
   return data;
 }
 
-}  // namespace remapc
+}  // namespace remap

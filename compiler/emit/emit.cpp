@@ -7,25 +7,25 @@
 #include "emit/header_data.hpp"
 #include "remap/error.hpp"
 
-namespace remapc {
+namespace remap {
 
-const remap::ConverterData& require_converter(const remap::Fit& fit) {
+const ConverterData& require_converter(const Fit& fit) {
   if (fit.converter) return *fit.converter;
-  throw remap::Error(remap::ErrorKind::kNumeric,
-                     fit.id + ": has no converter, because it could not be lowered (remapc fit --lower)");
+  throw Error(ErrorKind::kNumeric,
+              fit.id + ": has no converter, because it could not be lowered (remapc fit --lower)");
 }
 
-std::string emit_header(const remap::Fit& fit) { return fill(describe(fit)); }
+std::string emit_header(const Fit& fit) { return fill(describe(fit)); }
 
-std::string emit_header(const remap::WorkflowFit& fit) { return fill(describe(fit)); }
+std::string emit_header(const WorkflowFit& fit) { return fill(describe(fit)); }
 
-std::string emit_header(const remap::WarpMapFit& fit) { return fill(describe(fit)); }
+std::string emit_header(const WarpMapFit& fit) { return fill(describe(fit)); }
 
-std::string emit_converter_list(const std::vector<remap::Fit>& fits) {
-  std::vector<remap::ConverterData> converters;
-  for (const remap::Fit& fit : fits) converters.push_back(require_converter(fit));
-  std::ranges::sort(converters, {}, [](const remap::ConverterData& data) { return data.info.id; });
-  return remap::converters_to_json(converters);
+std::string emit_converter_list(const std::vector<Fit>& fits) {
+  std::vector<ConverterData> converters;
+  for (const Fit& fit : fits) converters.push_back(require_converter(fit));
+  std::ranges::sort(converters, {}, [](const ConverterData& data) { return data.info.id; });
+  return converters_to_json(converters);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,26 +6,26 @@
 #include <vector>
 
 #include "converter/converter_data.hpp"
-#include "model/any_fit.hpp"
-#include "model/fit.hpp"
+#include "lower/any_fit.hpp"
+#include "lower/fit.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The generated header `<id>.hpp`. Throws kNumeric for a fit without a converter and where a number is not
 // finite as a float, kInput where a specular parameter has a name that the header uses itself.
-std::string emit_header(const remap::Fit& fit);
+std::string emit_header(const Fit& fit);
 
 // The generated headers of converters of whole materials; a warp has the specular workflow on both sides.
 // Throw kInput for what require_valid() refuses.
-std::string emit_header(const remap::WorkflowFit& fit);
-std::string emit_header(const remap::WarpMapFit& fit);
+std::string emit_header(const WorkflowFit& fit);
+std::string emit_header(const WarpMapFit& fit);
 
 // `converters.json`: the converters of these fits, in the order of their ids. Throws kNumeric for a fit
 // without one.
 inline constexpr const char* kConverterListName = "converters.json";
-std::string emit_converter_list(const std::vector<remap::Fit>& fits);
+std::string emit_converter_list(const std::vector<Fit>& fits);
 
 // The converter of `fit`. Throws kNumeric where it has none.
-const remap::ConverterData& require_converter(const remap::Fit& fit);
+const ConverterData& require_converter(const Fit& fit);
 
-}  // namespace remapc
+}  // namespace remap

@@ -1,22 +1,21 @@
 // The text of a header: templates/frame.in around the interface of its kind, templates/converter.in for width
 // and specular, templates/material.in for whole materials.
+#include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "emit/convention_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
 #include "remap/version.hpp"
-#include "text/number_text.hpp"
-#include "text/plain_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr std::size_t kLongestEscape = 6;  // of one byte
 
-using remap::MaterialParameter;
 using Parameters = std::vector<MaterialParameter>;
 
 std::string numbers(const std::vector<float>& values) {
-  return "{" + joined(values, ", ", remap::float_literal) + "}";
+  return "{" + joined(values, ", ", float_literal) + "}";
 }
 
 std::string type_of(const MaterialParameter& parameter, const std::string& one) {
@@ -60,7 +59,7 @@ std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<flo
   return text;
 }
 
-bool takes_roots(const remap::ConverterData& converter) {
+bool takes_roots(const ConverterData& converter) {
   const auto has_root = [](std::string_view expression) {
     return expression.find("std::sqrt") != std::string_view::npos;
   };
@@ -74,9 +73,9 @@ struct Body {
   std::string text;
 };
 
-Body body_of(const HeaderData& data, const remap::ConverterData& converter) {
+Body body_of(const HeaderData& data, const ConverterData& converter) {
   const Parameters &in = data.source.parameters, &out = data.target.parameters;
-  const remap::ConverterInfo& info = converter.info;
+  const ConverterInfo& info = converter.info;
   const MappingCode code = mapping_code(converter.lowered);
   const auto golden = [](const GoldenValues& texel) {
     return "{" + numbers(texel.in) + ", " + numbers(texel.out) + ", " + numbers(texel.within) + "},\n";
@@ -155,7 +154,7 @@ std::string guard_of(const std::string& id) {
 std::string commented(std::string_view line) {
   const std::size_t end = line.find_last_not_of(" \t");
   const std::string_view text = line.substr(0, end == std::string_view::npos ? 0 : end + 1);
-  const std::string safe = remap::plain(text, text.size() * kLongestEscape);
+  const std::string safe = plain(text, text.size() * kLongestEscape);
   return safe + (safe.ends_with('\\') || safe.ends_with("?\?/") ? "." : "");
 }
 
@@ -176,7 +175,7 @@ std::string comment_lines(std::string_view text) {
 std::string fill(const HeaderData& data) {
   const Body body = std::visit([&](const auto& code) { return body_of(data, code); }, data.code);
   const auto include = [](const std::string& name) { return "#include <" + name + ">\n"; };
-  return fill_template(code_file("frame"), {{"version", remap::kVersion},
+  return fill_template(code_file("frame"), {{"version", kVersion},
                                             {"id", data.id},
                                             {"title", data.title},
                                             {"provenance", comment_lines(data.provenance)},
@@ -185,4 +184,4 @@ std::string fill(const HeaderData& data) {
                                             {"body", body.text}});
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "converter/converter_data.hpp"
-#include "model/any_fit.hpp"
-#include "warp/packed_warp.hpp"
+#include "lower/any_fit.hpp"
+#include "stages/packed_warp.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct WarpHeader {
-  remap::PackedWarp warp;
-  decltype(remap::ParameterTable::entries) entries;
+  PackedWarp warp;
+  decltype(ParameterTable::entries) entries;
   double copy_rms_error = -1.0;
 };
 
@@ -23,7 +23,7 @@ struct HeaderEnd {
   std::string model;  // `mitsuba/ggx`
   // The members of the header's Input or Output. The width has the name of its convention; it is the first of
   // two, and the last of whole materials.
-  std::vector<remap::MaterialParameter> parameters;
+  std::vector<MaterialParameter> parameters;
   std::string workflow = {}, diffuse = {};  // of whole materials: `specular`, `plain`
 };
 
@@ -39,15 +39,15 @@ struct HeaderData {
   std::string provenance;  // sentences on several lines
   HeaderEnd source, target;
   std::vector<GoldenValues> golden;
-  std::variant<remap::ConverterData, remap::WorkflowConversion, WarpHeader> code;  // a network is folded()
+  std::variant<ConverterData, WorkflowConversion, WarpHeader> code;  // a network is folded()
 };
 
 // Throws kNumeric for a fit without a converter, kInput where a specular parameter has a name that the header
 // uses itself.
-HeaderData describe(const remap::Fit& fit);
+HeaderData describe(const Fit& fit);
 // Throw kInput for what require_valid() refuses.
-HeaderData describe(const remap::WorkflowFit& fit);
-HeaderData describe(const remap::WarpMapFit& fit);
+HeaderData describe(const WorkflowFit& fit);
+HeaderData describe(const WarpMapFit& fit);
 
 // The text. Throws kNumeric where a number is not finite as a float.
 std::string fill(const HeaderData& data);
@@ -55,10 +55,10 @@ std::string fill(const HeaderData& data);
 // Parts of describe(). Errors are rounded up to two digits.
 std::string two_digits(double error);
 // How the polynomials compute the mapping, and how exactly; up to five lines.
-std::string mapping_text(const remap::Lowered& lowered);
+std::string mapping_text(const Lowered& lowered);
 
 // The network with its scalings in the weights: the first layer takes raw inputs, after the poles of their
 // scalings, and the last gives raw outputs.
-remap::Network folded(const remap::Network& network);
+Network folded(const Network& network);
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,15 +2,12 @@
 #include <algorithm>
 
 #include "converter/emitted_order.hpp"
+#include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::float_literal;
-using remap::PiecewisePolynomial;
 
 constexpr std::string_view kFunction = R"(
 @comment@
@@ -59,7 +56,7 @@ std::string variable(const PiecewisePolynomial& polynomial, const std::string& t
   if (polynomial.pole != 0.0f)
     text += "const float t = alpha / (alpha + " + float_literal(polynomial.pole) + ");\n";
   const bool splits = std::any_of(polynomial.degrees.begin(), polynomial.degrees.end(),
-                                  [](int degree) { return degree >= remap::kShortestSplit; });
+                                  [](int degree) { return degree >= kShortestSplit; });
   const std::string square = splits ? "const float u_2 = u * u;\n" : "";
   if (polynomial.cell_count == 1)
     return text + "const float u = " + t + " - " + float_literal(polynomial.start) + ";\n" + square;
@@ -75,7 +72,7 @@ std::string factor_code(const std::vector<std::string>& coefficients, const std:
   if (coefficients.empty()) return "const float " + name + " = 0.0f;\n";
   if (coefficients.size() == 1) return "const float " + name + " = " + coefficients[0] + ";\n";
   const std::size_t degree = coefficients.size() - 1;
-  if (degree < static_cast<std::size_t>(remap::kShortestSplit)) return horner_code(coefficients, name, "u");
+  if (degree < static_cast<std::size_t>(kShortestSplit)) return horner_code(coefficients, name, "u");
   const std::string next = name + "_next";  // the sum of every second power
   std::string text = "float " + name + " = " + coefficients[degree] + ";\nfloat " + next + " = " +
                      coefficients[degree - 1] + ";\n";
@@ -172,7 +169,7 @@ std::string polynomial_terms(const PiecewisePolynomial& specular, CodeForm form)
 
 }  // namespace
 
-MappingCode mapping_code(const remap::Lowered& lowered) {
+MappingCode mapping_code(const Lowered& lowered) {
   const PiecewisePolynomial& alpha = lowered.alpha.polynomial;
   const PiecewisePolynomial& specular = lowered.specular.polynomial;
   const bool is_factor = specular.degrees.size() == 2 && specular.degrees[0] < 0;
@@ -198,4 +195,4 @@ MappingCode mapping_code(const remap::Lowered& lowered) {
   return code;
 }
 
-}  // namespace remapc
+}  // namespace remap

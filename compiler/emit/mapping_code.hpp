@@ -7,7 +7,7 @@
 
 #include "emit/header_data.hpp"
 
-namespace remapc {
+namespace remap {
 
 // How the domain rule calls what a mapping contributes; functions of namespace detail in the header.
 enum class CodeForm {
@@ -29,11 +29,11 @@ struct MappingCode {
   bool is_positive = false;  // of kProportional: whether the factor is proven to be above 0
 };
 
-MappingCode mapping_code(const remap::Lowered& lowered);
+MappingCode mapping_code(const Lowered& lowered);
 
 // Functions of namespace detail: held_width(), channel_outside(), and convert_block(), which converts up to
 // kBlock texels by the functions of `code`; also its parameter types Mapping and Block.
-std::string block_code(const remap::ConverterData& converter, const std::string& specular_name,
+std::string block_code(const ConverterData& converter, const std::string& specular_name,
                        const MappingCode& code);
 
 // What whole materials contribute.
@@ -46,15 +46,15 @@ struct MaterialCode {
   std::string within;     // of golden values, a float literal
 };
 
-MaterialCode material_code(const remap::WorkflowConversion& conversion);
+MaterialCode material_code(const WorkflowConversion& conversion);
 MaterialCode material_code(const WarpHeader& header);
 
 // `void NAME(std::size_t count, const float* const* in, float* const* out)`, count up to kBlock: rows of the
 // inputs of a network that is folded() to rows of its outputs. `network_helpers` come once before the
 // functions of one activation. Both use `kBlock`, `bits` and `float_from_bits` of the header.
-std::string network_helpers(remap::Activation activation);
-std::string network_function(const std::string& name, const remap::Network& network);
+std::string network_helpers(Activation activation);
+std::string network_function(const std::string& name, const Network& network);
 // The kBlock, up to 128, with which the rows of all layers fit the first-level cache.
-int network_block(const remap::Network& network);
+int network_block(const Network& network);
 
-}  // namespace remapc
+}  // namespace remap

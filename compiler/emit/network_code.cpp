@@ -2,11 +2,8 @@
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Layer;
-using remap::Network;
 
 constexpr std::size_t kCacheFloats = 6144;  // of rows: three quarters of a first-level cache of 32 KB
 constexpr std::size_t kUnitsAtOnce = 4;     // hidden units between two layers, `two_layers` in layers.in
@@ -47,10 +44,10 @@ std::string layer_calls(const std::string& name, const std::vector<Layer>& layer
 
 }  // namespace
 
-std::string network_helpers(remap::Activation activation) {
+std::string network_helpers(Activation activation) {
   const std::string_view name = activation_name(activation);
-  return (activation == remap::Activation::kRelu ? code_files({name}) : code_files({"tangent", name})) +
-         "\n" + fill_template(code_file("layers"), {{"at_once", std::to_string(kUnitsAtOnce)}});
+  return (activation == Activation::kRelu ? code_files({name}) : code_files({"tangent", name})) + "\n" +
+         fill_template(code_file("layers"), {{"at_once", std::to_string(kUnitsAtOnce)}});
 }
 
 std::string network_function(const std::string& name, const Network& network) {
@@ -80,4 +77,4 @@ int network_block(const Network& network) {
   return static_cast<int>(block);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,10 +4,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr std::string_view kLoopMark = "REMAP_INDEPENDENT_LOOP";
@@ -81,11 +81,11 @@ std::string code_files(std::initializer_list<std::string_view> names) {
   return text;
 }
 
-std::string literal(double value) { return remap::float_literal(static_cast<float>(value)); }
+std::string literal(double value) { return float_literal(static_cast<float>(value)); }
 
 std::string double_literal(double value) {
-  if (!std::isfinite(value)) throw remap::Error(remap::ErrorKind::kNumeric, "emit: a number is not finite");
-  const std::string text = remap::number_text(value);
+  if (!std::isfinite(value)) throw Error(ErrorKind::kNumeric, "emit: a number is not finite");
+  const std::string text = number_text(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
@@ -97,4 +97,4 @@ std::string table_code(const std::string& name, std::size_t width, const std::ve
   return text + "};\n";
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace remapc {
+namespace remap {
 
 // Returns `text` with every `@name@` replaced by its value, and REMAP_INDEPENDENT_LOOP by the pragmas of a
 // loop whose iterations do not wait for each other. A hole that stands alone on its line takes the
@@ -39,4 +39,4 @@ std::string double_literal(double value);
 // `inline constexpr float NAME[rows][width] = {...};`, with one row on each line.
 std::string table_code(const std::string& name, std::size_t width, const std::vector<std::string>& numbers);
 
-}  // namespace remapc
+}  // namespace remap

@@ -1,16 +1,14 @@
-// Appearance warps as C++: the pass of runtime/warp/code with the numbers of the warp.
+// Appearance warps as C++: the pass of runtime/stages/code with the numbers of the warp.
 #include <array>
 #include <span>
 #include <type_traits>
 
+#include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::PackedWarp;
 
 // `a,b,c`, `a_line` numbers on each line; without spaces, since tables have a quarter of a million numbers.
 template <typename Numbers>
@@ -19,7 +17,7 @@ std::string list_text(const Numbers& numbers, std::size_t a_line) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (i > 0) text += i % a_line == 0 ? ",\n" : ",";
     if constexpr (std::is_same_v<typename Numbers::value_type, float>)
-      text += remap::float_literal(numbers[i]);
+      text += float_literal(numbers[i]);
     else
       text += std::to_string(numbers[i]);
   }
@@ -43,14 +41,14 @@ std::string width_text(const PackedWarp& warp) {
   return "{" + list_text(numbers, 4) + "}";
 }
 
-Part part_of(const PackedWarp& warp, const remap::PackedSeparable& terms) {
+Part part_of(const PackedWarp& warp, const PackedSeparable& terms) {
   return {"separable", array_text("float", "kDiffuse", terms.diffuse, 4) +
                            array_text("float", "kWidthNodes", terms.width_nodes, 16) +
                            "inline constexpr SeparableView<kDimension> kCoordinates{kDiffuse, kWidthNodes, " +
                            std::to_string(terms.last_width) + ", " + width_text(warp) + "};\n"};
 }
 
-Part part_of(const PackedWarp& warp, const remap::PackedQuadratic& terms) {
+Part part_of(const PackedWarp& warp, const PackedQuadratic& terms) {
   return {"quadratic", array_text("float", "kWeights", terms.weights, 8) +
                            "inline constexpr QuadraticView<kDimension> kCoordinates{kWeights, " +
                            width_text(warp) + "};\n"};
@@ -79,8 +77,8 @@ inline BlendedView<kDimension> table() noexcept {
 }
 )";
 
-Part part_of(const PackedWarp& warp, const remap::BlendedNodes& entries) {
-  const std::size_t count = entries.codes.size() / remap::kWarpParameters;
+Part part_of(const PackedWarp& warp, const BlendedNodes& entries) {
+  const std::size_t count = entries.codes.size() / kWarpParameters;
   return {"blended",
           fill_template(kBlendedTable, {{"count", std::to_string(count)},
                                         {"least", list_text(entries.least, 7)},
@@ -97,8 +95,8 @@ inline CopiedView<kDimension> table() noexcept {
 }
 )";
 
-Part part_of(const PackedWarp& warp, const remap::CopiedNodes& entries) {
-  const std::vector<float>& palette = std::get<remap::PackedCopied>(warp.table).palette;
+Part part_of(const PackedWarp& warp, const CopiedNodes& entries) {
+  const std::vector<float>& palette = std::get<PackedCopied>(warp.table).palette;
   return {"copied", fill_template(kCopiedTable,
                                   {{"palette", array_text("float", "kPalette", palette, 7)},
                                    {"indices", array_text("std::uint16_t", "kIndices", entries.indices, 20)},
@@ -113,7 +111,7 @@ MaterialCode material_code(const WarpHeader& header) {
   const Part coordinates = std::visit(part, warp.coordinates), table = std::visit(part, header.entries);
   const std::string dimension = std::to_string(warp.dimension);
   MaterialCode code;
-  code.formula = remap::kWarpKind;
+  code.formula = kWarpKind;
   code.constants =
       "inline constexpr const char* kTemplateModel = kTargetModel;\n"
       "// RMS distance in appearance from the exact copy of template texels; shares of the template's "
@@ -130,4 +128,4 @@ MaterialCode material_code(const WarpHeader& header) {
   return code;
 }
 
-}  // namespace remapc
+}  // namespace remap

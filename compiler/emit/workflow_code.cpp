@@ -1,30 +1,28 @@
-// Conversions between workflows as C++: the text of runtime/workflow/code with the conventions of both ends.
+// Conversions between workflows as C++: the text of runtime/stages/code with the conventions of both ends.
+#include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
-#include "text/number_text.hpp"
-#include "workflow/conversion_constants.hpp"
+#include "stages/conversion_constants.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // The code of each formula.
 struct CodeOf {
-  MaterialCode operator()(const remap::Equation2&) const {
+  MaterialCode operator()(const Equation2&) const {
     // Compilers may fuse products; towards metallic the difference grows.
     return code(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "", "4e-6f");
   }
-  MaterialCode operator()(const remap::Projection& projection) const {
+  MaterialCode operator()(const Projection& projection) const {
     return to_metallic("projection", "project", literal(projection.prior) + ", ");
   }
-  MaterialCode operator()(const remap::Equation3& equation) const {
-    const bool by_albedo = equation.mean == remap::MetallicMean::kAlbedo;
+  MaterialCode operator()(const Equation3& equation) const {
+    const bool by_albedo = equation.mean == MetallicMean::kAlbedo;
     return to_metallic("equation_3", "solve_equation_3", by_albedo ? "true, " : "false, ");
   }
-  MaterialCode operator()(const remap::KhronosSolver&) const {
-    return to_metallic("khronos", "solve_khronos", "");
-  }
-  MaterialCode operator()(const remap::LearnedNetwork& learned) const {
-    const remap::Network& network = learned.network;
+  MaterialCode operator()(const KhronosSolver&) const { return to_metallic("khronos", "solve_khronos", ""); }
+  MaterialCode operator()(const LearnedNetwork& learned) const {
+    const Network& network = learned.network;
     return code("\ninline constexpr std::size_t kBlock = " + std::to_string(network_block(network)) + ";\n" +
                     network_helpers(network.activation) + network_function("material_network", network) +
                     code_files({"learned"}),
@@ -62,17 +60,16 @@ std::string enumerator(remap::workflow_code::WidthParameter width) {
 
 }  // namespace
 
-MaterialCode material_code(const remap::WorkflowConversion& conversion) {
+MaterialCode material_code(const WorkflowConversion& conversion) {
   const remap::workflow_code::Conventions use = conventions_of(conversion);
   MaterialCode code = std::visit(CodeOf{}, conversion.formula);
   code.formula = formula_name(conversion.formula);
-  code.constants = "inline constexpr float kDielectricF0 = " + remap::float_literal(use.dielectric_f0) +
+  code.constants = "inline constexpr float kDielectricF0 = " + float_literal(use.dielectric_f0) +
                    ";  // of the metallic workflow";
-  code.functions += "\ninline constexpr Conventions kConventions{" + remap::float_literal(use.dielectric_f0) +
-                    ", " + remap::float_literal(use.diffuse_of_albedo) + ", " +
-                    (use.diffuse_is_scaled ? "true" : "false") + ", " + enumerator(use.width_in) + ", " +
-                    enumerator(use.width_out) + "};\n";
+  code.functions += "\ninline constexpr Conventions kConventions{" + float_literal(use.dielectric_f0) + ", " +
+                    float_literal(use.diffuse_of_albedo) + ", " + (use.diffuse_is_scaled ? "true" : "false") +
+                    ", " + enumerator(use.width_in) + ", " + enumerator(use.width_out) + "};\n";
   return code;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace remapc {
+namespace remap {
 namespace {
 
-using remap::MappedTexel;
-using remap::ModelSide;
-using Convention = remap::RoughnessConvention;
+using Convention = RoughnessConvention;
 
 double clamp01(double value) { return std::clamp(value, 0.0, 1.0); }
 
 std::string width_text(const ModelSide& side) {
-  return side.model + " has " + std::string(remap::convention_name(side.roughness));
+  return side.model + " has " + std::string(convention_name(side.roughness));
 }
 
 // A formula from a Phong exponent and a grey specular to perceptual roughness, which is sqrt(alpha).
@@ -53,7 +51,7 @@ std::string why_number_is_not_copied(const ModelSide& source, const ModelSide& t
   };
   if (!is_width(source) || !is_width(target)) return width_text(is_width(source) ? target : source);
   if (source.roughness != target.roughness) return "";
-  return "both models have " + std::string(remap::convention_name(source.roughness));
+  return "both models have " + std::string(convention_name(source.roughness));
 }
 
 }  // namespace
@@ -79,20 +77,20 @@ std::vector<Baseline> baselines(const ModelSide& source, const ModelSide& target
   add("copy number", "the parameter value unchanged, although one is alpha and one sqrt(alpha)",
       why_number_is_not_copied(source, target),
       [from = source.roughness, to = target.roughness](double alpha, double specular) {
-        return MappedTexel{remap::to_alpha(to, remap::from_alpha(from, alpha)), specular};
+        return MappedTexel{to_alpha(to, from_alpha(from, alpha)), specular};
       });
   add("pbrt-v3", "alpha = quartic of ln(roughness)",
       source.roughness == Convention::kRoughness ? "" : width_text(source) + ", not roughness",
       [](double alpha, double specular) {
-        return MappedTexel{pbrt_alpha(remap::from_alpha(Convention::kRoughness, alpha)), specular};
+        return MappedTexel{pbrt_alpha(from_alpha(Convention::kRoughness, alpha)), specular};
       });
   for (const ExponentFormula& formula : kExponentFormulas)
     add(formula.name, formula.formula, from_exponent ? "" : width_text(source) + ", not an exponent",
         [roughness = formula.roughness](double alpha, double specular) {
-          const double r = roughness(remap::from_alpha(Convention::kExponent, alpha), specular);
+          const double r = roughness(from_alpha(Convention::kExponent, alpha), specular);
           return MappedTexel{r * r, specular};
         });
   return all;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
-#include "model/interpreter.hpp"
+#include "lower/fit.hpp"
+#include "lower/interpreter.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct Baseline {
   std::string name;
   std::string formula;  // shown to users
   // In canonical coordinates, like evaluate_mapping(). Empty if the formula does not apply.
-  std::function<remap::MappedTexel(double alpha, double specular)> map;
+  std::function<MappedTexel(double alpha, double specular)> map;
   std::string why_not;  // why the formula does not apply
 };
 
 // Returns all baselines for two models in a fixed order. Whether one applies depends on the roughness
 // conventions of both models. Specular is copied unless the formula converts it.
-std::vector<Baseline> baselines(const remap::ModelSide& source, const remap::ModelSide& target);
+std::vector<Baseline> baselines(const ModelSide& source, const ModelSide& target);
 
-}  // namespace remapc
+}  // namespace remap

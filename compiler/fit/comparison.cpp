@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
+#include "core/parallel.hpp"
 #include "fit/edge.hpp"
 #include "lower/lower.hpp"
-#include "system/parallel.hpp"
-#include "text/errors.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr std::size_t kMostRows = 2000;
@@ -22,8 +22,8 @@ bool may_be_chosen(const Candidate& candidate) { return candidate.record.verdict
 
 class ComparisonRun {
  public:
-  ComparisonRun(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                const RegressionOptions& options, const FitProgress& progress)
+  ComparisonRun(const std::vector<TableRow>& rows, const Domain& domain, const RegressionOptions& options,
+                const FitProgress& progress)
       : rows_(rows), domain_(domain), options_(options), progress_(progress) {}
 
   Comparison compare() {
@@ -62,7 +62,7 @@ class ComparisonRun {
       candidate.regression =
           kind.fit(rows_, domain_, options,
                    part_of(progress_, kShareOfFits * entered / kAll, kShareOfFits * (entered + 1.0) / kAll));
-      candidate.record.number_count = remap::number_count(candidate.regression.mapping);
+      candidate.record.number_count = number_count(candidate.regression.mapping);
       if (const auto form = candidate.regression.method.find("form");
           form != candidate.regression.method.end())
         candidate.record.name = std::string(kind.name) + " " + form->second;
@@ -79,10 +79,10 @@ class ComparisonRun {
   // Rejects candidates that `remapc emit` would refuse, if another one can be emitted.
   void judge_by_lowering() {
     std::vector<std::string> refusals(candidates_.size());
-    remap::run_parallel(candidates_.size(), options_.jobs, [&](std::size_t i) {
+    run_parallel(candidates_.size(), options_.jobs, [&](std::size_t i) {
       if (may_be_chosen(candidates_[i]))
-        refusals[i] = failure_of("cannot be emitted",
-                                 [&] { remap::lower(candidates_[i].regression.mapping, domain_); });
+        refusals[i] =
+            failure_of("cannot be emitted", [&] { lower(candidates_[i].regression.mapping, domain_); });
     });
     bool any = false;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
@@ -105,11 +105,11 @@ class ComparisonRun {
   void judge_by_edge() {
     const EdgeRows edge = edge_rows(draw_rows(rows_, kMostRows, options_.seed));
     if (edge.outer.empty()) return;
-    remap::run_parallel(candidates_.size(), options_.jobs, [&](std::size_t task) {
+    run_parallel(candidates_.size(), options_.jobs, [&](std::size_t task) {
       Candidate& candidate = candidates_[candidates_.size() - 1 - task];
       if (!may_be_chosen(candidate)) return;
       candidate.record.verdict = failure_of("not fitted without the outermost rows", [&] {
-        const remap::MappingKind mapping = candidate.regression.again(edge.inner);
+        const MappingKind mapping = candidate.regression.again(edge.inner);
         const EdgeErrors errors = edge_errors(mapping, covered_domain(edge.inner), edge.outer);
         candidate.record.edge_alpha_rms = errors.alpha_rms;
         candidate.record.edge_specular_rms = errors.specular_rms;
@@ -150,7 +150,7 @@ class ComparisonRun {
   }
 
   const std::vector<TableRow>& rows_;
-  const remap::Domain& domain_;
+  const Domain& domain_;
   const RegressionOptions& options_;
   const FitProgress& progress_;
   std::vector<Candidate> candidates_;
@@ -158,9 +158,9 @@ class ComparisonRun {
 
 }  // namespace
 
-Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
+Comparison compare_regressions(const std::vector<TableRow>& rows, const Domain& domain,
                                const RegressionOptions& options, const FitProgress& progress) {
   return ComparisonRun(rows, domain, options, progress).compare();
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "fit/kinds.hpp"
-#include "fit/rows/choice.hpp"
+#include "table/choice.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct Comparison {
   std::vector<Candidate> candidates;  // in the order in which they are printed
@@ -26,7 +26,7 @@ struct Comparison {
 // the others, choose() (choice.hpp) decides by relative errors. Candidates that are rejected before the folds
 // are not refitted. Throws kNumeric with the reasons if all are rejected. The result depends only on rows,
 // domain and options.
-Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
+Comparison compare_regressions(const std::vector<TableRow>& rows, const Domain& domain,
                                const RegressionOptions& options, const FitProgress& progress = {});
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <set>
 
-#include "fit/rows/split.hpp"
-#include "model/interpreter.hpp"
-#include "text/number_text.hpp"
+#include "core/number_text.hpp"
+#include "lower/interpreter.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 constexpr std::size_t kOutermostShare = 30;
 constexpr std::size_t kFewestAlphas = 6;
@@ -30,14 +28,14 @@ double at(const std::set<double>& values, std::size_t position) {
 using Color = std::array<double, 3>;
 
 // Maps a color channel by channel.
-Color map_color(const remap::MappingKind& mapping, double alpha, Color color) {
-  for (double& channel : color) channel = remap::evaluate_mapping(mapping, alpha, channel).specular;
+Color map_color(const MappingKind& mapping, double alpha, Color color) {
+  for (double& channel : color) channel = evaluate_mapping(mapping, alpha, channel).specular;
   return color;
 }
 
 // Where the result is not finite or negative; empty if it is neither.
-std::string fault_at(const remap::MappingKind& mapping, double alpha, double specular) {
-  const remap::MappedTexel texel = remap::evaluate_mapping(mapping, alpha, specular);
+std::string fault_at(const MappingKind& mapping, double alpha, double specular) {
+  const MappedTexel texel = evaluate_mapping(mapping, alpha, specular);
   const bool is_sound = texel.alpha > 0.0 && texel.specular >= 0.0 && std::isfinite(texel.alpha) &&
                         std::isfinite(texel.specular);
   if (is_sound) return "";
@@ -76,8 +74,8 @@ EdgeRows edge_rows(const std::vector<TableRow>& rows) {
   return edge;
 }
 
-remap::Domain covered_domain(const std::vector<TableRow>& rows) {
-  remap::Domain domain{{1e300, -1e300}, {0.0, 0.0}};
+Domain covered_domain(const std::vector<TableRow>& rows) {
+  Domain domain{{1e300, -1e300}, {0.0, 0.0}};
   for (const TableRow& row : rows) {
     domain.alpha.min = std::min(domain.alpha.min, row.alpha1);
     domain.alpha.max = std::max(domain.alpha.max, row.alpha1);
@@ -86,20 +84,19 @@ remap::Domain covered_domain(const std::vector<TableRow>& rows) {
   return domain;
 }
 
-EdgeErrors edge_errors(const remap::MappingKind& mapping, const remap::Domain& domain,
-                       const std::vector<TableRow>& rows) {
+EdgeErrors edge_errors(const MappingKind& mapping, const Domain& domain, const std::vector<TableRow>& rows) {
   const Residuals raw = residuals_of(rows, mapping);
   const Residuals ruled = residuals_of(rows, [&](double alpha, double specular) {
     const double scale = std::max(1.0, specular / domain.specular.max);
     const double held = std::clamp(alpha, domain.alpha.min, domain.alpha.max);
-    const remap::MappedTexel texel = remap::evaluate_mapping(mapping, held, specular / scale);
-    return remap::MappedTexel{texel.alpha, scale * texel.specular};
+    const MappedTexel texel = evaluate_mapping(mapping, held, specular / scale);
+    return MappedTexel{texel.alpha, scale * texel.specular};
   });
   return {error_figures(ruled.alpha).rms, error_figures(ruled.specular).rms, error_figures(raw.alpha).rms,
           error_figures(raw.specular).rms};
 }
 
-BeyondDomain look_beyond(const remap::MappingKind& mapping, const remap::Domain& domain) {
+BeyondDomain look_beyond(const MappingKind& mapping, const Domain& domain) {
   BeyondDomain beyond;
   const double edge = domain.specular.max;
   for (int i = 0; i < kAlphas; ++i) {
@@ -120,4 +117,4 @@ BeyondDomain look_beyond(const remap::MappingKind& mapping, const remap::Domain&
   return beyond;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "table/table.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Splits a table into its outermost rows and the others. Outermost are the lowest and the highest thirtieth
 // of the distinct alpha1 and the highest thirtieth of the distinct specular1, at least one value each.
@@ -20,15 +20,14 @@ struct EdgeRows {
 EdgeRows edge_rows(const std::vector<TableRow>& rows);
 
 // The bounding box of rows. Specular starts at 0.
-remap::Domain covered_domain(const std::vector<TableRow>& rows);
+Domain covered_domain(const std::vector<TableRow>& rows);
 
 // Errors in alpha2 and specular2 on rows outside `domain`.
 struct EdgeErrors {
   double alpha_rms = 0.0, specular_rms = 0.0;          // with the domain rule of generated code (fit.hpp)
   double raw_alpha_rms = 0.0, raw_specular_rms = 0.0;  // without the domain rule
 };
-EdgeErrors edge_errors(const remap::MappingKind& mapping, const remap::Domain& domain,
-                       const std::vector<TableRow>& rows);
+EdgeErrors edge_errors(const MappingKind& mapping, const Domain& domain, const std::vector<TableRow>& rows);
 
 // The largest specular that look_beyond() evaluates, relative to the largest specular of the domain.
 inline constexpr double kBeyond = 1.5;
@@ -43,6 +42,6 @@ struct BeyondDomain {
   double chroma_shift = 0.0;
   std::string fault;
 };
-BeyondDomain look_beyond(const remap::MappingKind& mapping, const remap::Domain& domain);
+BeyondDomain look_beyond(const MappingKind& mapping, const Domain& domain);
 
-}  // namespace remapc
+}  // namespace remap

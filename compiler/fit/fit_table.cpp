@@ -5,18 +5,18 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "fit/comparison.hpp"
 #include "fit/edge.hpp"
 #include "fit/regime_fit.hpp"
-#include "fit/rows/split.hpp"
-#include "model/interpreter.hpp"
+#include "lower/interpreter.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 void require_models(const Table& table) {
@@ -24,27 +24,26 @@ void require_models(const Table& table) {
     throw input_error(table.name +
                       ": does not name its models (add `# source: ...` and `# target: ...` lines, or use "
                       "--source and --target)");
-  for (const remap::ModelSide& side : {table.source, table.target}) {
-    if (!remap::is_valid_model(side.model))
+  for (const ModelSide& side : {table.source, table.target}) {
+    if (!is_valid_model(side.model))
       throw input_error(table.name + ": invalid model name '" + side.model +
                         "' (use letters, digits and _ - . /)");
-    if (!remap::is_valid_specular(side.specular))
+    if (!is_valid_specular(side.specular))
       throw input_error(table.name + ": invalid specular parameter '" + side.specular + "' of " + side.model +
                         " (use an identifier that is not a roughness name)");
   }
 }
 
 // Parses the pairs of numbers of kSpheresComment and skips invalid ones.
-std::vector<remap::SphereSimilarity> spheres_of(const Table& table) {
-  std::vector<remap::SphereSimilarity> spheres;
+std::vector<SphereSimilarity> spheres_of(const Table& table) {
+  std::vector<SphereSimilarity> spheres;
   for (const auto& [key, value] : table.comments) {
     if (key != kSpheresComment) continue;
     std::istringstream pairs(value);
     for (std::string pair; std::getline(pairs >> std::ws, pair, ',');) {
       const std::size_t space = pair.find(' ');
-      const auto alpha = remap::parse_number(pair.substr(0, space));
-      const auto ssim =
-          space == std::string::npos ? std::nullopt : remap::parse_number(pair.substr(space + 1));
+      const auto alpha = parse_number(pair.substr(0, space));
+      const auto ssim = space == std::string::npos ? std::nullopt : parse_number(pair.substr(space + 1));
       if (alpha && ssim) spheres.push_back({*alpha, *ssim});
     }
   }
@@ -52,20 +51,19 @@ std::vector<remap::SphereSimilarity> spheres_of(const Table& table) {
 }
 
 // The similarity of the pictures at the best parameters over `rows`, if the table states it.
-std::optional<remap::ImageSimilarity> image_similarity(const Table& table,
-                                                       const std::vector<TableRow>& rows) {
+std::optional<ImageSimilarity> image_similarity(const Table& table, const std::vector<TableRow>& rows) {
   std::vector<double> errors;
   for (const TableRow& row : rows)
     if (!std::isnan(row.error)) errors.push_back(row.error);
   if (errors.empty() || errors.size() != rows.size()) return std::nullopt;
-  return remap::ImageSimilarity{error_figures(std::move(errors)), spheres_of(table)};
+  return ImageSimilarity{error_figures(std::move(errors)), spheres_of(table)};
 }
 
 }  // namespace
 
-RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows) {
-  Residuals residuals = residuals_of(
-      rows, [&](double alpha, double specular) { return remap::evaluate_fit(fit, alpha, specular); });
+RowErrors row_errors(const Fit& fit, const std::vector<TableRow>& rows) {
+  Residuals residuals =
+      residuals_of(rows, [&](double alpha, double specular) { return evaluate_fit(fit, alpha, specular); });
   return {error_figures(std::move(residuals.alpha)), error_figures(std::move(residuals.specular))};
 }
 
@@ -73,13 +71,13 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
                       const FitProgress& progress) {
   require_models(table);
   require_fittable(table, options.accept_light);
-  remap::Fit fit;
+  Fit fit;
   fit.id = fit_id(options.id, table.source.model, table.target.model);
   fit.source = table.source;
   fit.target = table.target;
   fit.domain = table_domain(table);
   fit.table = table_record(table.name, bytes, table.comments);
-  fit.tool_version = remap::kVersion;
+  fit.tool_version = kVersion;
 
   const RowSplit split = split_rows(table, fit.domain, options.regression.seed, options.held_out_fraction);
   fit.split = split.record;
@@ -87,9 +85,9 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
   const RegimeRows rows = regime_rows(split.training, answers);
-  const remap::Domain inside = covered_domain(rows.inside);
+  const Domain inside = covered_domain(rows.inside);
   const auto fit_of = [&](const Regression& regression) {
-    remap::Fit one = fit;
+    Fit one = fit;
     one.mapping = regression.mapping;
     one.method = regression.method;
     one.regimes =
@@ -109,4 +107,4 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   return fitted;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "fit/kinds.hpp"
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "table/table.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct FitOptions {
   std::string id;                // empty: `<source>_to_<target>` from the table
@@ -23,9 +23,8 @@ struct FitOptions {
 
 // A fit and the fits of the same table that it was compared with, for plots.
 struct FittedTable {
-  remap::Fit fit;
-  std::vector<remap::Fit>
-      compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
+  Fit fit;
+  std::vector<Fit> compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
 };
 
 // Fits `table`. `bytes`: its file, whose SHA-256 the fit records. Throws kInput if the table does not name
@@ -36,9 +35,9 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
 
 // Absolute errors of `fit` in target alpha and target specular over rows.
 struct RowErrors {
-  remap::ErrorFigures alpha;
-  remap::ErrorFigures specular;
+  ErrorFigures alpha;
+  ErrorFigures specular;
 };
-RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows);
+RowErrors row_errors(const Fit& fit, const std::vector<TableRow>& rows);
 
-}  // namespace remapc
+}  // namespace remap

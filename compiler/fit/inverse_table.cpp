@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/number_text.hpp"
 #include "fit/fit_table.hpp"
-#include "model/interpreter.hpp"
-#include "model/inverse.hpp"
+#include "lower/interpreter.hpp"
+#include "lower/inverse.hpp"
 #include "remap/version.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr int kProbes = 400;  // alphas at which the largest specular is computed
 
 // The largest target specular that the fit reaches at every alpha. Up to it, the inverse covers a box.
-double reached_specular(const remap::Fit& fit) {
+double reached_specular(const Fit& fit) {
   double least = std::numeric_limits<double>::infinity();
-  const remap::Range& alphas = fit.domain.alpha;
+  const Range& alphas = fit.domain.alpha;
   for (int i = 0; i <= kProbes; ++i) {
     const double alpha = alphas.min + (alphas.max - alphas.min) * i / kProbes;
     least = std::min(least, evaluate_fit(fit, alpha, fit.domain.specular.max).specular);
@@ -25,9 +25,9 @@ double reached_specular(const remap::Fit& fit) {
   return least;
 }
 
-TableRow row_of(const remap::Fit& fit, const remap::MappedTexel& target) {
+TableRow row_of(const Fit& fit, const MappedTexel& target) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (const auto source = remap::inverse(fit, target))
+  if (const auto source = inverse(fit, target))
     return {target.alpha, target.specular, source->alpha, source->specular, unknown, RowStatus::kOk, 0};
   const double alpha = std::clamp(target.alpha, fit.domain.alpha.min, fit.domain.alpha.max);
   const double black = evaluate_fit(fit, alpha, 0.0).specular;
@@ -37,23 +37,23 @@ TableRow row_of(const remap::Fit& fit, const remap::MappedTexel& target) {
 
 }  // namespace
 
-Table inverse_table(const remap::Fit& fit, std::string_view bytes, std::size_t alpha_count,
+Table inverse_table(const Fit& fit, std::string_view bytes, std::size_t alpha_count,
                     std::size_t specular_count) {
   Table table;
   table.source = fit.target;
   table.target = fit.source;
-  table.name = remap::converter_id(table.source.model, table.target.model) + ".csv";
+  table.name = converter_id(table.source.model, table.target.model) + ".csv";
   const double least = fit.domain.specular.max / static_cast<double>(specular_count);
-  const remap::Range alphas{evaluate_fit(fit, fit.domain.alpha.min, least).alpha,
-                            evaluate_fit(fit, fit.domain.alpha.max, least).alpha};
+  const Range alphas{evaluate_fit(fit, fit.domain.alpha.min, least).alpha,
+                     evaluate_fit(fit, fit.domain.alpha.max, least).alpha};
   const double top = reached_specular(fit);
   table.comments = {
-      {"tool", std::string("remapc ") + remap::kVersion},
+      {"tool", std::string("remapc ") + kVersion},
       {"source", table.source.model},
-      {"source_roughness", std::string(remap::convention_name(table.source.roughness))},
+      {"source_roughness", std::string(convention_name(table.source.roughness))},
       {"source_specular", table.source.specular},
       {"target", table.target.model},
-      {"target_roughness", std::string(remap::convention_name(table.target.roughness))},
+      {"target_roughness", std::string(convention_name(table.target.roughness))},
       {"target_specular", table.target.specular},
       {"inverse_of", fit.id},
       {"inverse_of_sha256", sha256(bytes)},
@@ -68,4 +68,4 @@ Table inverse_table(const remap::Fit& fit, std::string_view bytes, std::size_t a
   return table;
 }
 
-}  // namespace remapc
+}  // namespace remap

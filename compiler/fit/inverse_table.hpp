@@ -3,10 +3,10 @@
 
 #include <string_view>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "table/table.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Samples the target parameters of `fit` and finds the source parameters that it maps to them
 // (model/inverse.hpp). The target of `fit` is the source of the table. `alpha_count`: alphas over the range
@@ -14,7 +14,7 @@ namespace remapc {
 // every alpha. Rows that no source parameters in the domain of the fit reach are clamped, or flat if even
 // specular 0 gives more. `bytes`: the fit file, whose SHA-256 is recorded. Errors are NaN, because no
 // pictures are compared.
-Table inverse_table(const remap::Fit& fit, std::string_view bytes, std::size_t alpha_count = 48,
+Table inverse_table(const Fit& fit, std::string_view bytes, std::size_t alpha_count = 48,
                     std::size_t specular_count = 10);
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
 #include "fit/parametric/parametric.hpp"
-#include "fit/series/series.hpp"
+#include "fit/parametric/series.hpp"
 #include "fit/svr/svr.hpp"
-#include "text/errors.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using Rows = std::vector<TableRow>;
-using remap::Domain;
 
 }  // namespace
 
@@ -42,4 +41,4 @@ const FitKind& fit_kind(std::string_view name) {
   return *found;
 }
 
-}  // namespace remapc
+}  // namespace remap

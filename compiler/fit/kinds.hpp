@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "fit/network/mlp.hpp"
-#include "fit/rows/regression.hpp"
+#include "table/regression.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct RegressionOptions {
   std::uint64_t seed = 1;
@@ -21,8 +21,8 @@ struct RegressionOptions {
 struct FitKind {
   std::string_view name;
   // Fits rows. `domain`: the range in which curves must be sound. Throws the errors of the regression.
-  Regression (*fit)(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                    const RegressionOptions& options, const FitProgress& progress);
+  Regression (*fit)(const std::vector<TableRow>& rows, const Domain& domain, const RegressionOptions& options,
+                    const FitProgress& progress);
 };
 
 // From the fastest to the slowest regression.
@@ -31,4 +31,4 @@ extern const std::array<FitKind, 4> kFitKinds;
 // Throws kUsage for a name that is not in the list.
 const FitKind& fit_kind(std::string_view name);
 
-}  // namespace remapc
+}  // namespace remap

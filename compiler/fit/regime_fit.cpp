@@ -7,10 +7,10 @@
 #include <optional>
 #include <set>
 
-#include "fit/series/series.hpp"
-#include "model/interpreter.hpp"
+#include "fit/parametric/series.hpp"
+#include "lower/interpreter.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // The joint of the wide regime is one more width, with a row for each specular.
@@ -24,7 +24,7 @@ constexpr int kHalvings = 40;
 // Pictures are affine in specular, nearly so after the match.
 constexpr int kWideSpeculars = 2;
 // Times the limit of alpha: where the mapping is held, more than its lowering may change beyond the seam.
-constexpr double kBeyondLimit = 1.0 + remap::kSeam + 1e-4;
+constexpr double kBeyondLimit = 1.0 + kSeam + 1e-4;
 constexpr double kLeastWide = 1e-3;    // of source alpha
 constexpr double kLeastBright = 1e-3;  // of the range of source specular
 constexpr double kSameJoint =
@@ -75,15 +75,15 @@ double through(const std::array<double, kExtrapolated>& at, const std::array<dou
 }
 
 // The targets of a column at `specular`, by straight lines between its rows; none beyond them.
-std::optional<remap::MappedTexel> target_in(const Column& column, double specular) {
+std::optional<MappedTexel> target_in(const Column& column, double specular) {
   const auto above = std::ranges::lower_bound(column, specular, {}, &TableRow::specular1);
   if (above == column.end()) return std::nullopt;
-  if (above->specular1 == specular) return remap::MappedTexel{above->alpha2, above->specular2};
+  if (above->specular1 == specular) return MappedTexel{above->alpha2, above->specular2};
   if (above == column.begin()) return std::nullopt;
   const TableRow &low = *std::prev(above), &high = *above;
   const double share = (specular - low.specular1) / (high.specular1 - low.specular1);
-  return remap::MappedTexel{low.alpha2 + share * (high.alpha2 - low.alpha2),
-                            low.specular2 + share * (high.specular2 - low.specular2)};
+  return MappedTexel{low.alpha2 + share * (high.alpha2 - low.alpha2),
+                     low.specular2 + share * (high.specular2 - low.specular2)};
 }
 
 // The columns of `inside` before the width `alpha`, continued to the rows of `beyond` by polynomials in
@@ -118,7 +118,7 @@ void add_bright_ends(const Column& column, std::vector<TableRow>* rows) {
 
 // Where a rising function passes `value`; an end of the range where it does not.
 template <typename Function>
-double passed_at(const Function& rising, const remap::Range& range, double value) {
+double passed_at(const Function& rising, const Range& range, double value) {
   double low = range.min, high = range.max;
   if (!(rising(low) <= value)) return low;
   if (!(rising(high) >= value)) return high;
@@ -135,12 +135,12 @@ std::string rows_text(const std::vector<TableRow>& rows) {
 
 class RegimeFit {
  public:
-  RegimeFit(const RegimeRows& rows, const TargetLimits& limits, const remap::MappingKind& mapping,
-            const remap::Domain& domain, std::uint64_t seed, std::map<std::string, std::string>* method)
+  RegimeFit(const RegimeRows& rows, const TargetLimits& limits, const MappingKind& mapping,
+            const Domain& domain, std::uint64_t seed, std::map<std::string, std::string>* method)
       : rows_(rows), limits_(limits), mapping_(mapping), domain_(domain), seed_(seed), method_(method) {}
 
-  remap::Regimes fit() {
-    remap::Regimes regimes;
+  Regimes fit() {
+    Regimes regimes;
     regimes.alpha_limit = limits_.alpha;
     regimes.specular_limit = limits_.specular;
     if (!rows_.wide.empty()) regimes.wide = fit_wide();
@@ -152,8 +152,8 @@ class RegimeFit {
   }
 
  private:
-  remap::MappedTexel mapped(double alpha, double specular) const {
-    return remap::evaluate_mapping(mapping_, alpha, specular);
+  MappedTexel mapped(double alpha, double specular) const {
+    return evaluate_mapping(mapping_, alpha, specular);
   }
 
   // The width of the source at which the mapping gives `alpha`, between the columns inside and the end of the
@@ -165,8 +165,8 @@ class RegimeFit {
   }
 
   // None if the mapping reaches the limit at the very end of the domain.
-  std::optional<remap::WideRegime> fit_wide() {
-    remap::WideRegime wide{domain_.alpha.min, {domain_.alpha, domain_.specular, {}}};
+  std::optional<WideRegime> fit_wide() {
+    WideRegime wide{domain_.alpha.min, {domain_.alpha, domain_.specular, {}}};
     wide.specular.alpha.min = domain_.alpha.max;
     for (int i = 0; i < kSpeculars; ++i) {
       const double specular = domain_.specular.max * i / (kSpeculars - 1);
@@ -192,7 +192,7 @@ class RegimeFit {
 
   // `mapping_to`: the largest width at which the mapping is joined. None if the target reaches the limit of
   // its specular at the very end of the domain.
-  std::optional<remap::TexelSeries> fit_bright(double mapping_to) {
+  std::optional<TexelSeries> fit_bright(double mapping_to) {
     std::vector<TableRow> rows = rows_.bright;
     for (const auto& [alpha, column] : columns_of(rows_.bright)) {
       if (alpha > mapping_to) break;
@@ -208,12 +208,12 @@ class RegimeFit {
     const auto least = [&](double TableRow::*input) {
       return (*std::ranges::min_element(rows, {}, input)).*input;
     };
-    const remap::TexelSeries box{{width_before(least(&TableRow::alpha1)), domain_.alpha.max},
-                                 {least(&TableRow::specular1), domain_.specular.max},
-                                 {}};
+    const TexelSeries box{{width_before(least(&TableRow::alpha1)), domain_.alpha.max},
+                          {least(&TableRow::specular1), domain_.specular.max},
+                          {}};
     if (box.specular.max - box.specular.min < kLeastBright * domain_.specular.max) return std::nullopt;
-    const remap::TexelSeries series = best_series(rows, columns_of(rows).size(), &TableRow::alpha2, box,
-                                                  series_shapes({kAnyDegree}), seed_);
+    const TexelSeries series = best_series(rows, columns_of(rows).size(), &TableRow::alpha2, box,
+                                           series_shapes({kAnyDegree}), seed_);
     (*method_)["bright"] = series_text(series) + rows_text(rows);
     return series;
   }
@@ -228,8 +228,8 @@ class RegimeFit {
 
   const RegimeRows& rows_;
   const TargetLimits& limits_;
-  const remap::MappingKind& mapping_;
-  const remap::Domain& domain_;
+  const MappingKind& mapping_;
+  const Domain& domain_;
   std::uint64_t seed_;
   std::map<std::string, std::string>* method_;
 };
@@ -267,10 +267,9 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<
   return rows;
 }
 
-remap::Regimes fit_regimes(const RegimeRows& rows, const TargetLimits& limits,
-                           const remap::MappingKind& mapping, const remap::Domain& domain, std::uint64_t seed,
-                           std::map<std::string, std::string>* method) {
+Regimes fit_regimes(const RegimeRows& rows, const TargetLimits& limits, const MappingKind& mapping,
+                    const Domain& domain, std::uint64_t seed, std::map<std::string, std::string>* method) {
   return RegimeFit(rows, limits, mapping, domain, seed, method).fit();
 }
 
-}  // namespace remapc
+}  // namespace remap

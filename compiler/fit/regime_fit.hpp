@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "fit/rows/regression.hpp"
+#include "table/regression.hpp"
 #include "table/table.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Training rows by regime. A regime of too few rows or widths to be fitted has none, and is left to the
 // mapping, which is cut off at the limit.
@@ -26,8 +26,7 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<
 // Fits a series to each regime that has rows, for a `mapping` of rows.inside. Where regimes meet, the mapping
 // gives further rows. `domain`: that of the fit. The degree is chosen by cross-validation, whose folds depend
 // on `seed`. `method` receives it.
-remap::Regimes fit_regimes(const RegimeRows& rows, const TargetLimits& limits,
-                           const remap::MappingKind& mapping, const remap::Domain& domain, std::uint64_t seed,
-                           std::map<std::string, std::string>* method);
+Regimes fit_regimes(const RegimeRows& rows, const TargetLimits& limits, const MappingKind& mapping,
+                    const Domain& domain, std::uint64_t seed, std::map<std::string, std::string>* method);
 
-}  // namespace remapc
+}  // namespace remap

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/number_text.hpp"
+#include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
-#include "model/interpreter.hpp"
-#include "text/number_text.hpp"
 
 namespace remap {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "text/number_text.hpp"
+#include "core/number_text.hpp"
 
 namespace remap {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include "core/number_text.hpp"
 #include "lower/approximate.hpp"
+#include "lower/interpreter.hpp"
 #include "lower/prove.hpp"
-#include "model/interpreter.hpp"
 #include "remap/error.hpp"
-#include "text/number_text.hpp"
 
 namespace remap {
 namespace {

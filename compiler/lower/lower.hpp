@@ -2,7 +2,7 @@
 #pragma once
 
 #include "converter/lowered.hpp"
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 
 namespace remap {
 

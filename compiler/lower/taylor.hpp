@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "model/evaluate.hpp"
+#include "lower/evaluate.hpp"
 
 namespace remap {
 

@@ -7,7 +7,7 @@
 #include "remap/model.hpp"
 #include "renderer/fresnel.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using std::numbers::pi;
@@ -19,7 +19,7 @@ double tangent_2(double cosine) {
 
 // Exponent of the Phong lobes: 2 / alpha^2 - 2, not below 0 (Walter et al. 2007, section 5.2).
 double phong_exponent(double alpha) {
-  return std::max(0.0, remap::from_alpha(remap::RoughnessConvention::kExponent, alpha));
+  return std::max(0.0, from_alpha(RoughnessConvention::kExponent, alpha));
 }
 
 // Ward 1992 with the normalisations of Mitsuba: the original, Duer's (2006), and the energy-balanced one of
@@ -106,4 +106,4 @@ Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry
   return {value * schlick, value * (1.0 - schlick)};
 }
 
-}  // namespace remapc
+}  // namespace remap

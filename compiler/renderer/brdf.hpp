@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace remapc {
+namespace remap {
 
 // Directions at a surface point, reduced to the cosines that isotropic models need.
 struct LocalGeometry {
@@ -64,4 +64,4 @@ Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry
 double microfacet_distribution(Brdf brdf, double alpha, double cos_half);
 double smith_shadowing(Brdf brdf, double alpha, double cos_direction);
 
-}  // namespace remapc
+}  // namespace remap

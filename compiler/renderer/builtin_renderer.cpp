@@ -8,21 +8,16 @@
 #include <mutex>
 #include <numbers>
 
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "renderer/brdf.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/renderer.hpp"
-#include "text/nearest_name.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
-using remap::Range;
-using remap::RoughnessConvention;
 
 // What the parameters other than width and diffuse mean, and which reflectance they give the lobe.
 enum class Reflectance {
@@ -102,12 +97,12 @@ std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
 }
 
 ModelDescription describe(const BuiltinModel& model) {
-  const double bound_a = remap::from_alpha(model.roughness, kAlphaRange.min);
-  const double bound_b = remap::from_alpha(model.roughness, kAlphaRange.max);
+  const double bound_a = from_alpha(model.roughness, kAlphaRange.min);
+  const double bound_b = from_alpha(model.roughness, kAlphaRange.max);
   ModelDescription description{model.name,
                                model.roughness,
                                kAlphaRange,
-                               {{std::string(remap::convention_name(model.roughness)),
+                               {{std::string(convention_name(model.roughness)),
                                  ParameterRole::kRoughness,
                                  {std::min(bound_a, bound_b), std::max(bound_a, bound_b)}}}};
   for (ParameterDescription& parameter : specular_parameters(model.reflectance))
@@ -165,7 +160,7 @@ std::vector<LitSample> lit_samples(const Scene& scene) {
 
 class BuiltinRenderer final : public Renderer {
  public:
-  std::string version() const override { return std::string("remapc ") + remap::kVersion; }
+  std::string version() const override { return std::string("remapc ") + kVersion; }
 
   std::vector<ModelDescription> models() const override {
     std::vector<ModelDescription> descriptions;
@@ -191,7 +186,7 @@ void require_scene(const Scene& scene) {
     throw Error(ErrorKind::kUsage,
                 "pixel samples: " + std::to_string(scene.samples_per_axis) + " is out of range (1 to 64)");
   if (!(scene.light.distance > 1.0))
-    throw Error(ErrorKind::kUsage, "light distance: " + remap::number_text(scene.light.distance) +
+    throw Error(ErrorKind::kUsage, "light distance: " + number_text(scene.light.distance) +
                                        " is inside the sphere (use more than 1, its radius)");
 }
 
@@ -276,7 +271,7 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
   require_material(material, description);
   const BuiltinModel* model = find_builtin(material.model);
   const std::string& roughness = description.parameter(ParameterRole::kRoughness).name;
-  const double alpha = remap::to_alpha(model->roughness, material.parameters.at(roughness).front());
+  const double alpha = to_alpha(model->roughness, material.parameters.at(roughness).front());
 
   const std::vector<Channel> channels = channels_of(material, description, model->reflectance);
   const auto side = static_cast<std::size_t>(scene.resolution);
@@ -333,4 +328,4 @@ MapModel builtin_map_model(const std::string& name) {
 
 std::unique_ptr<Renderer> make_builtin_renderer() { return std::make_unique<BuiltinRenderer>(); }
 
-}  // namespace remapc
+}  // namespace remap

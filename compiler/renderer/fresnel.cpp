@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace remapc {
+namespace remap {
 
 double normal_reflectance(std::complex<double> ior) { return std::norm(ior - 1.0) / std::norm(ior + 1.0); }
 
@@ -41,4 +41,4 @@ double schlick_weight(double cosine) {
   return m * m * m * m * m;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,7 +4,7 @@
 
 #include <complex>
 
-namespace remapc {
+namespace remap {
 
 // Returns F0 = (c - 1)(c* - 1) / ((c + 1)(c* + 1)) for a complex index of refraction c = eta + i k relative
 // to the outside (Sztrajman et al. 2019, equation 1). The result is in [0, 1] for eta >= 0, whatever the sign
@@ -32,4 +32,4 @@ PolarisedReflectance fresnel_conductor(double cosine, double eta, double k);
 // Returns (1 - cosine)^5, the weight of white in Schlick's Fresnel (1994): F = F0 + (1 - F0) weight.
 double schlick_weight(double cosine);
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace remapc {
+namespace remap {
 
 // Linear radiance, `channels` interleaved values a pixel. Row 0 is at the top, column 0 at -x.
 struct Image {
@@ -24,4 +24,4 @@ inline double luminance(const float* rgb) {
          0.0722 * static_cast<double>(rgb[2]);
 }
 
-}  // namespace remapc
+}  // namespace remap

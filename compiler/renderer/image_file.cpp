@@ -4,14 +4,11 @@
 #include <array>
 #include <vector>
 
-#include "images/image_library.hpp"
 #include "remap/error.hpp"
+#include "texture/image_library.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 // Finds red, green and blue: by name, else the first three channels; a single channel serves as all three.
 std::array<std::size_t, 3> color_channels(const std::vector<std::string>& names,
@@ -34,7 +31,7 @@ void require_extension(const std::filesystem::path& path, const std::string& ext
 }
 
 // `channels` are names; without them one channel is Y and three are R, G, B.
-remap::Picture picture_of(const Image& image, const std::vector<std::string>& channels = {}) {
+Picture picture_of(const Image& image, const std::vector<std::string>& channels = {}) {
   const std::vector<std::string> usual =
       image.channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
   return {image.width, image.height, channels.empty() ? usual : channels, image.values};
@@ -43,8 +40,8 @@ remap::Picture picture_of(const Image& image, const std::vector<std::string>& ch
 }  // namespace
 
 Image read_rgb(const std::filesystem::path& path) {
-  remap::require_regular_file(path);
-  const remap::Picture picture = remap::image_library().read_picture(path);
+  require_regular_file(path);
+  const Picture picture = image_library().read_picture(path);
   const std::array<std::size_t, 3> channels = color_channels(picture.channels, path);
   Image image{picture.width, picture.height, 3, {}};
   const std::size_t count = picture.channels.size();
@@ -58,14 +55,14 @@ void write_exr(const std::filesystem::path& path, const Image& image,
                const std::map<std::string, std::string>& attributes,
                const std::vector<std::string>& channels) {
   require_extension(path, ".exr", "an OpenEXR file");
-  remap::image_library().write_exr(path, picture_of(image, channels), attributes);
+  image_library().write_exr(path, picture_of(image, channels), attributes);
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   require_extension(path, ".png", "a PNG file");
-  remap::image_library().write_png(path, picture_of(image));
+  image_library().write_png(path, picture_of(image));
 }
 
-std::string png_bytes(const Image& image) { return remap::image_library().png_bytes(picture_of(image)); }
+std::string png_bytes(const Image& image) { return image_library().png_bytes(picture_of(image)); }
 
-}  // namespace remapc
+}  // namespace remap

@@ -8,7 +8,7 @@
 
 #include "renderer/image.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Reads the R, G and B of a picture as linear floats and ignores its other channels. The format is any that
 // OpenImageIO reads (EXR, HDR). A single channel becomes all three. Throws kInput for a file that cannot be
@@ -27,4 +27,4 @@ void write_png(const std::filesystem::path& path, const Image& image);
 // Returns the bytes of such a PNG file. Throws kOutput if OpenImageIO cannot encode it.
 std::string png_bytes(const Image& image);
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,7 +7,7 @@
 
 #include "remap/error.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr double kSigma = 1.5;                                              // pixels
@@ -70,9 +70,9 @@ double similarity(const Moments& m) {
 
 void require_same_size(std::size_t a, std::size_t b, std::size_t expected) {
   if (a == expected && b == expected) return;
-  throw remap::Error(remap::ErrorKind::kUsage, "image similarity: pictures of " + std::to_string(a) +
-                                                   " and " + std::to_string(b) + " values (each must have " +
-                                                   std::to_string(expected) + ")");
+  throw Error(ErrorKind::kUsage, "image similarity: pictures of " + std::to_string(a) + " and " +
+                                     std::to_string(b) + " values (each must have " +
+                                     std::to_string(expected) + ")");
 }
 
 }  // namespace
@@ -124,4 +124,4 @@ double structural_similarity(std::span<const float> a, std::span<const float> b,
   return sum / ((width - 2.0 * frame) * (height - 2.0 * frame));
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace remapc {
+namespace remap {
 
 // Converts a linear value to a display value: clamps it to [0, 1] and applies the sRGB transfer function (IEC
 // 61966-2-1). NaN becomes 0.
@@ -27,4 +27,4 @@ std::vector<float> similarity_map(std::span<const float> a, std::span<const floa
 // the whole map if nothing else is left.
 double structural_similarity(std::span<const float> a, std::span<const float> b, int width, int height);
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
-#include "text/nearest_name.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // In the order of ParameterRole: for messages, and as words of the protocol.
@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 6> kRoleWords = {"roughness", "specular",
 // Converts a width to the model's own parameter. At the ends of its range, rounding may move it out by one
 // ulp.
 double own_width(const ModelDescription& model, double alpha) {
-  const remap::Range range = model.parameter(ParameterRole::kRoughness).range;
-  const double own = remap::from_alpha(model.roughness, alpha);
+  const Range range = model.parameter(ParameterRole::kRoughness).range;
+  const double own = from_alpha(model.roughness, alpha);
   const double held = std::clamp(own, range.min, range.max);
   return std::fabs(own - held) <= 1e-12 * std::fabs(held) ? held : own;
 }
@@ -37,9 +37,9 @@ bool ModelDescription::has(ParameterRole role) const {
 const ParameterDescription& ModelDescription::parameter(ParameterRole role) const {
   for (const ParameterDescription& description : parameters)
     if (description.role == role) return description;
-  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter for " +
-                                                   kRoleNames[static_cast<std::size_t>(role)] +
-                                                   " (remapc list --models shows those of every model)");
+  throw Error(ErrorKind::kUsage, name + ": has no parameter for " +
+                                     kRoleNames[static_cast<std::size_t>(role)] +
+                                     " (remapc list --models shows those of every model)");
 }
 
 const ParameterDescription& ModelDescription::parameter(const std::string& parameter_name) const {
@@ -48,8 +48,8 @@ const ParameterDescription& ModelDescription::parameter(const std::string& param
     if (description.name == parameter_name) return description;
     names.push_back(description.name);
   }
-  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter " + parameter_name +
-                                                   remap::suggestion(parameter_name, names));
+  throw Error(ErrorKind::kUsage,
+              name + ": has no parameter " + parameter_name + suggestion(parameter_name, names));
 }
 
 std::string Renderer::version_of(const std::string&) const { return version(); }
@@ -60,27 +60,25 @@ ModelDescription Renderer::model(const std::string& name) const {
     if (model.name == name) return model;
     names.push_back(model.name);
   }
-  throw remap::Error(remap::ErrorKind::kUsage,
-                     name + ": unknown model of " + version() + remap::suggestion(name, names));
+  throw Error(ErrorKind::kUsage, name + ": unknown model of " + version() + suggestion(name, names));
 }
 
 void require_value(const ModelDescription& model, const ParameterDescription& parameter, double value) {
   if (parameter.range.contains(value)) return;
-  throw remap::Error(remap::ErrorKind::kUsage, model.name + ": " + parameter.name + " = " +
-                                                   remap::number_text(value) + " is out of range (" +
-                                                   remap::number_text(parameter.range.min) + " to " +
-                                                   remap::number_text(parameter.range.max) + ")");
+  throw Error(ErrorKind::kUsage, model.name + ": " + parameter.name + " = " + number_text(value) +
+                                     " is out of range (" + number_text(parameter.range.min) + " to " +
+                                     number_text(parameter.range.max) + ")");
 }
 
 void require_material(const Material& material, const ModelDescription& model) {
   const auto fail = [&](const std::string& what) {
-    throw remap::Error(remap::ErrorKind::kUsage, model.name + ": " + what);
+    throw Error(ErrorKind::kUsage, model.name + ": " + what);
   };
   std::vector<std::string> names;
   for (const ParameterDescription& parameter : model.parameters) names.push_back(parameter.name);
   for (const auto& entry : material.parameters)
     if (std::find(names.begin(), names.end(), entry.first) == names.end())
-      fail("has no parameter " + entry.first + remap::suggestion(entry.first, names));
+      fail("has no parameter " + entry.first + suggestion(entry.first, names));
   for (const ParameterDescription& parameter : model.parameters) {
     const auto found = material.parameters.find(parameter.name);
     if (found == material.parameters.end()) fail("parameter " + parameter.name + " has no value");
@@ -104,13 +102,13 @@ Material grey_material(const ModelDescription& model, double alpha, double specu
   return material;
 }
 
-remap::Range canonical_widths(remap::RoughnessConvention convention, const remap::Range& own) {
-  const double a = remap::to_alpha(convention, own.min), b = remap::to_alpha(convention, own.max);
+Range canonical_widths(RoughnessConvention convention, const Range& own) {
+  const double a = to_alpha(convention, own.min), b = to_alpha(convention, own.max);
   return {std::min(a, b), std::max(a, b)};
 }
 
-remap::ModelSide model_side(const ModelDescription& model) {
+ModelSide model_side(const ModelDescription& model) {
   return {model.name, model.roughness, model.parameter(ParameterRole::kSpecular).name};
 }
 
-}  // namespace remapc
+}  // namespace remap

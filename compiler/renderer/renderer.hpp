@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "remap/model.hpp"
 #include "renderer/image.hpp"
 #include "renderer/scene.hpp"
 
-namespace remapc {
+namespace remap {
 
 // What a parameter does, so that a sweep can vary it without knowing its name. A sweep varies the first
 // three. Conductors have an index and an extinction instead of one specular value. kOther keeps its standard
@@ -30,15 +30,15 @@ std::string_view role_word(ParameterRole role);
 struct ParameterDescription {
   std::string name;  // the model's own name for it: alpha, exponent, specular, f0, ior, eta, k, diffuse
   ParameterRole role = ParameterRole::kSpecular;
-  remap::Range range;     // values the renderer accepts, in the parameter's own unit
+  Range range;            // values the renderer accepts, in the parameter's own unit
   double standard = 0.0;  // of kOther
   bool grey = false;      // takes one value and refuses three
 };
 
 struct ModelDescription {
   std::string name;  // `renderer/brdf`
-  remap::RoughnessConvention roughness = remap::RoughnessConvention::kAlpha;
-  remap::Range alpha;  // widths that the model accepts, as alpha
+  RoughnessConvention roughness = RoughnessConvention::kAlpha;
+  Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;
   bool noise = false;        // the picture depends on the seed
   bool is_external = false;  // rendered by another program: pictures are expensive, claims are checked
@@ -88,11 +88,11 @@ Material grey_material(const ModelDescription& model, double alpha, double specu
 
 // Converts a range of a model's own width parameter to alpha, ascending: some conventions fall as alpha
 // rises.
-remap::Range canonical_widths(remap::RoughnessConvention convention, const remap::Range& own);
+Range canonical_widths(RoughnessConvention convention, const Range& own);
 
 // Describes `model` as the source or target of a conversion.
-remap::ModelSide model_side(const ModelDescription& model);
+ModelSide model_side(const ModelDescription& model);
 
 std::unique_ptr<Renderer> make_builtin_renderer();
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "text/number_text.hpp"
+#include "core/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // Sphere tracing counts as a hit at this distance and as a miss after this many steps; rays that graze the
@@ -70,8 +70,8 @@ bool torus_point(int resolution, double column, double row, SurfaceHit* hit) {
 }  // namespace
 
 std::string light_name(const Light& light) {
-  std::string name = light.angle == 0.0 ? "headlight" : remap::number_text(light.angle);
-  if (light.distance != Light{}.distance) name += "@" + remap::number_text(light.distance);
+  std::string name = light.angle == 0.0 ? "headlight" : number_text(light.angle);
+  if (light.distance != Light{}.distance) name += "@" + number_text(light.distance);
   return name;
 }
 
@@ -141,4 +141,4 @@ std::vector<std::uint32_t> shape_pixels(Shape shape, int resolution) {
   return pixels;
 }
 
-}  // namespace remapc
+}  // namespace remap

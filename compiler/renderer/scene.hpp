@@ -9,7 +9,7 @@
 
 #include "remap/model.hpp"
 
-namespace remapc {
+namespace remap {
 
 inline constexpr double kCameraDistance = 3.0;
 
@@ -23,8 +23,7 @@ struct Light {
 
 // What the camera sees. Sweeps use the sphere.
 enum class Shape { kSphere, kTorus };
-inline constexpr remap::NamedValues<Shape, 2> kShapes = {
-    {{Shape::kSphere, "sphere"}, {Shape::kTorus, "torus"}}};
+inline constexpr NamedValues<Shape, 2> kShapes = {{{Shape::kSphere, "sphere"}, {Shape::kTorus, "torus"}}};
 
 // One picture. `samples_per_axis` = 1 samples the pixel centre; N averages an N x N grid in each pixel.
 struct Scene {
@@ -57,7 +56,7 @@ bool sphere_point(int resolution, double column, double row, SurfacePoint* point
 std::vector<float> view_cosines(int resolution, int samples_per_axis);
 
 // Returns `sphere` or `torus`.
-inline std::string shape_name(Shape shape) { return std::string(remap::name_of(kShapes, shape)); }
+inline std::string shape_name(Shape shape) { return std::string(name_of(kShapes, shape)); }
 
 // The torus is centred at the origin, inside the unit sphere. Its axis is tilted from the camera towards +y,
 // so that the hole and both flanks are visible.
@@ -81,4 +80,4 @@ bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light);
 // Returns the indices, row by row, of the pixels whose centres show the shape.
 std::vector<std::uint32_t> shape_pixels(Shape shape, int resolution);
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
-using remap::number_text;
 
 constexpr int kResolution = 128;
 // At this width the highlight covers about a hundred pixels.
@@ -33,7 +29,7 @@ Noise difference(const Image& a, const Image& b) {
   return {std::sqrt(apart / power), largest / brightest, 1};
 }
 
-std::string percent(double share) { return number_text(remap::rounded(100.0 * share, 2)) + " %"; }
+std::string percent(double share) { return number_text(rounded(100.0 * share, 2)) + " %"; }
 
 Noise measure(const Renderer& renderer, const ModelDescription& model, const Light& light) {
   Noise noise;
@@ -94,4 +90,4 @@ Image SteadyRenderer::render(const Material& material, const Scene& scene) const
   return mean;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,7 +7,7 @@
 
 #include "renderer/renderer.hpp"
 
-namespace remapc {
+namespace remap {
 
 // How much the pictures of a model depend on the seed.
 struct Noise {
@@ -45,4 +45,4 @@ class SteadyRenderer final : public Renderer {
   std::map<std::string, Noise> noise_;
 };
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace remapc {
+namespace remap {
 
 Image blank_picture(int width, int height, float grey) {
   Image picture{width, height, 3, {}};
@@ -24,4 +24,4 @@ void place_picture(Image* sheet, int side, std::size_t row, std::size_t column,
   }
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,7 +6,7 @@
 
 #include "renderer/image.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The display value of a sheet where it shows no picture.
 inline constexpr float kSheetBackground = 0.12f;
@@ -22,4 +22,4 @@ void place_picture(Image* sheet, int side, std::size_t row, std::size_t column,
 // Returns a picture of one grey value.
 Image blank_picture(int width, int height, float grey);
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,15 +7,13 @@
 #include <numbers>
 #include <set>
 
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
 using std::numbers::pi;
 
 double product(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -172,4 +170,4 @@ double mean_luminance(const Environment& environment) {
   return sum / weights;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,7 +7,7 @@
 
 #include "renderer/image.hpp"
 
-namespace remapc {
+namespace remap {
 
 // A unit vector in the space of the sweep scene: y points up, the camera is on +z.
 struct Direction {
@@ -50,4 +50,4 @@ std::string environment_names(const std::vector<Environment>& environments);
 // The mean luminance over all directions.
 double mean_luminance(const Environment& environment);
 
-}  // namespace remapc
+}  // namespace remap

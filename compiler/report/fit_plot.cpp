@@ -6,22 +6,17 @@
 #include <set>
 #include <sstream>
 
+#include "core/files.hpp"
+#include "core/number_text.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/rows/folds.hpp"
-#include "fit/rows/split.hpp"
-#include "model/interpreter.hpp"
+#include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "report/gnuplot.hpp"
-#include "system/files.hpp"
-#include "text/number_text.hpp"
+#include "table/folds.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
-using remap::Fit;
-using remap::number_text;
 
 constexpr std::size_t kMostRows = 2000;
 constexpr int kCurvePoints = 200;
@@ -107,7 +102,7 @@ class Plot {
   void write_residuals(std::size_t f) {
     out_ << "$residuals" << f << " << EOD\n";
     for (const TableRow& row : rows_) {
-      const remap::MappedTexel texel = remap::evaluate_fit(fits_[f], row.alpha1, row.specular1);
+      const MappedTexel texel = evaluate_fit(fits_[f], row.alpha1, row.specular1);
       out_ << number_text(row.alpha1) << ' ' << shown_error(texel.alpha - row.alpha2) << ' '
            << shown_error(texel.specular - row.specular2) << '\n';
     }
@@ -116,11 +111,10 @@ class Plot {
 
   void write_alpha_curve(std::size_t f, double specular) {
     out_ << "$alpha" << f << " << EOD\n";
-    const remap::Range& range = fit_.domain.alpha;
+    const Range& range = fit_.domain.alpha;
     for (int i = 0; i <= kCurvePoints; ++i) {
       const double alpha = range.min + (range.max - range.min) * i / kCurvePoints;
-      out_ << number_text(alpha) << ' ' << number_text(remap::evaluate_fit(fits_[f], alpha, specular).alpha)
-           << '\n';
+      out_ << number_text(alpha) << ' ' << number_text(evaluate_fit(fits_[f], alpha, specular).alpha) << '\n';
     }
     out_ << "EOD\n";
   }
@@ -131,8 +125,8 @@ class Plot {
     for (const double alpha : shown_) {
       for (int i = 0; i <= kCurvePoints / 4; ++i) {
         const double specular = fit_.domain.specular.max * i / (kCurvePoints / 4);
-        out_ << number_text(specular) << ' '
-             << number_text(remap::evaluate_fit(fits_[f], alpha, specular).specular) << '\n';
+        out_ << number_text(specular) << ' ' << number_text(evaluate_fit(fits_[f], alpha, specular).specular)
+             << '\n';
       }
       out_ << '\n';
     }
@@ -214,7 +208,7 @@ void require_plot(const std::filesystem::path& path) {
   if (path.extension() != ".svg")
     throw Error(ErrorKind::kUsage, "plot: " + path.string() + ": the file name must end with .svg");
   require_gnuplot();
-  remap::create_parent(path);
+  create_parent(path);
 }
 
 void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<Fit>& fits) {
@@ -228,4 +222,4 @@ std::string fit_label(const Fit& fit) {
   return kind_name(fit.mapping) + (form == fit.method.end() ? "" : " " + form->second);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "table/table.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Checks before a long computation that its result can be plotted. Throws kUsage if `path` does not end with
 // .svg, kOutput if its folder cannot be created or gnuplot is missing.
@@ -15,9 +15,9 @@ void require_plot(const std::filesystem::path& path);
 
 // Writes the plot as SVG. `fits`: one to six fits of `table` with the same domain. Draws at most 2000 usable
 // rows. Throws kOutput if gnuplot fails or the file cannot be written.
-void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<remap::Fit>& fits);
+void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<Fit>& fits);
 
 // The kind and, if it has one, the form of a fit: for example `parametric paper`, `svr`.
-std::string fit_label(const remap::Fit& fit);
+std::string fit_label(const Fit& fit);
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,14 +7,11 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 // A temporary folder for script and output.
 class ScratchFolder {
@@ -88,19 +85,19 @@ std::string plot_style(int width, int height) {
 
 void write_svg(const std::filesystem::path& path, const std::string& script) {
   const ScratchFolder folder;
-  remap::write_file(folder.file("script"), script);
+  write_file(folder.file("script"), script);
   const int code = run(folder.file("script"), folder.file("output"), folder.file("complaints"));
-  const std::string complaints = remap::read_file(folder.file("complaints"));
+  const std::string complaints = read_file(folder.file("complaints"));
   // Messages with exit code 0 are warnings.
   if (code != 0)
     throw Error(ErrorKind::kOutput,
                 "plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
-  const std::string picture = remap::read_file(folder.file("output"));
+  const std::string picture = read_file(folder.file("output"));
   // gnuplot does not detect that a disk is full.
   if (picture.find("</svg>") == std::string::npos)
     throw Error(ErrorKind::kOutput,
                 "plot: the output of gnuplot is incomplete (check the free space for temporary files)");
-  remap::write_file(path, picture);
+  write_file(path, picture);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace remapc {
+namespace remap {
 
 // Throws kOutput with the name of Debian's package if gnuplot cannot be started.
 void require_gnuplot();
@@ -21,4 +21,4 @@ std::string plot_style(int width, int height);
 // cannot be started or fails, with the first line of its error message.
 void write_svg(const std::filesystem::path& path, const std::string& script);
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,16 +6,14 @@
 #include <numbers>
 #include <string>
 
+#include "core/parallel.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_similarity.hpp"
 #include "renderer/scene.hpp"
-#include "system/parallel.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
 using std::numbers::pi;
 
 Direction operator*(double factor, const Direction& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
@@ -242,7 +240,7 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
   const Rendering rendering{environments, materials, mixture_for(materials, sampling.samples)};
   const std::vector<std::uint32_t>& pixels = pictures.pixels();
   const auto side = static_cast<std::uint32_t>(sampling.resolution);
-  remap::run_parallel(side, sampling.jobs, [&](std::size_t row) {
+  run_parallel(side, sampling.jobs, [&](std::size_t row) {
     if (sampling.cancelled != nullptr && *sampling.cancelled)
       throw Error(ErrorKind::kInterrupted, "study: interrupted; nothing was written");
     const auto begin = std::lower_bound(pixels.begin(), pixels.end(), row * side);
@@ -289,4 +287,4 @@ double sphere_similarity(const DisplayedSphere& a, const DisplayedSphere& b,
   return sum / static_cast<double>(pixels.size());
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -11,7 +11,7 @@
 #include "renderer/brdf.hpp"
 #include "report/radiance_pyramid.hpp"
 
-namespace remapc {
+namespace remap {
 
 // A model of the built-in renderer with its parameters. Specular is linear: a scale or F0. Diffuse is the
 // reflectance of an additional Lambertian lobe.
@@ -87,4 +87,4 @@ DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std:
 double sphere_similarity(const DisplayedSphere& a, const DisplayedSphere& b,
                          std::span<const std::uint32_t> pixels, int resolution);
 
-}  // namespace remapc
+}  // namespace remap

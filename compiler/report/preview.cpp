@@ -6,21 +6,18 @@
 #include <filesystem>
 #include <numbers>
 
-#include "model/interpreter.hpp"
-#include "probe/parameter_roles.hpp"
+#include "core/number_text.hpp"
+#include "lower/interpreter.hpp"
+#include "measure/parameter_roles.hpp"
+#include "measure/sweep.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/lit_sphere.hpp"
-#include "sweep/sweep.hpp"
 #include "table/light.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 constexpr float kDifferenceGain = 4.0f;
 
@@ -31,13 +28,13 @@ struct End {
   double exposure = 1.0;
 };
 
-std::string comment(const remap::Fit& fit, const std::string& key) {
+std::string comment(const Fit& fit, const std::string& key) {
   const auto found = fit.table.comments.find(key);
   return found == fit.table.comments.end() ? "" : found->second;
 }
 
-End make_end(const Renderer& renderer, const remap::Fit& fit, const std::string& role,
-             const remap::ModelSide& side, double exposure) {
+End make_end(const Renderer& renderer, const Fit& fit, const std::string& role, const ModelSide& side,
+             double exposure) {
   const ParameterRoles roles =
       recorded_roles(comment(fit, role + "_roughness_parameter"), comment(fit, role + "_specular"),
                      comment(fit, role + "_fixed"));
@@ -83,13 +80,13 @@ Colors difference(const Colors& a, const Colors& b) {
 }
 
 // Converts the source of this alpha by the fit.
-PreviewedMaterial converted(const remap::Fit& fit, const std::vector<double>& specular, double alpha) {
+PreviewedMaterial converted(const Fit& fit, const std::vector<double>& specular, double alpha) {
   PreviewedMaterial figure;
   figure.alpha = alpha;
   figure.target_specular.resize(specular.size());
-  const double own = remap::evaluate_texel(fit, remap::from_alpha(fit.source.roughness, alpha), specular,
-                                           figure.target_specular, &figure.in_domain);
-  figure.target_alpha = remap::to_alpha(fit.target.roughness, own);
+  const double own = evaluate_texel(fit, from_alpha(fit.source.roughness, alpha), specular,
+                                    figure.target_specular, &figure.in_domain);
+  figure.target_alpha = to_alpha(fit.target.roughness, own);
   return figure;
 }
 
@@ -100,11 +97,11 @@ void require_options(const PreviewOptions& options) {
                 "preview: specular must have 1 or 3 values, not " + std::to_string(options.specular.size()));
   for (const double alpha : options.alphas)
     if (!(alpha > 0.0))
-      throw Error(ErrorKind::kUsage, "preview: alpha " + remap::number_text(alpha) + " must be above 0");
+      throw Error(ErrorKind::kUsage, "preview: alpha " + number_text(alpha) + " must be above 0");
 }
 
 // Fills missing options from the domain of a fit.
-void fill(const remap::Domain& domain, PreviewMaterials* options) {
+void fill(const Domain& domain, PreviewMaterials* options) {
   if (options->alphas.empty()) options->alphas = preview_alphas(domain);
   if (options->specular.empty()) options->specular = {0.5 * domain.specular.max};
 }
@@ -188,14 +185,13 @@ void require_options(const LitPreviewOptions& options) {
                                        " values given (use one value, or R,G,B)");
   for (const double alpha : options.alphas)
     if (!(alpha > 0.0 && alpha <= 1.0))
-      throw Error(ErrorKind::kUsage, "--alpha: " + remap::number_text(alpha) + " is outside 0 to 1");
+      throw Error(ErrorKind::kUsage, "--alpha: " + number_text(alpha) + " is outside 0 to 1");
   if (!(options.diffuse >= 0.0 && options.diffuse <= 1.0))
-    throw Error(ErrorKind::kUsage,
-                "--diffuse: " + remap::number_text(options.diffuse) + " is outside 0 to 1");
+    throw Error(ErrorKind::kUsage, "--diffuse: " + number_text(options.diffuse) + " is outside 0 to 1");
 }
 
 // The materials of one figure: source, copied and converted, each with one material for each specular value.
-std::vector<SphereMaterial> materials_of(const remap::Fit& fit, const LitPreviewOptions& options,
+std::vector<SphereMaterial> materials_of(const Fit& fit, const LitPreviewOptions& options,
                                          const LitFigure& figure) {
   const BrdfModel source = builtin_brdf(fit.source.model), target = builtin_brdf(fit.target.model);
   std::vector<SphereMaterial> materials;
@@ -231,10 +227,10 @@ void show_row(const SpherePictures& pictures, const LitPreviewOptions& options, 
 
 }  // namespace
 
-std::vector<double> preview_alphas(const remap::Domain& domain) {
+std::vector<double> preview_alphas(const Domain& domain) {
   constexpr int kCount = 4;
-  constexpr remap::Range kShown{0.1, 0.7};
-  remap::Range shown{std::max(kShown.min, domain.alpha.min), std::min(kShown.max, domain.alpha.max)};
+  constexpr Range kShown{0.1, 0.7};
+  Range shown{std::max(kShown.min, domain.alpha.min), std::min(kShown.max, domain.alpha.max)};
   if (!(shown.min < shown.max)) shown = domain.alpha;
   std::vector<double> alphas;
   for (int i = 0; i < kCount; ++i)
@@ -242,11 +238,11 @@ std::vector<double> preview_alphas(const remap::Domain& domain) {
   return alphas;
 }
 
-Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const PreviewOptions& wanted) {
+Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOptions& wanted) {
   require_options(wanted);
   PreviewOptions options = wanted;
   fill(fit.domain, &options);
-  const auto scale = remap::parse_number(comment(fit, kLightScaleComment));
+  const auto scale = parse_number(comment(fit, kLightScaleComment));
   const End source = make_end(renderer, fit, "source", fit.source, scale.value_or(1.0));
   const End target = make_end(renderer, fit, "target", fit.target, 1.0);
   constexpr std::size_t kRowsAShape = 3;
@@ -277,7 +273,7 @@ Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const Prev
 
 Environment environment_for_preview(const std::string& name_or_file, double exposure) {
   if (!(exposure > 0.0))
-    throw Error(ErrorKind::kUsage, "--exposure: " + remap::number_text(exposure) + " is not above 0");
+    throw Error(ErrorKind::kUsage, "--exposure: " + number_text(exposure) + " is not above 0");
   std::vector<Environment> known = builtin_environments();
   const auto found = std::ranges::find(known, name_or_file, &Environment::name);
   if (found == known.end() && !std::filesystem::exists(name_or_file))
@@ -288,8 +284,7 @@ Environment environment_for_preview(const std::string& name_or_file, double expo
   return exposed(std::move(environment), scale);
 }
 
-LitPreview make_lit_preview(const remap::Fit& fit, const Environment& environment,
-                            const LitPreviewOptions& wanted) {
+LitPreview make_lit_preview(const Fit& fit, const Environment& environment, const LitPreviewOptions& wanted) {
   LitPreviewOptions options = wanted;
   fill(fit.domain, &options);
   require_options(options);
@@ -307,4 +302,4 @@ LitPreview make_lit_preview(const remap::Fit& fit, const Environment& environmen
   return preview;
 }
 
-}  // namespace remapc
+}  // namespace remap

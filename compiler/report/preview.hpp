@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "renderer/renderer.hpp"
 #include "report/environment.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The materials and pictures of a preview.
 struct PreviewMaterials {
@@ -67,12 +67,12 @@ struct Preview {
 };
 
 // Four alphas in a geometric sequence over the part of 0.1 to 0.7 that the domain covers.
-std::vector<double> preview_alphas(const remap::Domain& domain);
+std::vector<double> preview_alphas(const Domain& domain);
 
 // Renders the preview. The source's pictures are multiplied by the factor between the light of the two
 // renderers that the fit's table states. Throws kUsage for models that `renderer` does not have, invalid
 // values, and without shapes.
-Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const PreviewOptions& options);
+Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOptions& options);
 
 struct LitPreview {
   std::vector<double> specular;    // of the source, as rendered
@@ -87,7 +87,6 @@ Environment environment_for_preview(const std::string& name_or_file, double expo
 
 // Both models of `fit` must be lobes of the built-in renderer with a scale or F0: throws kUsage otherwise,
 // and for values out of range.
-LitPreview make_lit_preview(const remap::Fit& fit, const Environment& environment,
-                            const LitPreviewOptions& options);
+LitPreview make_lit_preview(const Fit& fit, const Environment& environment, const LitPreviewOptions& options);
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,7 +7,7 @@
 
 #include "remap/error.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using std::numbers::pi;
@@ -132,10 +132,10 @@ std::vector<Lamp> take_lamps(Image* map, double mean) {
 RadiancePyramid::RadiancePyramid(std::span<const Environment> environments, int height)
     : channel_count_(3 * environments.size()) {
   if (height < 2 * kCoarsestHeight || (height & (height - 1)) != 0)
-    throw remap::Error(remap::ErrorKind::kUsage,
-                       "environments: the number of rows must be a power of two of at "
-                       "least " +
-                           std::to_string(2 * kCoarsestHeight) + ", not " + std::to_string(height));
+    throw Error(ErrorKind::kUsage,
+                "environments: the number of rows must be a power of two of at "
+                "least " +
+                    std::to_string(2 * kCoarsestHeight) + ", not " + std::to_string(height));
   Level finest{2 * height, height, {}};
   finest.texels.resize(static_cast<std::size_t>(2 * height * height) * channel_count_);
   for (std::size_t e = 0; e < environments.size(); ++e) {
@@ -189,4 +189,4 @@ void RadiancePyramid::look_up(const Direction& direction, double solid_angle, fl
   if (coarse_share > 0.0f) add_bilinear(levels_[fine + 1], position, coarse_share, radiance);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -8,7 +8,7 @@
 
 #include "report/environment.hpp"
 
-namespace remapc {
+namespace remap {
 
 // A bright spot of an environment that is small enough to be treated as one direction.
 struct Lamp {
@@ -48,4 +48,4 @@ class RadiancePyramid {
   std::vector<std::vector<Lamp>> lamps_;
 };
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,7 +7,7 @@
 #include "renderer/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using Vector = std::array<double, 3>;  // x to the right, y up, z to the camera
@@ -60,7 +60,7 @@ LocalGeometry geometry_of(const Vector& normal, const Vector& light) {
   return geometry;
 }
 
-Radiance radiance_of(const remap::WarpTexel& texel, const BrdfModel& model, const Vector& normal) {
+Radiance radiance_of(const WarpTexel& texel, const BrdfModel& model, const Vector& normal) {
   Radiance sum{};
   for (std::size_t c = 0; c < 3; ++c) sum[c] = kSurroundings * static_cast<double>(texel[c] + texel[3 + c]);
   const double alpha = std::max(static_cast<double>(texel[6]), kLeastAlpha);
@@ -96,16 +96,14 @@ PictureGrid picture_grid(std::size_t width, std::size_t height, int side) {
   return grid;
 }
 
-std::vector<remap::WarpTexel> samples_of(const PictureGrid& grid,
-                                         const std::vector<remap::WarpTexel>& texels) {
-  std::vector<remap::WarpTexel> samples;
+std::vector<WarpTexel> samples_of(const PictureGrid& grid, const std::vector<WarpTexel>& texels) {
+  std::vector<WarpTexel> samples;
   samples.reserve(grid.texels.size());
   for (const std::uint32_t texel : grid.texels) samples.push_back(texels[texel]);
   return samples;
 }
 
-Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& samples,
-                 const BrdfModel& model) {
+Image shaded_map(const PictureGrid& grid, const std::vector<WarpTexel>& samples, const BrdfModel& model) {
   Image picture = blank_picture(grid.width, grid.height, 0.0f);
   const std::size_t columns = grid.sample_width();
   const double longer = static_cast<double>(std::max(grid.width, grid.height) * grid.samples);
@@ -127,7 +125,7 @@ Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& s
   return picture;
 }
 
-DisplayColor shaded_color(const remap::WarpTexel& texel, const BrdfModel& model) {
+DisplayColor shaded_color(const WarpTexel& texel, const BrdfModel& model) {
   const Radiance radiance = radiance_of(texel, model, {0.0, 0.0, 1.0});
   return {display_value(radiance[0]), display_value(radiance[1]), display_value(radiance[2])};
 }
@@ -154,4 +152,4 @@ Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vec
   return marked;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -10,9 +10,9 @@
 #include "remap/warp.hpp"
 #include "renderer/brdf.hpp"
 #include "renderer/image.hpp"
-#include "warp/space/material.hpp"
+#include "warp/material.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The texels of a map that a picture shows: `samples` x `samples` per pixel. Texels are shaded before they
 // are averaged.
@@ -30,8 +30,7 @@ struct PictureGrid {
 PictureGrid picture_grid(std::size_t width, std::size_t height, int side);
 
 // Returns the texels of the grid.
-std::vector<remap::WarpTexel> samples_of(const PictureGrid& grid,
-                                         const std::vector<remap::WarpTexel>& texels);
+std::vector<WarpTexel> samples_of(const PictureGrid& grid, const std::vector<WarpTexel>& texels);
 
 using DisplayColor = std::array<float, 3>;  // 0 to 1, encoded for a display
 
@@ -39,11 +38,10 @@ using DisplayColor = std::array<float, 3>;  // 0 to 1, encoded for a display
 // shown on a cushion from above, whose normals lean outwards by up to 35 degrees at the ends of the longer
 // side. A key light from the upper left and a weaker light from the lower right produce highlights as wide as
 // the material's lobe; uniform surroundings give metals their color. Texels that are not finite are black.
-Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& samples,
-                 const BrdfModel& model);
+Image shaded_map(const PictureGrid& grid, const std::vector<WarpTexel>& samples, const BrdfModel& model);
 
 // The color of a texel at the center of the cushion, for points in plots.
-DisplayColor shaded_color(const remap::WarpTexel& texel, const BrdfModel& model);
+DisplayColor shaded_color(const WarpTexel& texel, const BrdfModel& model);
 
 using StrokeSide = std::vector<std::uint32_t> StrokePair::*;
 
@@ -54,4 +52,4 @@ const DisplayColor& stroke_color(std::size_t stroke);
 Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vector<StrokePair>& strokes,
                    StrokeSide side);
 
-}  // namespace remapc
+}  // namespace remap

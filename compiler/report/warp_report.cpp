@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base64.hpp"
+#include "core/files.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/shaded_map.hpp"
-#include "system/files.hpp"
-#include "text/base64.hpp"
-#include "warp/space/coordinates.hpp"
+#include "warp/coordinates.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr int kSide = 512;  // in pixels
@@ -104,9 +104,9 @@ Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& b
   return picture;
 }
 
-std::vector<remap::WarpTexel> texels_at(const TextureMaterial& material,
-                                        const std::vector<std::uint32_t>& indices, std::size_t most) {
-  std::vector<remap::WarpTexel> texels;
+std::vector<WarpTexel> texels_at(const TextureMaterial& material, const std::vector<std::uint32_t>& indices,
+                                 std::size_t most) {
+  std::vector<WarpTexel> texels;
   const std::size_t count = std::min(indices.size(), most);
   for (std::size_t i = 0; i < count; ++i)
     texels.push_back(material.material.texels[indices[i * indices.size() / count]]);
@@ -119,14 +119,14 @@ struct Cloud {
   std::vector<PlottedPoints> strokes;
 };
 
-Cloud cloud_of(const TextureMaterial& material, const remap::AppearanceCoordinates& coordinates,
+Cloud cloud_of(const TextureMaterial& material, const AppearanceCoordinates& coordinates,
                const std::vector<StrokePair>& strokes, StrokeSide side) {
   Cloud cloud;
-  const std::vector<remap::WarpTexel> texels =
+  const std::vector<WarpTexel> texels =
       texels_at(material, sample_texels(material.material, kMostPoints), kMostPoints);
   cloud.texels.positions = positions_of(coordinates, texels);
   cloud.texels.radius = 0.8;
-  for (const remap::WarpTexel& texel : texels)
+  for (const WarpTexel& texel : texels)
     cloud.texels.colors.push_back(shaded_color(texel, material.material.model));
   for (std::size_t k = 0; k < strokes.size(); ++k)
     cloud.strokes.push_back(
@@ -184,8 +184,7 @@ std::string escaped(const std::string& text) {
 
 std::string figure_html(const Image& picture, const std::string& caption) {
   return "<figure><img alt=\"" + escaped(caption) + "\" src=\"data:image/png;base64," +
-         remap::base64(png_bytes(picture)) + "\"><figcaption>" + escaped(caption) +
-         "</figcaption></figure>\n";
+         base64(png_bytes(picture)) + "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
 }
 
 std::string stroke_key(std::size_t stroke_count) {
@@ -243,11 +242,11 @@ WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial&
                            const std::vector<StrokePair>& strokes, const WarpFit& fit) {
   const PictureGrid from = picture_grid(source.width, source.height, kSide);
   const PictureGrid to = picture_grid(target.width, target.height, kSide);
-  std::vector<remap::WarpTexel> samples = samples_of(from, source.material.texels);
+  std::vector<WarpTexel> samples = samples_of(from, source.material.texels);
   WarpPictures pictures;
   pictures.source = shaded_map(from, samples, source.material.model);
   pictures.target = shaded_map(to, samples_of(to, target.material.texels), target.material.model);
-  for (remap::WarpTexel& sample : samples) sample = remap::evaluate_warp(fit.compiled, sample);
+  for (WarpTexel& sample : samples) sample = evaluate_warp(fit.compiled, sample);
   pictures.result = shaded_map(from, samples, target.material.model);
   pictures.source_strokes = with_strokes(pictures.source, from, strokes, &StrokePair::source);
   pictures.target_strokes = with_strokes(pictures.target, to, strokes, &StrokePair::target);
@@ -268,14 +267,13 @@ WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial&
 
 void require_report_path(const std::filesystem::path& path) {
   if (path.extension() != ".html")
-    throw remap::Error(remap::ErrorKind::kUsage,
-                       "--report: " + path.string() + ": the file name must end with .html");
+    throw Error(ErrorKind::kUsage, "--report: " + path.string() + ": the file name must end with .html");
 }
 
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
                        const WarpWords& words) {
   require_report_path(path);
-  remap::write_file(path, report_html(pictures, words));
+  write_file(path, report_html(pictures, words));
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "renderer/image.hpp"
-#include "warp/input/texture_material.hpp"
+#include "warp/texture_material.hpp"
 #include "warp/warp.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Pictures in display values. The longer side of maps and the width of spaces are 512 pixels.
 struct WarpPictures {
@@ -43,4 +43,4 @@ void require_report_path(const std::filesystem::path& path);
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
                        const WarpWords& words);
 
-}  // namespace remapc
+}  // namespace remap

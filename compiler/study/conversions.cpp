@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "emit/emit.hpp"
+#include "measure/sweep.hpp"
 #include "renderer/image_similarity.hpp"
 #include "study/golden_section.hpp"
-#include "sweep/sweep.hpp"
-#include "system/parallel.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // The target parameters for each alpha of the options.
@@ -22,7 +22,7 @@ Parameters copied(const EnvironmentsOptions& options) {
   return parameters;
 }
 
-Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer, const ModelPair& pair,
+Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer, const StudyPair& pair,
                    const std::string& objective) {
   SweepOptions sweep;
   sweep.source = pair.source;
@@ -42,24 +42,23 @@ Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer,
 
 // Evaluates the fit as generated headers and texremap do: as polynomials in floats, after the domain rule
 // (model/interpreter.hpp).
-Parameters shipped(const EnvironmentsOptions& options, const remap::Fit& fit) {
-  const remap::Lowered& lowered = require_converter(fit).lowered;
+Parameters shipped(const EnvironmentsOptions& options, const Fit& fit) {
+  const Lowered& lowered = require_converter(fit).lowered;
   const double held_specular = std::min(options.specular, fit.domain.specular.max);
   const double scale = held_specular > 0.0 ? options.specular / held_specular : 1.0;
   Parameters parameters;
   for (const double alpha : options.alphas) {
     const auto width = static_cast<float>(std::clamp(alpha, fit.domain.alpha.min, fit.domain.alpha.max));
     const auto specular = static_cast<float>(held_specular);
-    const double target_specular =
-        static_cast<double>(remap::value(lowered.specular.polynomial, width, specular));
-    parameters.push_back({static_cast<double>(remap::value(lowered.alpha.polynomial, width, specular)),
+    const double target_specular = static_cast<double>(value(lowered.specular.polynomial, width, specular));
+    parameters.push_back({static_cast<double>(value(lowered.alpha.polynomial, width, specular)),
                           std::max(0.0, target_specular * scale)});
   }
   return parameters;
 }
 
-const remap::Fit* find_pair(const std::vector<remap::Fit>& fits, const ModelPair& pair) {
-  const auto fit = std::find_if(fits.begin(), fits.end(), [&](const remap::Fit& candidate) {
+const Fit* find_pair(const std::vector<Fit>& fits, const StudyPair& pair) {
+  const auto fit = std::find_if(fits.begin(), fits.end(), [&](const Fit& candidate) {
     return candidate.source.model == pair.source && candidate.target.model == pair.target;
   });
   return fit == fits.end() ? nullptr : &*fit;
@@ -130,7 +129,7 @@ Conversion best_of(const Search& search, const Conversion& start) {
 // Appends the materials of one search: the source, then specular 0 and 1 at each alpha.
 void add_materials(const EnvironmentsOptions& options, const Conversion& start,
                    std::vector<SphereMaterial>* materials) {
-  const ModelPair& pair = options.pairs[start.pair];
+  const StudyPair& pair = options.pairs[start.pair];
   materials->push_back({builtin_brdf(pair.source), start.alpha, options.specular});
   for (int i = 0; i < kWidths; ++i) {
     const double ratio = std::pow(kWidthRatio, i - kWidths / 2);
@@ -156,7 +155,7 @@ Search search_of(const SpherePictures& pictures, std::span<const SphereMaterial>
 
 }  // namespace
 
-std::string pair_name(const ModelPair& pair) { return pair.source + " -> " + pair.target; }
+std::string pair_name(const StudyPair& pair) { return pair.source + " -> " + pair.target; }
 
 std::string method_name(Method method) {
   constexpr std::array<const char*, 5> kNames = {"copy", "paper", "natural", "shipped", "best"};
@@ -173,11 +172,11 @@ std::vector<Conversion> conversions_of(const EnvironmentsOptions& options,
     if (options.progress) options.progress();
   };
   for (std::size_t p = 0; p < options.pairs.size(); ++p) {
-    const ModelPair& pair = options.pairs[p];
+    const StudyPair& pair = options.pairs[p];
     add(p, Method::kCopy, copied(options));
     add(p, Method::kPaper, matched(options, *renderer, pair, "paper"));
     add(p, Method::kNatural, matched(options, *renderer, pair, "natural"));
-    const remap::Fit* fit = find_pair(options.fits, pair);
+    const Fit* fit = find_pair(options.fits, pair);
     add(p, Method::kShipped, fit == nullptr ? Parameters{} : shipped(options, *fit));
     if (fit == nullptr) remarks->push_back(pair_name(pair) + " has no fit, so `shipped` is not compared");
   }
@@ -193,11 +192,11 @@ std::vector<Conversion> best_conversions(const EnvironmentsOptions& options, con
                           options.cancelled};
   const SpherePictures pictures = render_spheres(pyramid, materials, sampling);
   std::vector<Conversion> best(starts.size());
-  remap::run_parallel(starts.size(), options.jobs, [&](std::size_t i) {
+  run_parallel(starts.size(), options.jobs, [&](std::size_t i) {
     const Search search = search_of(pictures, materials, i * (1 + 2 * kWidths), options.environments.size());
     best[i] = best_of(search, starts[i]);
   });
   return best;
 }
 
-}  // namespace remapc
+}  // namespace remap

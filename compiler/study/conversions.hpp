@@ -8,19 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "report/environment.hpp"
 #include "report/lit_sphere.hpp"
 #include "report/radiance_pyramid.hpp"
 
-namespace remapc {
+namespace remap {
 
-struct ModelPair {
+struct StudyPair {
   std::string source, target;
 };
 
 // Returns `source -> target`.
-std::string pair_name(const ModelPair& pair);
+std::string pair_name(const StudyPair& pair);
 
 enum class Method {
   kCopy,     // alpha and specular are copied
@@ -33,11 +33,11 @@ std::string method_name(Method method);
 
 // `progress` is called progress_steps() times.
 struct EnvironmentsOptions : SphereSampling {
-  std::vector<ModelPair> pairs;           // models of the built-in renderer
+  std::vector<StudyPair> pairs;           // models of the built-in renderer
   std::vector<double> alphas;             // of the source
   double specular = 0.5;                  // of the source, linear, above 0 to 1
   std::vector<Environment> environments;  // of different names and equal mean luminance
-  std::vector<remap::Fit> fits;           // fits for kShipped
+  std::vector<Fit> fits;                  // fits for kShipped
   int match_resolution = 512;             // width and height of the pictures for kPaper and kNatural
   bool least_error = false;               // compare kBest, too
   std::optional<double> sheet_alpha;      // one of `alphas`: draw contact sheets of it
@@ -65,4 +65,4 @@ inline constexpr int kLeastErrorResolution = 48;
 std::vector<Conversion> best_conversions(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                                          std::span<const Conversion> starts);
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,18 +5,15 @@
 #include <cmath>
 #include <span>
 
+#include "core/number_text.hpp"
+#include "core/parallel.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
 #include "report/contact_sheet.hpp"
-#include "system/parallel.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 constexpr std::size_t kMethodCount = 4;  // methods without kBest
 
@@ -90,7 +87,7 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
   RenderedMaterials rendered;
   std::vector<ComparedPair> pairs;
   for (const Conversion& c : conversions) {
-    const ModelPair& pair = options.pairs[c.pair];
+    const StudyPair& pair = options.pairs[c.pair];
     pairs.push_back({c, rendered.place({builtin_brdf(pair.source), c.alpha, options.specular}),
                      rendered.place({builtin_brdf(pair.target), c.target_alpha, c.target_specular})});
   }
@@ -102,7 +99,7 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
     result->sheets.assign(environment_count, contact_sheet(options.pairs.size(),
                                                            1 + kMethodCount + (options.least_error ? 1 : 0),
                                                            options.resolution));
-  remap::run_parallel(environment_count, options.jobs, [&](std::size_t e) {
+  run_parallel(environment_count, options.jobs, [&](std::size_t e) {
     std::vector<Picture> shots;
     for (std::size_t m = 0; m < rendered.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
     if (on_sheet) fill_sheet(pairs, shots, pictures, &result->sheets[e]);
@@ -136,23 +133,23 @@ void require_options(const EnvironmentsOptions& options) {
                 "environments: at least one pair, one alpha and one environment are required");
   require_names_differ(options.environments);
   const auto renderer = make_builtin_renderer();
-  for (const ModelPair& pair : options.pairs)
+  for (const StudyPair& pair : options.pairs)
     for (const std::string& name : {pair.source, pair.target}) {
       const ModelDescription model = renderer->model(name);
       for (const double alpha : options.alphas)
         if (!model.alpha.contains(alpha))
-          throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + " is out of range for " +
-                                             name + " (" + remap::number_text(model.alpha.min) + " to " +
-                                             remap::number_text(model.alpha.max) + ")");
+          throw Error(ErrorKind::kUsage, "alpha: " + number_text(alpha) + " is out of range for " + name +
+                                             " (" + number_text(model.alpha.min) + " to " +
+                                             number_text(model.alpha.max) + ")");
     }
   if (!(options.specular > 0.0 && options.specular <= 1.0))
-    throw Error(ErrorKind::kUsage, "specular: " + remap::number_text(options.specular) +
-                                       " is out of range (above 0, at most 1)");
+    throw Error(ErrorKind::kUsage,
+                "specular: " + number_text(options.specular) + " is out of range (above 0, at most 1)");
 }
 
 }  // namespace
 
-std::vector<ModelPair> default_pairs() {
+std::vector<StudyPair> default_pairs() {
   return {{"mitsuba/ward", "mitsuba/ggx"},     {"mitsuba/beckmann", "mitsuba/ggx"},
           {"mitsuba/ggx", "mitsuba/beckmann"}, {"mitsuba/ward", "mitsuba/as"},
           {"mitsuba/as", "mitsuba/ggx"},       {"mitsuba/ward-balanced", "mitsuba/beckmann"}};
@@ -205,4 +202,4 @@ PictureSimilarity mean_similarity(const std::vector<const EnvironmentComparison*
   return mean;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,10 +7,10 @@
 
 #include "study/conversions.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The pairs and alphas whose figures the documentation states.
-std::vector<ModelPair> default_pairs();
+std::vector<StudyPair> default_pairs();
 std::vector<double> default_alphas();
 
 // The number of calls of `progress`.
@@ -54,4 +54,4 @@ inline constexpr std::size_t kAllPairs = static_cast<std::size_t>(-1);
 std::vector<const EnvironmentComparison*> comparisons_of(const EnvironmentsResult& result, Method method,
                                                          std::size_t pair = kAllPairs);
 
-}  // namespace remapc
+}  // namespace remap

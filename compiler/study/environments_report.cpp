@@ -4,16 +4,14 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "remap/version.hpp"
 #include "report/gnuplot.hpp"
 #include "table/csv.hpp"
-#include "text/number_text.hpp"
-#include "text/report_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural, Method::kShipped,
                                  Method::kBest};
@@ -31,11 +29,11 @@ std::string brightness_text(const EnvironmentsOptions& options) {
 
 // The settings that the figures depend on.
 Comments comments_of(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  return {{"tool", std::string("remap-study ") + remap::kVersion},
+  return {{"tool", std::string("remap-study ") + kVersion},
           {"resolution", std::to_string(options.resolution)},
           {"samples", std::to_string(options.samples)},
           {"mean_luminance", brightness_text(options)},
-          {"noise_percent", number_text(remap::rounded_up(result.noise, 2))}};
+          {"noise_percent", number_text(rounded_up(result.noise, 2))}};
 }
 
 NamedFigures named(const PictureSimilarity& similarity) {
@@ -98,7 +96,7 @@ std::string heading(const EnvironmentsOptions& options, const EnvironmentsResult
          brightness_text(options) + "; alpha " + listed(options.alphas) + ", specular " +
          number_text(options.specular) + ", " + std::to_string(options.resolution) + " x " +
          std::to_string(options.resolution) + " pixels, sampling noise " +
-         number_text(remap::rounded_up(result.noise, 2)) +
+         number_text(rounded_up(result.noise, 2)) +
          " %\nRMSE: % of the display range; SSIM: of luma; energy: error of the mean radiance in %\n";
 }
 
@@ -131,7 +129,7 @@ std::string comparisons_csv(const EnvironmentsOptions& options, const Environmen
 
 std::string summary_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
   CsvText csv("source,target,method," + named(PictureSimilarity{}).header(), comments_of(options, result));
-  const auto add = [&](const ModelPair& models, Method method, std::size_t pair) {
+  const auto add = [&](const StudyPair& models, Method method, std::size_t pair) {
     if (const auto chosen = comparisons_of(result, method, pair); !chosen.empty())
       csv.add_row(models.source, models.target, method_name(method), named(mean_similarity(chosen)).values());
   };
@@ -143,7 +141,7 @@ std::string summary_csv(const EnvironmentsOptions& options, const EnvironmentsRe
 
 std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
   std::size_t width = 0;
-  for (const ModelPair& pair : options.pairs) width = std::max(width, pair_name(pair).size() + 12);
+  for (const StudyPair& pair : options.pairs) width = std::max(width, pair_name(pair).size() + 12);
   std::string text = heading(options, result) + padded("", width) + "    RMSE    SSIM  energy\n";
   for (const Method method : methods_of(result))
     text += padded(method_name(method) + counted_pairs(options, result, method), width) +
@@ -195,21 +193,21 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
   return out.str();
 }
 
-remap::Json report_json(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  remap::Json json = {{"noise_percent", result.noise}, {"methods", remap::Json::object()}};
+Json report_json(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  Json json = {{"noise_percent", result.noise}, {"methods", Json::object()}};
   for (const Method method : methods_of(result)) {
-    remap::Json& entry = json["methods"][method_name(method)];
+    Json& entry = json["methods"][method_name(method)];
     entry = named(mean_similarity(comparisons_of(result, method))).json();
-    entry["pairs"] = remap::Json::list();
+    entry["pairs"] = Json::list();
     for (std::size_t p = 0; p < options.pairs.size(); ++p) {
       const auto chosen = comparisons_of(result, method, p);
       if (chosen.empty()) continue;
-      remap::Json pair = {{"source", options.pairs[p].source}, {"target", options.pairs[p].target}};
+      Json pair = {{"source", options.pairs[p].source}, {"target", options.pairs[p].target}};
       pair.update(named(mean_similarity(chosen)).json());
       entry["pairs"].push_back(std::move(pair));
     }
   }
-  json["worse_than_copy"] = remap::Json::list();
+  json["worse_than_copy"] = Json::list();
   for (const WorsePair& worse : worse_than_copy(options, result))
     json["worse_than_copy"].push_back({{"method", method_name(worse.method)},
                                        {"source", options.pairs[worse.pair].source},
@@ -233,4 +231,4 @@ StudyReport environments_report(const EnvironmentsOptions& options, const Enviro
   return report;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,7 +4,7 @@
 #include "study/environments.hpp"
 #include "study/study_report.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Tables: environments.csv, one row for each comparison, and environments_summary.csv, the means of each
 // method over all of its pairs (`all`) and for each pair. The summary has these means, the pairs for which a
@@ -13,4 +13,4 @@ namespace remapc {
 // environments of each method that applies to all pairs.
 StudyReport environments_report(const EnvironmentsOptions& options, const EnvironmentsResult& result);
 
-}  // namespace remapc
+}  // namespace remap

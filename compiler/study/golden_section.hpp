@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace remapc {
+namespace remap {
 
 // Golden section search in [low, high] for the minimum of `f`, which must have only one there. Each of
 // `steps` evaluates `f` once and reduces the interval to 0.618 times its length. Returns the best point and
@@ -25,4 +25,4 @@ std::pair<double, double> golden_section(double low, double high, int steps, con
   return at_a < at_b ? std::pair(a, at_a) : std::pair(b, at_b);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -9,7 +9,7 @@
 #include "renderer/renderer.hpp"
 #include "study/golden_section.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr BrdfModel kLobe{Brdf::kGgx, Fresnel::kSchlick};
@@ -234,4 +234,4 @@ MetallicSurface best_metallic(const LitReflectances& lit, std::size_t alpha, con
   return MetallicSearch(lit, alpha, source, reflection).best();
 }
 
-}  // namespace remapc
+}  // namespace remap

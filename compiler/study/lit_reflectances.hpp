@@ -11,7 +11,7 @@
 #include "renderer/image.hpp"
 #include "report/lit_sphere.hpp"
 
-namespace remapc {
+namespace remap {
 
 // A surface with a Lambertian lobe and a GGX lobe with Schlick's Fresnel; linear RGB.
 struct Reflectances {
@@ -75,4 +75,4 @@ Reflectances reflectances_of(const MetallicSurface& surface, const MetallicRefle
 MetallicSurface best_metallic(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
                               const MetallicReflection& reflection);
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/interpreter.hpp"
-#include "probe/picture_sums.hpp"
-#include "probe/picture_taker.hpp"
-#include "sweep/sweep.hpp"
-#include "system/parallel.hpp"
-#include "text/errors.hpp"
+#include "core/errors.hpp"
+#include "core/parallel.hpp"
+#include "lower/interpreter.hpp"
+#include "measure/picture_sums.hpp"
+#include "measure/picture_taker.hpp"
+#include "measure/sweep.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Range;
 
 constexpr double kAlphaRatio = 1.01;  // of neighbouring widths of the target
 constexpr std::size_t kStride = 6;    // of those that are looked at first
@@ -24,7 +22,7 @@ double part(const Range& range, std::size_t i, std::size_t count) {
   return range.min + (range.max - range.min) * static_cast<double>(i) / static_cast<double>(count - 1);
 }
 
-Objective objective_of(const remap::Fit& fit) {
+Objective objective_of(const Fit& fit) {
   const auto found = fit.table.comments.find("objective");
   if (found == fit.table.comments.end())
     throw input_error(fit.id + ": its table does not name an objective (use the fit of a sweep)");
@@ -122,7 +120,7 @@ void find_least(const Comparison& comparison, const TargetWidths& target, Reache
 
 class FitStudy {
  public:
-  FitStudy(const Renderer& renderer, const remap::Fit& fit, const ReachOptions& options)
+  FitStudy(const Renderer& renderer, const Fit& fit, const ReachOptions& options)
       : options_(options),
         fit_(fit),
         taker_(renderer, objective_of(fit), options.resolution, 1),
@@ -155,14 +153,13 @@ class FitStudy {
 
  private:
   void convert(ReachedMaterial* material) const {
-    const double own = remap::from_alpha(fit_.source.roughness, material->alpha);
-    const double width =
-        remap::evaluate_texel(fit_, own, {&material->specular, 1}, {&material->target_specular, 1});
-    material->target_alpha = remap::to_alpha(fit_.target.roughness, width);
+    const double own = from_alpha(fit_.source.roughness, material->alpha);
+    const double width = evaluate_texel(fit_, own, {&material->specular, 1}, {&material->target_specular, 1});
+    material->target_alpha = to_alpha(fit_.target.roughness, width);
   }
 
   const ReachOptions& options_;
-  const remap::Fit& fit_;
+  const Fit& fit_;
   PictureTaker taker_;
   ProbedModel source_, target_;
   TargetWidths widths_;
@@ -187,9 +184,9 @@ std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& 
   for (std::size_t f = 0; f < options.fits.size(); ++f) {
     const FitStudy study(renderer, options.fits[f], options);
     std::vector<std::vector<ReachedMaterial>> rows(options.materials);
-    remap::run_parallel(options.materials, options.jobs, [&](std::size_t row) {
+    run_parallel(options.materials, options.jobs, [&](std::size_t row) {
       if (options.cancelled != nullptr && *options.cancelled)
-        throw remap::Error(remap::ErrorKind::kInterrupted, "reach: interrupted; nothing was written");
+        throw Error(ErrorKind::kInterrupted, "reach: interrupted; nothing was written");
       rows[row] = study.materials(row);
       if (options.progress) options.progress();
     });
@@ -200,4 +197,4 @@ std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& 
   return all;
 }
 
-}  // namespace remapc
+}  // namespace remap

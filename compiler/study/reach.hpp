@@ -6,15 +6,15 @@
 #include <functional>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "renderer/renderer.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct ReachOptions {
-  std::vector<remap::Fit> fits;    // between models of the built-in renderer
+  std::vector<Fit> fits;           // between models of the built-in renderer
   std::size_t materials = 32;      // of each parameter: their product is compared
-  remap::Range alphas{0.05, 1.0};  // of the source; narrower highlights need more pixels
+  Range alphas{0.05, 1.0};         // of the source; narrower highlights need more pixels
   int resolution = 192;            // width and height of the pictures in pixels
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
   std::function<void()> progress;  // called progress_steps() times, from any thread
@@ -47,4 +47,4 @@ struct FitReach {
 // kInterrupted.
 std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& options);
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
-#include "text/number_text.hpp"
-#include "text/report_text.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 std::string excess_text(double share) { return fixed(100.0 * share, 3); }
 
@@ -16,7 +14,7 @@ std::string material_row(const std::string& id, const ReachedMaterial& m) {
   std::string row = id;
   for (const double value : {m.alpha, m.specular, m.target_alpha, m.target_specular, m.error, m.least_alpha,
                              m.least_specular, m.least_error})
-    row += "," + number_text(remap::rounded(value, 6));
+    row += "," + number_text(rounded(value, 6));
   return row + "\n";
 }
 
@@ -34,14 +32,14 @@ StudyReport reach_report(const ReachOptions& options, const std::vector<FitReach
   std::string table =
       "fit,alpha,specular,target_alpha,target_specular,error,least_alpha,least_specular,least_error\n";
   double sum = 0.0;
-  report.figures["fits"] = remap::Json::list();
+  report.figures["fits"] = Json::list();
   for (const FitReach* reach : worst_first) {
     const std::string& id = options.fits[reach->fit].id;
     const ReachedMaterial& worst = reach->worst();
     sum += reach->mean_excess();
     report.summary += excess_text(reach->mean_excess()) + "  " + excess_text(worst.excess()) + "  (" +
-                      number_text(remap::rounded(worst.alpha, 3)) + ", " +
-                      number_text(remap::rounded(worst.specular, 3)) + ")  " + id + "\n";
+                      number_text(rounded(worst.alpha, 3)) + ", " + number_text(rounded(worst.specular, 3)) +
+                      ")  " + id + "\n";
     report.figures["fits"].push_back({{"id", id},
                                       {"mean_excess", reach->mean_excess()},
                                       {"largest_excess", worst.excess()},
@@ -55,4 +53,4 @@ StudyReport reach_report(const ReachOptions& options, const std::vector<FitReach
   return report;
 }
 
-}  // namespace remapc
+}  // namespace remap

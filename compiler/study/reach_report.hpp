@@ -4,8 +4,8 @@
 #include "study/reach.hpp"
 #include "study/study_report.hpp"
 
-namespace remapc {
+namespace remap {
 
 StudyReport reach_report(const ReachOptions& options, const std::vector<FitReach>& result);
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/json.hpp"
 #include "renderer/image.hpp"
-#include "text/json.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct StudyReport {
   std::string summary;                                      // text for the terminal
-  remap::Json figures;                                      // the same for programs
+  Json figures;                                             // the same for programs
   std::vector<std::pair<std::string, std::string>> tables;  // file name and CSV text
   std::string plot_name, plot_script;                       // file name of the SVG, commands for gnuplot
   std::vector<std::pair<std::string, Image>> sheets;        // file name and display values
@@ -35,8 +35,8 @@ class NamedFigures {
     for (const auto& [name, value] : entries_) all.push_back(value);
     return all;
   }
-  remap::Json json() const {
-    remap::Json object;
+  Json json() const {
+    Json object;
     for (const auto& [name, value] : entries_) object[name] = value;
     return object;
   }
@@ -45,4 +45,4 @@ class NamedFigures {
   std::vector<Entry> entries_;
 };
 
-}  // namespace remapc
+}  // namespace remap

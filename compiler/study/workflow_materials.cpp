@@ -4,20 +4,17 @@
 #include <array>
 #include <random>
 
+#include "core/files.hpp"
+#include "core/json_field.hpp"
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/image_similarity.hpp"
-#include "system/files.hpp"
-#include "text/json_field.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 namespace fs = std::filesystem;
-using remap::Error;
-using remap::ErrorKind;
-using remap::Field;
 
 // std::uniform_real_distribution and std::shuffle differ between standard libraries, so they are not used.
 class Draw {
@@ -94,7 +91,7 @@ Rgb next_albedo(const std::string& line, const std::string& place, std::size_t* 
       std::string_view cell = text.substr(0, text.find(','));
       text.remove_prefix(std::min(text.size(), cell.size() + 1));
       cell.remove_prefix(std::min(cell.size(), cell.find_first_not_of(' ')));
-      if (const auto number = remap::parse_number(cell)) values.push_back(std::clamp(*number, 0.0, 1.0));
+      if (const auto number = parse_number(cell)) values.push_back(std::clamp(*number, 0.0, 1.0));
     }
   }
   if (values.size() != 3)
@@ -108,7 +105,7 @@ Rgb next_albedo(const std::string& line, const std::string& place, std::size_t* 
 
 std::vector<NamedSurface> ngan_surfaces(const fs::path& path) {
   std::vector<NamedSurface> surfaces;
-  const std::string text = remap::read_file(path);
+  const std::string text = read_file(path);
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -135,7 +132,7 @@ Rgb linear_color(const Field& item) {
 }
 
 std::vector<NamedSurface> database_surfaces(const fs::path& path) {
-  const remap::Json json = remap::parse_json(remap::read_file(path), path.string());
+  const Json json = parse_json(read_file(path), path.string());
   return Field(json, path.string())["data"].list(1, [](const Field& item) {
     const std::string name = item["name"].text();
     const Rgb color = linear_color(item);
@@ -232,4 +229,4 @@ MaterialSet study_materials(const MaterialSetOptions& options) {
   return SetBuilder(options).build();
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -9,7 +9,7 @@
 
 #include "study/lit_reflectances.hpp"
 
-namespace remapc {
+namespace remap {
 
 enum class MaterialGroup {
   kRandom,    // random colors of diffuse reflectance and F0
@@ -47,4 +47,4 @@ struct MaterialSet {
 // cannot be parsed, kUsage for counts of 0.
 MaterialSet study_materials(const MaterialSetOptions& options);
 
-}  // namespace remapc
+}  // namespace remap

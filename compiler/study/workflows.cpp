@@ -5,36 +5,29 @@
 #include <cmath>
 #include <random>
 
+#include "core/number_text.hpp"
+#include "core/parallel.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
-#include "system/parallel.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
-using remap::MetallicMaterial;
-using remap::SpecularMaterial;
-using remap::WorkflowConversion;
 
 constexpr double kWorstShare = 0.05;
 constexpr std::size_t kSheetRowsAGroup = 2;
 
-WorkflowConversion conversion_by(remap::WorkflowFormula formula, double f0,
-                                 remap::DiffuseConvention diffuse) {
+WorkflowConversion conversion_by(WorkflowFormula formula, double f0, DiffuseConvention diffuse) {
   WorkflowConversion conversion;
   conversion.specular.diffuse = conversion.metallic.diffuse = diffuse;
-  conversion.specular.width = conversion.metallic.width = remap::RoughnessConvention::kAlpha;
+  conversion.specular.width = conversion.metallic.width = RoughnessConvention::kAlpha;
   conversion.metallic.dielectric_f0 = f0;
   conversion.formula = std::move(formula);
   return conversion;
 }
 
-MetallicReflection reflection_of(const remap::MetallicWorkflow& workflow) {
-  const bool scaled = workflow.diffuse == remap::DiffuseConvention::kScaled;
+MetallicReflection reflection_of(const MetallicWorkflow& workflow) {
+  const bool scaled = workflow.diffuse == DiffuseConvention::kScaled;
   return {workflow.dielectric_f0, scaled ? 1.0 - workflow.dielectric_f0 : 1.0};
 }
 
@@ -130,7 +123,7 @@ WorkflowComparison comparison_of(const Studio& studio, const WorkflowRun& run) {
   comparison.methods.push_back(kLeastErrorMethod);
   const std::vector<StudyMaterial>& materials = studio.options.materials;
   comparison.pictures.assign(comparison.methods.size(), std::vector<WorkflowPictures>(materials.size()));
-  remap::run_parallel(materials.size(), studio.options.jobs, [&](std::size_t i) {
+  run_parallel(materials.size(), studio.options.jobs, [&](std::size_t i) {
     if (studio.options.cancelled != nullptr && *studio.options.cancelled)
       throw Error(ErrorKind::kInterrupted, "study: interrupted; nothing was written");
     std::vector<WorkflowPictures> all = compared(studio, run, materials[i]);
@@ -177,7 +170,7 @@ void require_options(const WorkflowsOptions& options) {
   require_names_differ(options.environments);
   for (const double alpha : options.alphas)
     if (!(alpha >= 0.01 && alpha <= 1.0))
-      throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + " is out of range (0.01 to 1)");
+      throw Error(ErrorKind::kUsage, "alpha: " + number_text(alpha) + " is out of range (0.01 to 1)");
   for (const StudyMaterial& material : options.materials)
     if (material.alpha >= options.alphas.size())
       throw Error(ErrorKind::kUsage, material.name + ": alpha index " + std::to_string(material.alpha) +
@@ -205,12 +198,12 @@ MetallicMaterial drawn(FamilyKind kind, std::mt19937_64& generator) {
 // One tested method: `there` is equation (2); `back` is the conversion under test.
 struct FamilyTrip {
   std::string name;
-  remap::WorkflowConversion there, back;
+  WorkflowConversion there, back;
 };
 
 FamilyTrip trip_of(const WorkflowMethod& method, const std::string& addition = "") {
   FamilyTrip trip{method.name + addition, method.conversion, method.conversion};
-  trip.there.formula = remap::Equation2{};
+  trip.there.formula = Equation2{};
   return trip;
 }
 
@@ -283,9 +276,8 @@ WorkflowsResult study_workflows(const WorkflowsOptions& options) {
   const LitReflectances lit(options.environments, options.alphas, options);
   const Studio studio{options, lit};
   WorkflowsResult result;
-  const WorkflowRun plain{"plain", false, plain_methods(options.learned), {remap::kCommonDielectricF0, 1.0}};
-  const WorkflowRun gltf{
-      "gltf", true, gltf_methods(), {remap::kCommonDielectricF0, 1.0 - remap::kCommonDielectricF0}};
+  const WorkflowRun plain{"plain", false, plain_methods(options.learned), {kCommonDielectricF0, 1.0}};
+  const WorkflowRun gltf{"gltf", true, gltf_methods(), {kCommonDielectricF0, 1.0 - kCommonDielectricF0}};
   result.comparisons.push_back(comparison_of(studio, plain));
   result.comparisons.push_back(comparison_of(studio, gltf));
   if (options.sheets) add_sheets(studio, plain, result.comparisons.front(), &result);
@@ -332,20 +324,19 @@ std::vector<FamilyLine> study_family(const std::vector<NamedConversion>& learned
   if (count == 0) throw Error(ErrorKind::kUsage, "--family-count must be at least 1");
   std::vector<FamilyTrip> trips;
   for (const WorkflowMethod& method : plain_methods(learned)) {
-    const bool is_khronos = std::holds_alternative<remap::KhronosSolver>(method.conversion.formula);
+    const bool is_khronos = std::holds_alternative<KhronosSolver>(method.conversion.formula);
     FamilyTrip& trip = trips.emplace_back(trip_of(method, is_khronos ? ", plain" : ""));
     // The solver is also tested on maps of the other convention.
-    if (is_khronos)
-      trip.there.specular.diffuse = trip.there.metallic.diffuse = remap::DiffuseConvention::kPlain;
+    if (is_khronos) trip.there.specular.diffuse = trip.there.metallic.diffuse = DiffuseConvention::kPlain;
   }
   for (const WorkflowMethod& method : gltf_methods()) trips.push_back(trip_of(method, ", glTF"));
   std::vector<FamilyLine> lines;
   for (const FamilyTrip& trip : trips) lines.push_back({trip.name, {}});
-  remap::run_parallel(lines.size() * kFamilyKinds, jobs, [&](std::size_t i) {
+  run_parallel(lines.size() * kFamilyKinds, jobs, [&](std::size_t i) {
     const std::size_t line = i / kFamilyKinds, kind = i % kFamilyKinds;
     lines[line].errors[kind] = errors_of(trips[line], static_cast<FamilyKind>(kind), count, seed);
   });
   return lines;
 }
 
-}  // namespace remapc
+}  // namespace remap

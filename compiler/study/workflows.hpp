@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "stages/conversion.hpp"
 #include "study/lit_reflectances.hpp"
 #include "study/workflow_materials.hpp"
-#include "workflow/conversion.hpp"
 
-namespace remapc {
+namespace remap {
 
 // A conversion and the reflectances of its result.
 struct WorkflowMethod {
   std::string name;
-  remap::WorkflowConversion conversion;  // to metallic; both ends hold alpha
-  MetallicReflection reflection;         // of the metallic material
+  WorkflowConversion conversion;  // to metallic; both ends hold alpha
+  MetallicReflection reflection;  // of the metallic material
 };
 
 // Returns equation (3) by both means with F0 0.03 and 0.04, Khronos' solver, the networks of `learned` and
@@ -25,7 +25,7 @@ struct WorkflowMethod {
 // convention differs, because importers do so. Networks of other conventions are skipped.
 struct NamedConversion {
   std::string name;
-  remap::WorkflowConversion conversion;
+  WorkflowConversion conversion;
 };
 std::vector<WorkflowMethod> plain_methods(const std::vector<NamedConversion>& learned);
 // The methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos' solver is
@@ -112,4 +112,4 @@ struct FamilyLine {
 std::vector<FamilyLine> study_family(const std::vector<NamedConversion>& learned, std::size_t count,
                                      std::uint64_t seed, unsigned jobs);
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,16 +4,14 @@
 #include <array>
 #include <sstream>
 
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "remap/version.hpp"
 #include "report/gnuplot.hpp"
 #include "table/csv.hpp"
-#include "text/number_text.hpp"
-#include "text/report_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 std::size_t name_width(const WorkflowsResult& result) {
   std::size_t width = 0;
@@ -76,7 +74,7 @@ std::string family_text(const std::vector<FamilyLine>& family, std::size_t width
 }
 
 Comments comments_of(const WorkflowsOptions& options) {
-  return {{"tool", std::string("remap-study ") + remap::kVersion},
+  return {{"tool", std::string("remap-study ") + kVersion},
           {"resolution", std::to_string(options.resolution)},
           {"samples", std::to_string(options.samples)},
           {"environments", environment_names(options.environments)},
@@ -145,12 +143,12 @@ std::string summary_csv(const WorkflowsOptions& options, const WorkflowsResult& 
   return csv.text();
 }
 
-remap::Json report_json(const WorkflowsOptions& options, const WorkflowsResult& result,
-                        const std::vector<FamilyLine>& family) {
-  remap::Json json = {{"materials", options.materials.size()}};
+Json report_json(const WorkflowsOptions& options, const WorkflowsResult& result,
+                 const std::vector<FamilyLine>& family) {
+  Json json = {{"materials", options.materials.size()}};
   for (const WorkflowComparison& comparison : result.comparisons)
     for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
-      remap::Json& entry = json[comparison.convention][comparison.methods[m]];
+      Json& entry = json[comparison.convention][comparison.methods[m]];
       entry = named(figures_of(options, comparison, m)).json();
       for (const MaterialGroup group : groups_of(options))
         entry["groups"][group_name(group)] = named(figures_of(options, comparison, m, group)).json();
@@ -225,4 +223,4 @@ StudyReport workflows_report(const WorkflowsOptions& options, const WorkflowsRes
   return report;
 }
 
-}  // namespace remapc
+}  // namespace remap

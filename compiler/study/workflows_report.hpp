@@ -7,7 +7,7 @@
 #include "study/study_report.hpp"
 #include "study/workflows.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Tables: workflows.csv, one row for each convention, material and method, with the material, the result, and
 // RMSE and SSIM under the headlight and as means over the environments; and workflows_summary.csv, the
@@ -16,4 +16,4 @@ namespace remapc {
 StudyReport workflows_report(const WorkflowsOptions& options, const WorkflowsResult& result,
                              const std::vector<FamilyLine>& family, const std::vector<std::string>& remarks);
 
-}  // namespace remapc
+}  // namespace remap

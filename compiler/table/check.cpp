@@ -5,14 +5,12 @@
 #include <cmath>
 #include <map>
 
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "table/light.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 // Section 7 fits a quartic, and five coefficients of k, to one value for each width.
 constexpr std::size_t kFewestAlphas = 6;
@@ -319,8 +317,8 @@ void require_fittable(const Table& table, bool accept_light) {
   const Finding& first = findings.front();
   const std::string more =
       errors == 1 ? "" : " (" + std::to_string(errors - 1) + " more errors: run remapc check)";
-  throw remap::Error(remap::ErrorKind::kInput,
-                     place_of(table.name, first) + ": " + first.kind + ": " + first.message + more);
+  throw Error(ErrorKind::kInput,
+              place_of(table.name, first) + ": " + first.kind + ": " + first.message + more);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,7 +6,7 @@
 
 #include "table/material_table.hpp"
 
-namespace remapc {
+namespace remap {
 
 enum class Severity {
   kNote,     // worth knowing
@@ -38,4 +38,4 @@ std::string finding_text(const std::string& name, const Finding& finding);
 // Throws kInput with the first error, and the number of further ones, if the table cannot be fitted.
 void require_fittable(const Table& table, bool accept_light = false);
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <map>
 
+#include "core/number_text.hpp"
+#include "core/plain_text.hpp"
+#include "core/report_text.hpp"
 #include "remap/error.hpp"
-#include "text/number_text.hpp"
-#include "text/plain_text.hpp"
-#include "text/report_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr std::size_t kLongestComment = 5000, kShownText = 80;  // bytes
-
-using remap::Error;
-using remap::ErrorKind;
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '"')) text.remove_prefix(1);
@@ -65,8 +62,8 @@ void read_comment(std::string_view line, Csv* csv) {
   const std::size_t colon = line.find(": ");
   if (colon == std::string_view::npos || csv->comments.size() == kMostCsvComments) return;
   // Comments reach fits and headers, which take no control characters.
-  csv->comments.emplace_back(remap::plain(trimmed(line.substr(1, colon - 1)), kLongestComment),
-                             remap::plain(trimmed(line.substr(colon + 2)), kLongestComment));
+  csv->comments.emplace_back(plain(trimmed(line.substr(1, colon - 1)), kLongestComment),
+                             plain(trimmed(line.substr(colon + 2)), kLongestComment));
 }
 
 void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* csv) {
@@ -97,15 +94,14 @@ std::string Csv::comment(const std::string& key) const {
 
 void Csv::fail(std::size_t line, std::size_t column, const std::string& what) const {
   throw Error(ErrorKind::kInput,
-              remap::plain(name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what));
+              plain(name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what));
 }
 
 double Csv::number(const CsvLine& line, const CsvCell& cell, const std::string& column_name) const {
-  const auto value = remap::parse_number(cell.text);
+  const auto value = parse_number(cell.text);
   if (!value)
     fail(line.number, cell.column,
-         remap::plain(column_name, kShownText) + " is \"" + remap::plain(cell.text, kShownText) +
-             "\" (must be a number)");
+         plain(column_name, kShownText) + " is \"" + plain(cell.text, kShownText) + "\" (must be a number)");
   return *value;
 }
 
@@ -148,8 +144,8 @@ void CsvText::add(std::string_view cell) {
   text_ += quote + std::string(cell) + quote + ",";
 }
 
-void CsvText::add(double number) { text_ += remap::number_text(number) + ","; }
+void CsvText::add(double number) { text_ += number_text(number) + ","; }
 
 void CsvText::add(const std::optional<double>& number) { number ? add(*number) : add(std::string_view()); }
 
-}  // namespace remapc
+}  // namespace remap

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace remapc {
+namespace remap {
 
 // The lines `# key: value` of a table, in file order.
 using Comments = std::vector<std::pair<std::string, std::string>>;
@@ -84,4 +84,4 @@ class CsvText {
   std::string text_;
 };
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 
-#include "model/covered_box.hpp"
+#include "core/number_text.hpp"
+#include "lower/covered_box.hpp"
 #include "remap/error.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // Up to this many different alpha1, each is a column; more are grouped into as many columns by their order.
@@ -65,19 +65,18 @@ std::vector<Column> columns_of(const Table& table) {
 
 }  // namespace
 
-remap::Domain table_domain(const Table& table) {
-  std::vector<remap::CoveredColumn> covered;
+Domain table_domain(const Table& table) {
+  std::vector<CoveredColumn> covered;
   for (const Column& column : columns_of(table))
     covered.push_back({column.first, column.last, column.reach, column.reach == 0.0 && !column.is_cut()});
-  const auto domain = remap::covered_box(covered);
+  const auto domain = covered_box(covered);
   if (!domain)
-    throw remap::Error(remap::ErrorKind::kInput,
-                       table.name + ": no width has usable rows (rows of status ok are needed)");
+    throw Error(ErrorKind::kInput, table.name + ": no width has usable rows (rows of status ok are needed)");
   return *domain;
 }
 
-std::string range_text(const remap::Range& range) {
-  return remap::number_text(range.min) + " to " + remap::number_text(range.max);
+std::string range_text(const Range& range) {
+  return number_text(range.min) + " to " + number_text(range.max);
 }
 
 Table swapped(const Table& table) {
@@ -97,4 +96,4 @@ Table swapped(const Table& table) {
   return result;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,19 +3,19 @@
 
 #include "table/table.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Returns the box with alpha1 in a range and specular1 from 0 to a bound in which every width has rows of
 // an answer up to the bound and no other row is clamped (covered_box.hpp chooses among such boxes). Rows of
 // other statuses are gaps and do not limit it. Throws kInput if the table has no such box.
-remap::Domain table_domain(const Table& table);
+Domain table_domain(const Table& table);
 
 // Formats a range as `0.01 to 1`.
-std::string range_text(const remap::Range& range);
+std::string range_text(const Range& range);
 
 // Exchanges source and target of the table's usable rows (Sztrajman et al. 2019, section 5). Comments are
 // kept, since they record how the table was made; `roles: swapped` is added, and what is about one role is
 // removed: the comparison of spheres, whose widths are the source's, and the target's limits.
 Table swapped(const Table& table);
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
-#include "text/report_text.hpp"
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 std::string change_text(double scale) {
@@ -21,7 +21,7 @@ std::optional<LightRemark> light_remark(const LightMatch& match) {
   const std::string left = "the diffuse pictures differ by " + percent(match.diffuse_error);
   if (!(change > kSaidLightChange)) return LightRemark{false, left + " (specular is not changed by it)"};
   LightRemark remark{change > kMostLightChange && !match.accepted, ""};
-  remark.text = "the source's light is multiplied by " + remap::number_text(remap::rounded(match.scale, 4)) +
+  remark.text = "the source's light is multiplied by " + number_text(rounded(match.scale, 4)) +
                 " to match diffuse, after which " + left + ": specular2 is " + change_text(match.scale) +
                 " for it, which is right only if the lights of the renderers differ";
   if (remark.is_error)
@@ -39,7 +39,7 @@ void require_light(const LightMatch& match, const std::string& place) {
 LightMatch light_match(const Comments& comments) {
   LightMatch match;
   for (const auto& [key, value] : comments) {
-    const double number = remap::parse_number(value).value_or(0.0);
+    const double number = parse_number(value).value_or(0.0);
     if (key == kLightScaleComment && number > 0.0) match.scale = number;
     if (key == kDiffuseErrorComment) match.diffuse_error = number;
     if (key == kLightAcceptedComment) match.accepted = value == "yes";
@@ -47,4 +47,4 @@ LightMatch light_match(const Comments& comments) {
   return match;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -9,7 +9,7 @@
 
 #include "table/csv.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The comments of a table that hold the factor, how far the diffuse pictures still differ after it (RMS), and
 // that a user has accepted both.
@@ -43,4 +43,4 @@ void require_light(const LightMatch& match, const std::string& place);
 // The match that comments record; that of equal light for comments without one.
 LightMatch light_match(const Comments& comments);
 
-}  // namespace remapc
+}  // namespace remap

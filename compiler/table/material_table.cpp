@@ -1,6 +1,6 @@
 #include "table/material_table.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 std::vector<std::string> split_names(const std::string& text) {
@@ -79,4 +79,4 @@ AnyTable parse_any_table(std::string_view text, const std::string& name, const C
   return material_table_from_csv(csv);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -9,7 +9,7 @@
 
 #include "table/table.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct NamedRow {
   std::vector<double> source, target;  // one value for each column, in the parameters' own units
@@ -37,4 +37,4 @@ using AnyTable = std::variant<Table, MaterialTable>;
 // a MaterialTable. `map` applies to a Table only. Throws as parse_table and parse_material_table do.
 AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
-}  // namespace remapc
+}  // namespace remap

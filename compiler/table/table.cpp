@@ -7,17 +7,14 @@
 
 #include <openssl/evp.h>
 
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
-#include "text/errors.hpp"
-#include "text/nearest_name.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 // In the order of RowStatus.
 constexpr std::array<std::string_view, 7> kStatusNames = {"ok",      "clamped", "flat",   "unstable",
@@ -74,7 +71,7 @@ class Reader {
       csv_.fail(csv_.header.number, 1,
                 "the header row has one column, \"" + found[0] +
                     "\" (separate columns by comma, tab or semicolon)");
-    csv_.fail(csv_.header.number, 1, "has no column " + wanted + remap::suggestion(wanted, found));
+    csv_.fail(csv_.header.number, 1, "has no column " + wanted + suggestion(wanted, found));
   }
 
   void read_row(const CsvLine& line) {
@@ -96,15 +93,15 @@ class Reader {
     table_.rows.push_back(row);
   }
 
-  remap::ModelSide side(const std::string& role, const remap::ModelSide& given) const {
+  ModelSide side(const std::string& role, const ModelSide& given) const {
     if (!given.model.empty()) return given;
-    remap::ModelSide side;
+    ModelSide side;
     side.model = csv_.comment(role);
     if (const std::string text = csv_.comment(role + "_roughness"); !text.empty()) {
-      const auto convention = remap::convention_from_name(text);
+      const auto convention = convention_from_name(text);
       if (!convention)
         throw Error(ErrorKind::kInput, table_.name + ": " + role + "_roughness: unknown convention \"" +
-                                           text + "\"" + remap::suggestion(text, remap::convention_names()));
+                                           text + "\"" + suggestion(text, convention_names()));
       side.roughness = *convention;
     }
     for (const char* suffix : {"_specular", "_specular_column"})
@@ -123,7 +120,7 @@ class Reader {
 std::optional<double> limit_in(const Table& table, const std::string& key) {
   for (const auto& [found, value] : table.comments) {
     if (found != key) continue;
-    const auto limit = remap::parse_number(value);
+    const auto limit = parse_number(value);
     if (!limit || !(*limit > 0.0))
       throw input_error(table.name + ": the comment " + key + " is \"" + value +
                         "\" (must be a number above 0)");
@@ -147,8 +144,8 @@ ColumnMap column_map(const std::string& text) {
   ColumnMap map;
   if (text == "sztrajman-2019") {
     map.columns = {{"specular2", "eta2"}};
-    map.source = {"mitsuba/ward", remap::RoughnessConvention::kAlpha, "specular"};
-    map.target = {"mitsuba/as", remap::RoughnessConvention::kAlpha, "f0"};
+    map.source = {"mitsuba/ward", RoughnessConvention::kAlpha, "specular"};
+    map.target = {"mitsuba/as", RoughnessConvention::kAlpha, "f0"};
     return map;
   }
   if (text.find('=') == std::string::npos)
@@ -160,7 +157,7 @@ ColumnMap column_map(const std::string& text) {
     if (equals == std::string_view::npos ||
         std::find(kColumns.begin(), kColumns.end(), own) == kColumns.end())
       throw Error(ErrorKind::kUsage, "--columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
-                                         remap::suggestion(own, kColumns));
+                                         suggestion(own, kColumns));
     map.columns[own] = std::string(cell.text.substr(equals + 1));
   }
   return map;
@@ -173,7 +170,7 @@ Table parse_table(std::string_view text, const std::string& name, const ColumnMa
 Table table_from_csv(const Csv& csv, const ColumnMap& map) { return Reader(csv, map).read(); }
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
-  return parse_table(remap::read_file(path), path.string(), map);
+  return parse_table(read_file(path), path.string(), map);
 }
 
 RowStatus status_at(const TableRow& row, const TargetLimits& limits) {
@@ -201,11 +198,11 @@ std::vector<TableRow> answer_rows(const Table& table) {
   return rows;
 }
 
-bool is_inside(const TableRow& row, const remap::Domain& domain) {
+bool is_inside(const TableRow& row, const Domain& domain) {
   return domain.alpha.contains(row.alpha1) && domain.specular.contains(row.specular1);
 }
 
-std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap::Domain& domain) {
+std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const Domain& domain) {
   std::vector<TableRow> inside;
   for (const TableRow& row : rows)
     if (is_inside(row, domain)) inside.push_back(row);
@@ -241,11 +238,11 @@ std::string sha256(std::string_view bytes) {
   return text;
 }
 
-remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
-                                const std::vector<std::pair<std::string, std::string>>& comments) {
-  remap::TableRecord record{path.filename().string(), sha256(bytes), {}};
+TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
+                         const std::vector<std::pair<std::string, std::string>>& comments) {
+  TableRecord record{path.filename().string(), sha256(bytes), {}};
   for (const auto& [key, value] : comments) record.comments[key] = value;
   return record;
 }
 
-}  // namespace remapc
+}  // namespace remap

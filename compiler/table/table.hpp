@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 #include "table/csv.hpp"
 
-namespace remapc {
+namespace remap {
 
 // How far a row can be trusted, and which regime of a fit (model/regimes.hpp) it belongs to. Tables call the
 // last three clamped, too.
@@ -53,8 +53,8 @@ struct TargetLimits {
 struct Table {
   std::string name;  // file name, for messages
   Comments comments;
-  remap::ModelSide source;
-  remap::ModelSide target;
+  ModelSide source;
+  ModelSide target;
   bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
   std::vector<TableRow> rows;
   TargetLimits limits;  // as the comments tell (find_limits)
@@ -83,8 +83,8 @@ inline constexpr const char* kSpheresComment = "sphere_ssim";
 // The columns and models of a foreign table.
 struct ColumnMap {
   std::map<std::string, std::string> columns;  // own name -> name in the file; missing: the same name
-  remap::ModelSide source;                     // empty model: taken from the comments
-  remap::ModelSide target;
+  ModelSide source;                            // empty model: taken from the comments
+  ModelSide target;
 };
 
 // Returns the column map of a preset, or of `own=file,own=file,...`. The preset `sztrajman-2019` is for the
@@ -110,20 +110,19 @@ bool has_answer(const TableRow& row);
 std::vector<TableRow> answer_rows(const Table& table);
 
 // Whether the source parameters of a row lie in `domain`.
-bool is_inside(const TableRow& row, const remap::Domain& domain);
+bool is_inside(const TableRow& row, const Domain& domain);
 
 // Returns the `rows` whose source parameters lie in `domain`.
-std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap::Domain& domain);
+std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const Domain& domain);
 
 // Formats a table as CSV: comments, header row, rows; the diffuse columns only if has_diffuse. Parsing the
 // text gives the same numbers.
 std::string table_text(const Table& table);
 
 // Returns what a fit records of its table, whose file is `bytes`.
-remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
-                                const Comments& comments);
+TableRecord table_record(const std::filesystem::path& path, std::string_view bytes, const Comments& comments);
 
 // Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,7 +5,7 @@
 #include <memory>
 #include <nanoflann.hpp>
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // The interface that nanoflann requires of a list of points.
@@ -89,4 +89,4 @@ NearestTexel::NearestTexel(const Points& positions) {
     find_ = finder_of<3>(positions);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
-#include "warp/space/coordinates.hpp"
+#include "warp/coordinates.hpp"
 
-namespace remapc {
+namespace remap {
 
 class NearestTexel {
  public:
@@ -22,4 +22,4 @@ class NearestTexel {
   std::function<std::vector<std::uint32_t>(const Points&)> find_;
 };
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr Eigen::Index kCentres = 80;
@@ -142,4 +142,4 @@ SmoothWarp register_points(const PointSets& sets, const AffineMap& start) {
   return warp;
 }
 
-}  // namespace remapc
+}  // namespace remap

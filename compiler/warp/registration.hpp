@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "warp/space/points.hpp"
+#include "warp/points.hpp"
 #include "warp/warp_function.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Both materials as points. `common_axes` maps each axis of the source to the direction in which the template
 // has the same change of reflectance: it is the rotation (or reflection) nearest to V_S^T V_T.
@@ -34,4 +34,4 @@ AffineMap affine_from_strokes(const PointSets& sets);
 // is flat: half or twice any of these numbers changes the error by about one percentage point. Deterministic.
 SmoothWarp register_points(const PointSets& sets, const AffineMap& start);
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,11 +6,11 @@
 
 #include <Eigen/Dense>
 
-#include "text/errors.hpp"
-#include "text/report_text.hpp"
+#include "core/errors.hpp"
+#include "core/report_text.hpp"
 #include "warp/warp_table.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // The source is only used for points; results are texels of the template, so more of them are kept.
@@ -173,7 +173,7 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
                  const std::vector<StrokePair>& strokes, const WarpOptions& options) {
   Matched matched_texels = matched(source, target, strokes, options);
   WarpFit fit{std::move(matched_texels.match), {}};
-  fit.compiled.coordinates = std::get<remap::AppearanceCoordinates>(fit.source.coordinates);
+  fit.compiled.coordinates = std::get<AppearanceCoordinates>(fit.source.coordinates);
   fit.compiled.table =
       compile_table(fit.warp, matched_texels.source_positions, NearestTexel(matched_texels.target_positions),
                     reduced(target, matched_texels.target.texels), options.exact);
@@ -198,10 +198,9 @@ std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const Mate
 double copy_rms_error(const WarpFit& fit, const WarpMaterial& source, const WarpMaterial& target) {
   const WarpMaterial from = reduced(source, sample_texels(source, kMostSampledSources)),
                      to = reduced(target, sample_texels(target, kMostCopies));
-  std::vector<remap::WarpTexel> copied, compiled;
+  std::vector<WarpTexel> copied, compiled;
   for (const std::uint32_t texel : copy_exactly(fit, from, to)) copied.push_back(to.texels[texel]);
-  for (const remap::WarpTexel& texel : from.texels)
-    compiled.push_back(remap::evaluate_warp(fit.compiled, texel));
+  for (const WarpTexel& texel : from.texels) compiled.push_back(evaluate_warp(fit.compiled, texel));
   // The unit of the coordinates is the template's spread.
   const Points difference =
       positions_of(fit.target_coordinates(), compiled) - positions_of(fit.target_coordinates(), copied);
@@ -247,4 +246,4 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
   return warnings;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -8,7 +8,7 @@
 #include "warp/nearest_texel.hpp"
 #include "warp/registration.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct WarpOptions {
   AppearanceDistance distance = AppearanceDistance::kRelative;
@@ -55,9 +55,9 @@ AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& 
 
 // A match of two parametric materials with its compiled converter.
 struct WarpFit : AppearanceMatch {
-  remap::CompiledWarp compiled;
-  const remap::AppearanceCoordinates& target_coordinates() const {
-    return std::get<remap::AppearanceCoordinates>(target.coordinates);
+  CompiledWarp compiled;
+  const AppearanceCoordinates& target_coordinates() const {
+    return std::get<AppearanceCoordinates>(target.coordinates);
   }
 };
 
@@ -79,4 +79,4 @@ double copy_rms_error(const WarpFit& fit, const WarpMaterial& source, const Warp
 // Warnings about diagnostics that the user should act on, one line each, without the place.
 std::vector<std::string> warnings_of(const WarpDiagnostics& diagnostics);
 
-}  // namespace remapc
+}  // namespace remap

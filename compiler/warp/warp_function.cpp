@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr double kDifferenceStep = 0.01;  // in RMS radii
@@ -47,4 +47,4 @@ double fold_share(const SmoothWarp& warp, const Points& points, const Eigen::Vec
   return std::min(share, 1.0 - share);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "warp/space/coordinates.hpp"
+#include "warp/coordinates.hpp"
 
-namespace remapc {
+namespace remap {
 
 // F(x) = x linear + offset, where rows are points.
 struct AffineMap {
@@ -32,4 +32,4 @@ Eigen::MatrixXd gaussians(const Points& points, const Points& centres, double wi
 // of its Jacobian, by central differences) differs from that of the majority.
 double fold_share(const SmoothWarp& warp, const Points& points, const Eigen::VectorXd& weights);
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,13 +5,11 @@
 #include <cmath>
 #include <map>
 
-#include "text/errors.hpp"
-#include "warp/space/points.hpp"
+#include "core/errors.hpp"
+#include "warp/points.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::ParameterTable;
 
 void set_box(ParameterTable& table, const Points& positions) {
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
@@ -76,35 +74,35 @@ std::uint8_t encoded(float value, float least, float largest) {
   return static_cast<std::uint8_t>(std::lround(255.0f * std::sqrt(share)));
 }
 
-remap::BlendedNodes blended_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
-  remap::BlendedNodes entries;
-  entries.codes.resize(texels.size() * remap::kWarpParameters);
-  for (std::size_t p = 0; p < remap::kWarpParameters; ++p) {
+BlendedNodes blended_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
+  BlendedNodes entries;
+  entries.codes.resize(texels.size() * kWarpParameters);
+  for (std::size_t p = 0; p < kWarpParameters; ++p) {
     entries.least[p] = entries.largest[p] = target.texels[texels[0]][p];
     for (const std::uint32_t texel : texels) {
       entries.least[p] = std::min(entries.least[p], target.texels[texel][p]);
       entries.largest[p] = std::max(entries.largest[p], target.texels[texel][p]);
     }
     for (std::size_t i = 0; i < texels.size(); ++i)
-      entries.codes[i * remap::kWarpParameters + p] =
+      entries.codes[i * kWarpParameters + p] =
           encoded(target.texels[texels[i]][p], entries.least[p], entries.largest[p]);
   }
   return entries;
 }
 
 // Builds the palette, without duplicate texels.
-remap::CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
-  remap::CopiedNodes entries;
+CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
+  CopiedNodes entries;
   entries.indices.reserve(texels.size());
-  std::map<remap::WarpTexel, std::size_t> known;
+  std::map<WarpTexel, std::size_t> known;
   for (const std::uint32_t texel : texels) {
     const auto [place, is_new] = known.try_emplace(target.texels[texel], known.size());
     if (is_new) entries.palette.push_back(place->first);
     entries.indices.push_back(static_cast<std::uint16_t>(place->second));
   }
-  if (known.size() > remap::kLargestPalette)
+  if (known.size() > kLargestPalette)
     throw usage_error("exact: the table needs " + std::to_string(known.size()) + " texels of " + target.name +
-                      ", more than " + std::to_string(remap::kLargestPalette) + " (remove --exact)");
+                      ", more than " + std::to_string(kLargestPalette) + " (remove --exact)");
   return entries;
 }
 
@@ -117,7 +115,7 @@ std::vector<std::uint32_t> nodes_around(const Points& positions, const Parameter
   std::vector<char> is_near(count, 0);
   const auto last = static_cast<double>(nodes - 1);
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-    std::array<std::size_t, remap::kLargestWarpDimension> first{};
+    std::array<std::size_t, kLargestWarpDimension> first{};
     for (std::size_t k = 0; k < dimension; ++k) {
       const double low = static_cast<double>(table.low[k]), high = static_cast<double>(table.high[k]);
       const double place = (positions(i, static_cast<Eigen::Index>(k)) - low) / (high - low) * last;
@@ -197,4 +195,4 @@ ParameterTable compile_table(const SmoothWarp& warp, const Points& positions, co
   return table;
 }
 
-}  // namespace remapc
+}  // namespace remap

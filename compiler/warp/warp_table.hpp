@@ -1,11 +1,11 @@
 // Compiles a warp to a table of template parameters over the box of the source's coordinates.
 #pragma once
 
+#include "warp/material.hpp"
 #include "warp/nearest_texel.hpp"
-#include "warp/space/material.hpp"
 #include "warp/warp_function.hpp"
 
-namespace remapc {
+namespace remap {
 
 // `positions`: of the source texels, which determine the box. `nearest`: finds texels of `target`. A node has
 // the parameters of the texel nearest to its image: unchanged (CopiedNodes) if `exact`, otherwise rounded to
@@ -13,7 +13,7 @@ namespace remapc {
 // copy by about the distance of neighboring template texels, 1.5 to 2 % of the template's spread. Exact
 // tables have more nodes, because the nearest node has a larger error than a blend. Throws kUsage if an exact
 // table needs more than 65536 texels.
-remap::ParameterTable compile_table(const SmoothWarp& warp, const Points& positions,
-                                    const NearestTexel& nearest, const WarpMaterial& target, bool exact);
+ParameterTable compile_table(const SmoothWarp& warp, const Points& positions, const NearestTexel& nearest,
+                             const WarpMaterial& target, bool exact);
 
-}  // namespace remapc
+}  // namespace remap

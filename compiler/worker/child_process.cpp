@@ -16,14 +16,11 @@
 #include <unistd.h>
 #include <vector>
 
+#include "core/process_mark.hpp"
 #include "remap/error.hpp"
-#include "system/process_mark.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 constexpr std::size_t kMostLog = 8192;          // bytes of standard error that are kept
 constexpr std::size_t kShownLogLines = 4;       // lines of the log in a message
@@ -63,7 +60,7 @@ void close_end(int* end) {
 // `REMAP_CHILD=5d1c09e4-421-1`, for the first child of this process.
 std::string new_mark() {
   static std::atomic<unsigned> count{0};
-  return "REMAP_CHILD=" + remap::process_mark() + "-" + std::to_string(++count);
+  return "REMAP_CHILD=" + process_mark() + "-" + std::to_string(++count);
 }
 
 // Whether the environment that a process began with holds `entry`; false if it cannot be read.
@@ -289,4 +286,4 @@ void ChildProcess::kill() {
   if (!ended_) ::kill(-id_, SIGKILL);
 }
 
-}  // namespace remapc
+}  // namespace remap

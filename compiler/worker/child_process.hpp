@@ -11,7 +11,7 @@
 #include <sys/types.h>
 #include <thread>
 
-namespace remapc {
+namespace remap {
 
 class ChildProcess {
  public:
@@ -84,4 +84,4 @@ class ChildProcess {
   Clock::time_point leave_by_;
 };
 
-}  // namespace remapc
+}  // namespace remap

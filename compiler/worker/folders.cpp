@@ -6,15 +6,13 @@
 #include <string>
 #include <unistd.h>
 
+#include "core/process_mark.hpp"
 #include "remap/error.hpp"
-#include "system/process_mark.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 namespace fs = std::filesystem;
-using remap::Error;
-using remap::ErrorKind;
 
 const std::string kPrefix = "remap-pictures-";
 
@@ -45,8 +43,7 @@ std::string_view mark_in(std::string_view name) {
 void remove_abandoned(const fs::path& parent) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored))
-    if (remap::is_mark_of_the_dead(mark_in(entry.path().filename().string())))
-      fs::remove_all(entry.path(), ignored);
+    if (is_mark_of_the_dead(mark_in(entry.path().filename().string()))) fs::remove_all(entry.path(), ignored);
 }
 
 }  // namespace
@@ -75,7 +72,7 @@ PrivateFolder::PrivateFolder() {
   const fs::path memory = "/dev/shm";
   const fs::path parent = is_writable_folder(memory) ? memory : fs::temp_directory_path();
   remove_abandoned(parent);
-  std::string name = (parent / (kPrefix + remap::process_mark() + "-XXXXXX")).string();
+  std::string name = (parent / (kPrefix + process_mark() + "-XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr)
     throw Error(ErrorKind::kOutput, name + ": cannot be created: " + std::strerror(errno));
   path_ = name;
@@ -86,4 +83,4 @@ PrivateFolder::~PrivateFolder() {
   fs::remove_all(path_, ignored);
 }
 
-}  // namespace remapc
+}  // namespace remap

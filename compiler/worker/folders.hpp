@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace remapc {
+namespace remap {
 
 // Where scripts/renderers installs: `REMAP_RENDERERS`, else `remap/renderers` in the user's data folder.
 std::filesystem::path renderers_folder();
@@ -35,4 +35,4 @@ class PrivateFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace remapc
+}  // namespace remap

@@ -9,11 +9,11 @@
 #include <cstring>
 #include <string_view>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
 #include "worker/picture_fault.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,8 +76,8 @@ PictureCache::Found PictureCache::find(const PictureRequest& request) const {
   };
   std::string content;
   try {
-    content = remap::read_file(path);
-  } catch (const remap::Error& error) {
+    content = read_file(path);
+  } catch (const Error& error) {
     return {std::nullopt, error.what()};
   }
   const std::size_t end = content.find('\n') + 1;
@@ -98,8 +98,7 @@ void PictureCache::keep(const PictureRequest& request, const Image& image) const
   const std::string line = key_opening_ + request.text + "\n";
   const std::string_view picture(reinterpret_cast<const char*>(image.values.data()), picture_bytes(request));
   // Two threads never keep the same picture at once (WorkerRenderer), so the temporary name is unique.
-  remap::write_file(file_of(request), line + checksum_line(line, picture) + std::string(picture),
-                    remap::Flush::kNo);
+  write_file(file_of(request), line + checksum_line(line, picture) + std::string(picture), Flush::kNo);
 }
 
 std::vector<std::string> PictureCache::other_versions() const {
@@ -111,4 +110,4 @@ std::vector<std::string> PictureCache::other_versions() const {
   return names;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -8,7 +8,7 @@
 #include "renderer/image.hpp"
 #include "worker/protocol.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The pictures of one version of one renderer, in a folder of the cache named after both. Safe for many
 // threads and processes; a picture appears complete or not at all.
@@ -39,4 +39,4 @@ class PictureCache {
   std::filesystem::path worker_folder_, folder_;
 };
 
-}  // namespace remapc
+}  // namespace remap

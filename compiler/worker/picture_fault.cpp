@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "text/number_text.hpp"
+#include "core/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 // What is wrong with one value; null if nothing is.
 const char* rule_against(float value, float least) {
@@ -28,10 +26,10 @@ std::string picture_fault(const Image& image) {
     const char* rule = rule_against(image.values[i], least);
     if (rule == nullptr) continue;
     const std::size_t pixel = i / channels;
-    return "the picture is " + number_text(remap::decimal_value(image.values[i])) + " in row " +
+    return "the picture is " + number_text(decimal_value(image.values[i])) + " in row " +
            std::to_string(pixel / width) + ", column " + std::to_string(pixel % width) + " (" + rule + ")";
   }
   return "";
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,7 +5,7 @@
 
 #include "renderer/image.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The brightest value of a pixel. The peak of the narrowest highlight is below 1e8; the squares of values
 // beyond this limit are no floats.
@@ -18,4 +18,4 @@ inline constexpr float kNegativeShare = 1e-4f;
 // bright, or negative beyond rounding; empty for a picture that can be used.
 std::string picture_fault(const Image& image);
 
-}  // namespace remapc
+}  // namespace remap

@@ -4,22 +4,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/fit_fields.hpp"
+#include "core/json_field.hpp"
+#include "core/number_text.hpp"
+#include "core/plain_text.hpp"
+#include "lower/fit_fields.hpp"
 #include "remap/error.hpp"
 #include "renderer/scene.hpp"
-#include "text/json_field.hpp"
-#include "text/number_text.hpp"
-#include "text/plain_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
-using remap::Field;
-using remap::Json;
-using remap::Range;
-using remap::RoughnessConvention;
 
 // Of one renderer; models are listed, and parameters are options.
 constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
@@ -45,8 +38,7 @@ std::string shown_request(const Material& material, const Scene& scene) {
   std::string text = material.model + " ";
   for (const auto& [name, values] : material.parameters) {
     text += name + " ";
-    for (std::size_t i = 0; i < values.size(); ++i)
-      text += (i == 0 ? "" : ":") + remap::number_text(values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) text += (i == 0 ? "" : ":") + number_text(values[i]);
     text += ", ";
   }
   const std::string side = std::to_string(scene.resolution);
@@ -63,10 +55,9 @@ ParameterRole read_role(const Field& field) {
 }
 
 ParameterDescription read_parameter(const Field& field, RoughnessConvention* convention) {
-  ParameterDescription parameter{field["name"].text(), read_role(field["role"]),
-                                 remap::read_range(field["range"])};
+  ParameterDescription parameter{field["name"].text(), read_role(field["role"]), read_range(field["range"])};
   if (parameter.role == ParameterRole::kRoughness) {
-    const auto known = remap::convention_from_name(field["convention"].text());
+    const auto known = convention_from_name(field["convention"].text());
     field["convention"].require(known.has_value(), "alpha, roughness, exponent, glossiness or squared");
     *convention = *known;
   }
@@ -115,11 +106,11 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
 
 // Parses an answer. It must have the id of the request. The message for invalid JSON quotes the line.
 Json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
-  const auto shown = [&] { return remap::plain(line, 80); };
-  if (remap::is_nested_too_deep(line))
+  const auto shown = [&] { return plain(line, 80); };
+  if (is_nested_too_deep(line))
     throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", JSON nested deeper than " +
-                                       std::to_string(remap::kDeepestJson) + " levels");
-  std::variant<Json, remap::JsonFault> parsed = remap::json_of(line);
+                                       std::to_string(kDeepestJson) + " levels");
+  std::variant<Json, JsonFault> parsed = json_of(line);
   const Json* answer = std::get_if<Json>(&parsed);
   if (answer == nullptr || answer->fields() == nullptr)
     throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", which is not a line of JSON");
@@ -134,7 +125,7 @@ std::optional<std::string> complaint_of(const Json& answer, const std::string& p
   if (!answer.contains("error")) return std::nullopt;
   std::string complaint = Field(answer, place)["error"].any_text();
   std::ranges::replace(complaint, '\n', ' ');
-  return remap::plain(complaint);
+  return plain(complaint);
 }
 
 }  // namespace
@@ -164,7 +155,7 @@ std::string describe_line(std::int64_t id, unsigned threads) {
 std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
                         const std::filesystem::path& mesh) {
   Json json = {{"id", id}, {"request", "render"}};
-  json.update(std::get<Json>(remap::json_of(request.text)));
+  json.update(std::get<Json>(json_of(request.text)));
   if (request.shape != Shape::kSphere) json["scene"]["mesh"] = mesh.string();
   json["image"] = image.string();
   return json.dump();
@@ -196,4 +187,4 @@ WorkerDescription read_description(const std::string& line, std::int64_t id, con
   return description;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -10,7 +10,7 @@
 
 #include "renderer/renderer.hpp"
 
-namespace remapc {
+namespace remap {
 
 inline constexpr int kWorkerProtocol = 1;
 
@@ -48,4 +48,4 @@ std::optional<std::string> read_answer(const std::string& line, std::int64_t id,
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& place);
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 
+#include "core/files.hpp"
+#include "core/json_field.hpp"
+#include "core/nearest_name.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
-#include "text/json_field.hpp"
-#include "text/nearest_name.hpp"
 #include "worker/folders.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 namespace fs = std::filesystem;
-using remap::Error;
-using remap::ErrorKind;
-using remap::Field;
 
 bool is_name(const std::string& name) {
   return !name.empty() && name.find_first_of("/ \t") == std::string::npos;
@@ -80,7 +77,7 @@ ModelDescription RendererSet::model(const std::string& name) const {
   }
   for (const WorkerEntry& worker : workers_) names.push_back(worker.name + "/...");
   throw Error(ErrorKind::kUsage, name + ": unknown model of " + builtin_->version() + " and of the workers" +
-                                     remap::suggestion(name, names));
+                                     suggestion(name, names));
 }
 
 Image RendererSet::render(const Material& material, const Scene& scene) const {
@@ -115,7 +112,7 @@ std::vector<std::string> RendererSet::remarks() const {
 }
 
 std::vector<WorkerEntry> read_worker_list(const fs::path& path) {
-  const auto json = remap::parse_json(remap::read_file(path), path.string());
+  const auto json = parse_json(read_file(path), path.string());
   const fs::path folder = fs::absolute(path).parent_path();
   return Field(json, path.string())["workers"].list(
       0, [&](const Field& field) { return read_entry(field, folder); });
@@ -144,4 +141,4 @@ std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given) {
   return workers;
 }
 
-}  // namespace remapc
+}  // namespace remap

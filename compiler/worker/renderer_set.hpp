@@ -12,7 +12,7 @@
 #include "renderer/renderer.hpp"
 #include "worker/worker_renderer.hpp"
 
-namespace remapc {
+namespace remap {
 
 class RendererSet final : public Renderer {
  public:
@@ -58,4 +58,4 @@ WorkerEntry parse_worker(const std::string& text);
 // user's list, the shipped list. Throws kInput for a list that cannot be read, kUsage for errors in `given`.
 std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
 
-}  // namespace remapc
+}  // namespace remap

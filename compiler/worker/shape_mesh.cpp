@@ -7,11 +7,11 @@
 #include <numbers>
 #include <string>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
 #include "renderer/scene.hpp"
-#include "system/files.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 // With these counts, the sagitta r (1 - cos(pi / n)) of both circles is below 1e-4.
@@ -48,7 +48,7 @@ void append_triangle(std::string* bytes, std::uint32_t a, std::uint32_t b, std::
 
 void write_mesh(Shape shape, const std::filesystem::path& path) {
   if (shape == Shape::kSphere)
-    throw remap::Error(remap::ErrorKind::kUsage, "mesh: the sphere has none (choose another shape)");
+    throw Error(ErrorKind::kUsage, "mesh: the sphere has none (choose another shape)");
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kRound * kTube);
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) bytes += std::string("\nproperty float ") + name;
@@ -63,7 +63,7 @@ void write_mesh(Shape shape, const std::filesystem::path& path) {
       append_triangle(&bytes, vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1));
       append_triangle(&bytes, vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1));
     }
-  remap::write_file(path, bytes);
+  write_file(path, bytes);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -2,18 +2,16 @@
 
 #include <fstream>
 
+#include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
-#include "text/number_text.hpp"
-#include "text/plain_text.hpp"
 #include "worker/folders.hpp"
 #include "worker/picture_fault.hpp"
 #include "worker/shape_mesh.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
 using std::chrono::duration;
 using std::chrono::duration_cast;
 
@@ -70,7 +68,7 @@ std::string Worker::place(const std::string& shown) const {
 void Worker::fail(const std::string& shown, const std::string& what) {
   usable_ = false;
   process_->kill();
-  std::string message = remap::plain(what, kLongestWhat);
+  std::string message = plain(what, kLongestWhat);
   if (const std::string log = process_->log_end(); !log.empty())
     message += "; last lines of its log: " + end_of(log);
   if (!has_answered_ && !entry_.install.empty()) message += "; to install it: " + entry_.install;
@@ -78,7 +76,7 @@ void Worker::fail(const std::string& shown, const std::string& what) {
 }
 
 Error Worker::error_of(const std::string& shown, const std::string& what) const {
-  return {ErrorKind::kInput, remap::plain(place(shown) + ": " + what)};
+  return {ErrorKind::kInput, plain(place(shown) + ": " + what)};
 }
 
 std::string Worker::next_answer(const std::string& shown) {
@@ -99,7 +97,7 @@ std::string Worker::next_answer(const std::string& shown) {
       usable_ = false;
       throw Error(ErrorKind::kInterrupted, place(shown) + ": interrupted");
     }
-    if (now >= deadline) fail(shown, "no answer within " + remap::number_text(limits_.seconds) + " s");
+    if (now >= deadline) fail(shown, "no answer within " + number_text(limits_.seconds) + " s");
   }
 }
 
@@ -124,7 +122,7 @@ Image Worker::render(const PictureRequest& request) {
     fail(request.shown, without(place(request.shown) + ": ", error.what()));
   }
   // The worker is still usable; after other faults, answers no longer match requests.
-  if (complaint) throw error_of(request.shown, remap::plain(*complaint, kLongestWhat));
+  if (complaint) throw error_of(request.shown, plain(*complaint, kLongestWhat));
   return read_picture(request);
 }
 
@@ -148,4 +146,4 @@ Image Worker::read_picture(const PictureRequest& request) {
   return image;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -12,7 +12,7 @@
 #include "worker/child_process.hpp"
 #include "worker/protocol.hpp"
 
-namespace remapc {
+namespace remap {
 
 // A registered worker (compiler/adapters/PROTOCOL.md).
 struct WorkerEntry {
@@ -54,7 +54,7 @@ class Worker {
   std::string ask(const std::string& line, const std::string& shown);
   std::string next_answer(const std::string& shown);
   // The error whose message begins with the place.
-  remap::Error error_of(const std::string& shown, const std::string& what) const;
+  Error error_of(const std::string& shown, const std::string& what) const;
   [[noreturn]] void fail(const std::string& shown, const std::string& what);
   Image read_picture(const PictureRequest& request);
 
@@ -68,4 +68,4 @@ class Worker {
   bool usable_ = false;
 };
 
-}  // namespace remapc
+}  // namespace remap

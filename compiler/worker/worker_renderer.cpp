@@ -6,11 +6,8 @@
 #include "remap/error.hpp"
 #include "renderer/scene.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
@@ -168,4 +165,4 @@ std::vector<std::string> WorkerRenderer::remarks() const {
   return remarks;
 }
 
-}  // namespace remapc
+}  // namespace remap

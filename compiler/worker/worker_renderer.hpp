@@ -18,7 +18,7 @@
 #include "worker/picture_cache.hpp"
 #include "worker/worker.hpp"
 
-namespace remapc {
+namespace remap {
 
 // How workers are run and how their pictures are kept.
 struct WorkerSettings {
@@ -81,4 +81,4 @@ class WorkerRenderer final : public Renderer {
   mutable std::atomic<bool> keeps_{true};  // false after a picture could not be written
 };
 
-}  // namespace remapc
+}  // namespace remap

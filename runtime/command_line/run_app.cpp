@@ -13,9 +13,9 @@
 
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
+#include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
-#include "text/nearest_name.hpp"
-#include "text/plain_text.hpp"
 
 namespace remap {
 namespace {

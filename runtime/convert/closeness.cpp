@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/number_text.hpp"
 #include "remap/path.hpp"
-#include "text/number_text.hpp"
 
 namespace remap {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "convert/stage.hpp"
 #include "remap/error.hpp"
+#include "stages/stage.hpp"
 
 namespace remap {
 namespace {

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "converter/converter_fields.hpp"
+#include "core/files.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
-#include "warp/warp_json.hpp"
+#include "stages/warp_json.hpp"
 
 namespace remap {
 

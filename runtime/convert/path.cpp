@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "convert/path_search.hpp"
+#include "core/nearest_name.hpp"
 #include "remap/error.hpp"
 #include "remap/shipped_converters.hpp"
-#include "text/nearest_name.hpp"
 
 namespace remap {
 namespace {

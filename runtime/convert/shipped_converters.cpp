@@ -4,11 +4,11 @@
 #include <utility>
 #include <variant>
 
-#include "convert/brdf_stage.hpp"
 #include "convert/converter_file.hpp"
 #include "convert/shipped_text.hpp"
+#include "core/files.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
+#include "stages/brdf_stage.hpp"
 
 namespace remap {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "converter/converter_data.hpp"
-#include "text/json_field.hpp"
+#include "core/json_field.hpp"
 
 namespace remap {
 

@@ -4,9 +4,9 @@
 
 #include "converter/converter_data.hpp"
 #include "converter/converter_fields.hpp"
+#include "core/json_field.hpp"
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
-#include "text/json_field.hpp"
-#include "text/number_text.hpp"
 
 namespace remap {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "discovery/discovery.hpp"
 #include "remap/error.hpp"
+#include "sets/discovery.hpp"
 #include "texremap/conversion_request.hpp"
 
 namespace remap {

@@ -5,8 +5,8 @@
 #include <map>
 #include <thread>
 
+#include "core/nearest_name.hpp"
 #include "remap/error.hpp"
-#include "text/nearest_name.hpp"
 
 namespace remap {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "convert/brdf_stage.hpp"
 #include "convert/converter_file.hpp"
 #include "remap/error.hpp"
 #include "remap/path.hpp"
 #include "remap/warp.hpp"
+#include "stages/brdf_stage.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/convert_options.hpp"

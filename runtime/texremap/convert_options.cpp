@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "texremap/commands.hpp"
-#include "text/number_text.hpp"
 
 namespace remap {
 namespace {

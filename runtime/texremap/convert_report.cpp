@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "command_line/run_app.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "texremap/converter_text.hpp"
-#include "text/number_text.hpp"
-#include "text/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -59,7 +59,7 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::string seconds_text(double seconds) { return remapc::fixed(seconds, 2) + " s"; }
+std::string seconds_text(double seconds) { return fixed(seconds, 2) + " s"; }
 
 std::string files_text(const JobReport& report) {
   constexpr std::size_t kShown = 3;
@@ -155,10 +155,10 @@ void print_confidence(const std::string& program, const std::string& place, cons
   if (metallic.texel_count == 0) return;
   const auto share = [&](std::size_t count) {
     const double part = static_cast<double>(count) / static_cast<double>(metallic.texel_count);
-    return remapc::fixed(100.0 * part, 2) + " %";
+    return fixed(100.0 * part, 2) + " %";
   };
-  const std::string residual = remapc::fixed(metallic.rms_residual(), 4) + " rms, " +
-                               remapc::fixed(static_cast<double>(metallic.largest_residual), 3) + " at most";
+  const std::string residual = fixed(metallic.rms_residual(), 4) + " rms, " +
+                               fixed(static_cast<double>(metallic.largest_residual), 3) + " at most";
   print_message(program, place + "not representable in metal-rough (residual): " + residual +
                              "; pictures differ by about 0.42 of it");
   print_message(program,

@@ -1,6 +1,6 @@
 #include "texremap/converter_text.hpp"
 
-#include "text/number_text.hpp"
+#include "core/number_text.hpp"
 
 namespace remap {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/json.hpp"
 #include "remap/path.hpp"
-#include "text/json.hpp"
 
 namespace remap {
 

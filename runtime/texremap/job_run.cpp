@@ -11,10 +11,10 @@
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
+#include "core/files.hpp"
+#include "core/parallel.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "system/files.hpp"
-#include "system/parallel.hpp"
 #include "texremap/conversion_hash.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/journal.hpp"

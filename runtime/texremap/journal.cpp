@@ -9,10 +9,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "core/files.hpp"
+#include "core/json_field.hpp"
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
-#include "text/json_field.hpp"
-#include "text/plain_text.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {

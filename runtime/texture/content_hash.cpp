@@ -9,8 +9,8 @@
 #include <vector>
 #include <xxhash.h>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
 
 namespace remap {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "images/image_library.hpp"
 #include "remap/pixels.hpp"
+#include "texture/image_library.hpp"
 #include "texture/resampled_rows.hpp"
 
 namespace remap {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/report_text.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/error.hpp"
-#include "text/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -82,7 +82,7 @@ void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
   const std::string place = set.maps[specular->channels.front().map].path().string();
   messages.push_back(place + ": specular, read as " + std::string(name_of(kTransfers, specular->transfer)) +
                      ", is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " +
-                     remapc::fixed(100.0 * share, 0) + " % of the texels, like F0 0.04 stored " +
+                     fixed(100.0 * share, 0) + " % of the texels, like F0 0.04 stored " +
                      (is_srgb ? "linear" : "in sRGB") +
                      " (use --color-space specular=" + (is_srgb ? "linear" : "srgb") + " in that case)");
 }

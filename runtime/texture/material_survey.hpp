@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "remap/workflow.hpp"
+#include "stages/diagnosis.hpp"
 #include "texture/texture_set.hpp"
-#include "workflow/diagnosis.hpp"
 
 namespace remap {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "maps/linear_values.hpp"
+#include "convert/linear_values.hpp"
 
 namespace remap {
 namespace {

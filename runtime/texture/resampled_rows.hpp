@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "images/image_layout.hpp"
+#include "texture/image_layout.hpp"
 
 namespace remap {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <system_error>
 
+#include "core/files.hpp"
+#include "core/nearest_name.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
-#include "text/nearest_name.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <span>
 
+#include "core/files.hpp"
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
-#include "text/nearest_name.hpp"
-#include "text/number_text.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;

@@ -21,15 +21,18 @@ def included(path):
         yield from [c.resolve() for c in candidates if c.is_file()][:1]
 
 
-def folder(path):
-    return str(path.parent.relative_to(ROOT))
-
-
+@functools.cache
 def listed_folders():
     """Folder -> what HACKING.md says of it, in its order."""
     listed = re.search(r"<!-- folders -->\n```\n(.*?)```", (ROOT / "HACKING.md").read_text(), re.DOTALL)
     rows = [line.split(None, 1) for line in listed.group(1).splitlines() if line.strip()]
     return {name.rstrip("/"): "".join(text).strip() for name, *text in rows}
+
+
+def folder(path):
+    """The deepest folder of the list that holds the file, or the file's own folder."""
+    own = path.relative_to(ROOT).parent
+    return next((f for f in map(str, [own, *own.parents]) if f in listed_folders()), str(own))
 
 
 def lines_of(paths):

@@ -3,8 +3,8 @@
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
-#include "convert/stage.hpp"
 #include "remap/path.hpp"
+#include "stages/stage.hpp"
 
 namespace remap_bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "bench/bench.hpp"
-#include "system/files.hpp"
+#include "core/files.hpp"
 
 namespace remap_bench {
 namespace {

@@ -2,15 +2,15 @@
 #include "bench/bench.hpp"
 #include "bench/sweep_table.hpp"
 #include "fit/fit_table.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 
 namespace remap_bench {
 namespace {
 
 // The table of headers.cpp; its models stand in its fits.
-remapc::Table made_table() {
+remap::Table made_table() {
   const remap::Fit fit = remap::load_fit(REMAP_BENCH_FOLDER "/svr.json");
-  remapc::Table table = remapc::read_table(REMAP_BENCH_FOLDER "/table.csv");
+  remap::Table table = remap::read_table(REMAP_BENCH_FOLDER "/table.csv");
   table.name = fit.table.name;
   table.source = fit.source;
   table.target = fit.target;
@@ -18,11 +18,11 @@ remapc::Table made_table() {
 }
 
 void add_fit(std::string_view kind) {
-  const remapc::Table table = made_table();
-  remapc::FitOptions options;
+  const remap::Table table = made_table();
+  remap::FitOptions options;
   options.kind = kind;
   add_benchmark("fit " + std::string(kind), 1, 3,
-                [table, options] { benchmark::DoNotOptimize(remapc::fit_table(table, "", options)); });
+                [table, options] { benchmark::DoNotOptimize(remap::fit_table(table, "", options)); });
 }
 
 void add_sweep(const char* name, const char* objective, const char* source, const char* target) {
@@ -41,7 +41,7 @@ void add_fits() {
 }
 
 Section fit_section(const Medians& medians) {
-  const remapc::Table table = made_table();
+  const remap::Table table = made_table();
   const auto row = [&](const std::string& what, const std::string& name, std::optional<double> goal) {
     return Row{what, medians.seconds(name), "s", {}, "", goal, false};
   };

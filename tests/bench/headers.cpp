@@ -8,14 +8,14 @@
 #include <string>
 
 #include "bench/sweep_table.hpp"
+#include "core/files.hpp"
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
 #include "fit/fit_table.hpp"
+#include "lower/chain.hpp"
+#include "lower/fit_file.hpp"
 #include "lower/lower.hpp"
-#include "model/chain.hpp"
-#include "model/fit_file.hpp"
 #include "support/shared_data.hpp"
-#include "system/files.hpp"
 
 namespace remap {
 
@@ -28,12 +28,10 @@ void skip(const std::string& what, const std::string& reason) { std::cerr << wha
 
 namespace {
 
-using remapc::Table;
-
 Table bench_table() {
   // Where it is missing, this says so.
   const auto published = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
-  if (!published.empty()) return remapc::read_table(published, remapc::column_map("sztrajman-2019"));
+  if (!published.empty()) return remap::read_table(published, remap::column_map("sztrajman-2019"));
   Table table = remap_bench::sweep_table("paper", "mitsuba/ward", "mitsuba/as");
   table.name = "built-in sweep";
   return table;
@@ -41,14 +39,14 @@ Table bench_table() {
 
 // `<name>.json`, and its header `<name>.hpp`.
 void write_fit(const std::filesystem::path& folder, const Table& table, const std::string& kind) {
-  remapc::FitOptions options;
+  remap::FitOptions options;
   options.id = kind;
   options.kind = kind;
   options.regression.form = "paper";
-  remap::Fit fit = remapc::fit_table(table, remapc::table_text(table), options).fit;
+  remap::Fit fit = remap::fit_table(table, remap::table_text(table), options).fit;
   add_converter(&fit);
   remap::write_file(folder / (kind + ".json"), fit_to_json(fit));
-  remap::write_file(folder / (kind + ".hpp"), remapc::emit_header(fit));
+  remap::write_file(folder / (kind + ".hpp"), remap::emit_header(fit));
 }
 
 // Inputs and outputs in [0, 1], weights as a network starts with (Glorot and Bengio 2010): speed does not
@@ -75,7 +73,7 @@ remap::Network random_network(remap::Activation activation) {
 
 // `network_<activation>.hpp`: the kernel of a network, with what the layout of a header has around it.
 void write_network(const std::filesystem::path& folder, remap::Activation activation) {
-  const remap::Network network = remapc::folded(random_network(activation));
+  const remap::Network network = remap::folded(random_network(activation));
   const std::string name = "network_" + std::string(remap::activation_name(activation));
   remap::write_file(folder / (name + ".hpp"),
                     "#include <cstddef>\n#include <cstdint>\n#include <cstring>\n\nnamespace remap::" + name +
@@ -89,8 +87,8 @@ void write_network(const std::filesystem::path& folder, remap::Activation activa
                         "  std::memcpy(&result, &value, sizeof result);\n"
                         "  return result;\n}\n"
                         "inline constexpr std::size_t kBlock = " +
-                        std::to_string(remapc::network_block(network)) + ";\n" +
-                        remapc::network_helpers(activation) + remapc::network_function("rows", network) +
+                        std::to_string(remap::network_block(network)) + ";\n" +
+                        remap::network_helpers(activation) + remap::network_function("rows", network) +
                         "}  // namespace remap::" + name + "\n");
 }
 
@@ -103,7 +101,7 @@ void write_chain(const std::filesystem::path& folder) {
     steps.push_back(remap::load_fit(fits / (std::string(id) + ".json")));
   remap::Fit fused = remap::compose(steps, "fused");
   add_converter(&fused);
-  remap::write_file(folder / "fused.hpp", remapc::emit_header(fused));
+  remap::write_file(folder / "fused.hpp", remap::emit_header(fused));
 }
 
 }  // namespace
@@ -112,7 +110,7 @@ int main(int, char** argv) {
   try {
     const std::filesystem::path folder = argv[1];
     const Table table = bench_table();
-    remap::write_file(folder / "table.csv", remapc::table_text(table));
+    remap::write_file(folder / "table.csv", remap::table_text(table));
     write_fit(folder, table, "svr");
     write_fit(folder, table, "parametric");
     write_fit(folder, table, "mlp");

@@ -3,21 +3,21 @@
 
 #include <string>
 
-#include "sweep/sweep.hpp"
+#include "measure/sweep.hpp"
 
 namespace remap_bench {
 
-inline remapc::Table sweep_table(const std::string& objective, const std::string& source,
-                                 const std::string& target) {
-  const auto renderer = remapc::make_builtin_renderer();
-  remapc::SweepOptions options;
+inline remap::Table sweep_table(const std::string& objective, const std::string& source,
+                                const std::string& target) {
+  const auto renderer = remap::make_builtin_renderer();
+  remap::SweepOptions options;
   options.source = source;
   options.target = target;
-  options.objective = remapc::objective_preset(objective);
+  options.objective = remap::objective_preset(objective);
   options.objective_name = objective;
   options.sampling = "bench";
-  options.samples = remapc::grid_samples({0.01, 1.0}, 30, {0.0, 1.0}, 30);
-  return remapc::run_sweep(*renderer, options, {});
+  options.samples = remap::grid_samples({0.01, 1.0}, 30, {0.0, 1.0}, 30);
+  return remap::run_sweep(*renderer, options, {});
 }
 
 }  // namespace remap_bench

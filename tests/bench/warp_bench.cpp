@@ -1,6 +1,6 @@
 // Appearance warps: the fit from two texture sets and strokes, and the pass of the compiled table.
 #include "bench/bench.hpp"
-#include "convert/kernels.hpp"
+#include "stages/kernels.hpp"
 #include "support/warp_sets.hpp"
 #include "warp/warp.hpp"
 
@@ -12,29 +12,29 @@ constexpr std::size_t kTexels = kSize * kSize;
 
 // A set with a known answer, its warp, and its source as rows.
 struct WarpCase {
-  explicit WarpCase(remapc::WarpSet made)
-      : set(std::move(made)), strokes(remapc::strokes_of(set, 0)), packed(remap::packed(fit().compiled)) {
+  explicit WarpCase(remap::WarpSet made)
+      : set(std::move(made)), strokes(remap::strokes_of(set, 0)), packed(remap::packed(fit().compiled)) {
     for (std::size_t r = 0; r < in.size(); ++r) {
       in[r].resize(kTexels);
       out[r].resize(kTexels);
       for (std::size_t i = 0; i < kTexels; ++i) in[r][i] = set.source.texels[i][r];
     }
   }
-  remapc::WarpFit fit() const { return fit_warp(set.source, set.target, strokes); }
+  remap::WarpFit fit() const { return fit_warp(set.source, set.target, strokes); }
 
-  remapc::WarpSet set;
-  std::vector<remapc::StrokePair> strokes;
+  remap::WarpSet set;
+  std::vector<remap::StrokePair> strokes;
   remap::PackedWarp packed;
   std::array<std::vector<float>, remap::kWarpParameters> in, out;
 };
 
 // Two latents, and three.
 WarpCase& leaf() {
-  static WarpCase made(remapc::leaf_set(kSize));
+  static WarpCase made(remap::leaf_set(kSize));
   return made;
 }
 WarpCase& rust() {
-  static WarpCase made(remapc::rust_set(kSize));
+  static WarpCase made(remap::rust_set(kSize));
   return made;
 }
 

@@ -5,7 +5,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
-#include "runtime/workflow/materials.hpp"
+#include "runtime/stages/materials.hpp"
 
 namespace remap_bench {
 namespace {

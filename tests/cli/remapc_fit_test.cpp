@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
@@ -71,9 +71,9 @@ TEST_CASE("remapc fit: a fit that cannot be lowered is kept with a warning, and 
   CHECK(session.remapc({"emit", path, "-o", session.path("headers")}).exit_code == 1);
   CHECK_FALSE(fs::exists(session.path("headers")));
   CHECK(fit("1e-3").errors.find("warning") == std::string::npos);
-  const remap::Lowered loose = load_fit(path).converter->lowered;
+  const Lowered loose = load_fit(path).converter->lowered;
   fit("1e-5");
-  const remap::Lowered close = load_fit(path).converter->lowered;
+  const Lowered close = load_fit(path).converter->lowered;
   CHECK(close.alpha_bound() <= 1e-5);
   CHECK(loose.alpha.polynomial.coefficients.size() < close.alpha.polynomial.coefficients.size());
 }

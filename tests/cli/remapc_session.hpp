@@ -8,10 +8,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
+#include "core/number_text.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
-#include "text/number_text.hpp"
 
 namespace remap {
 

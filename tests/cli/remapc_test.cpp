@@ -8,8 +8,8 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
-#include "model/fit_file.hpp"
-#include "model/interpreter.hpp"
+#include "lower/fit_file.hpp"
+#include "lower/interpreter.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;

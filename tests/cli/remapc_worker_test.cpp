@@ -8,7 +8,7 @@
 
 #include "cli/remapc_session.hpp"
 #include "compiler/worker/fake_session.hpp"
-#include "system/process_mark.hpp"
+#include "core/process_mark.hpp"
 #include "worker/folders.hpp"
 
 using namespace remap;
@@ -16,9 +16,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::vector<std::string> sweep(const Session& session, const remapc::FakeSession& fake,
-                               const std::string& table, const std::string& fault = "",
-                               const std::string& cache = "cache") {
+std::vector<std::string> sweep(const Session& session, const FakeSession& fake, const std::string& table,
+                               const std::string& fault = "", const std::string& cache = "cache") {
   std::vector<std::string> words = split_words(
       "sweep --source fake/ggx --target mitsuba/ggx-plain --resolution 32 --roughness-samples 5 "
       "--specular-samples 2 --roughness-range 0.2,0.9");
@@ -28,7 +27,7 @@ std::vector<std::string> sweep(const Session& session, const remapc::FakeSession
 }
 
 // Until the workers have made `count` pictures.
-void wait_for_pictures(const remapc::FakeSession& fake, std::size_t count) {
+void wait_for_pictures(const FakeSession& fake, std::size_t count) {
   for (int i = 0; i < 1200 && fake.pictures() < count; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   REQUIRE(fake.pictures() >= count);
@@ -38,7 +37,7 @@ void wait_for_pictures(const remapc::FakeSession& fake, std::size_t count) {
 
 TEST_CASE("remapc sweep: a worker is the source, and the second run is from the cache", "[slow]") {
   const Session session;
-  const remapc::FakeSession fake;
+  const FakeSession fake;
   const ProcessResult first = require_success(session.remapc(sweep(session, fake, "a.csv")));
   const std::size_t pictures = fake.pictures();
   CHECK_THAT(first.errors, Contains(std::to_string(pictures) + " pictures rendered and "));
@@ -54,7 +53,7 @@ TEST_CASE("remapc sweep: a worker is the source, and the second run is from the 
 
 TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the same table", "[slow]") {
   const Session session;
-  const remapc::FakeSession fake;
+  const FakeSession fake;
   require_success(session.remapc(sweep(session, fake, "whole.csv")));
   const std::size_t pictures = fake.pictures();
   auto broken = sweep(session, fake, "a.csv", "die' --after '28", "other");
@@ -69,7 +68,7 @@ TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the sam
 TEST_CASE("remapc sweep: no worker stays behind when it is interrupted, or killed") {
   for (const int signal : {SIGINT, SIGKILL}) {
     const Session session;
-    const remapc::FakeSession fake;
+    const FakeSession fake;
     auto arguments = sweep(session, fake, "a.csv", "hang' --after '4");
     arguments.insert(arguments.begin(), REMAPC_PROGRAM);
     Process process(arguments);
@@ -86,8 +85,7 @@ namespace {
 // The folders for pictures of processes that have ended.
 std::size_t abandoned_folders() {
   std::size_t count = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(remapc::PrivateFolder().path().parent_path())) {
+  for (const auto& entry : std::filesystem::directory_iterator(PrivateFolder().path().parent_path())) {
     const std::string name = entry.path().filename(), opening = "remap-pictures-";
     if (name.starts_with(opening) &&
         is_mark_of_the_dead(name.substr(opening.size(), name.rfind('-') - opening.size())))
@@ -102,7 +100,7 @@ TEST_CASE("remapc: a signal that ends a run with workers leaves no process and n
   const Session session;
   for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
     for (const bool is_sweep : {true, false}) {
-      const remapc::FakeSession fake;
+      const FakeSession fake;
       auto arguments = sweep(session, fake, "a.csv", "hang' --after '4");
       if (!is_sweep)
         arguments = {"render",       "--model",   "fake/ggx",
@@ -131,7 +129,7 @@ TEST_CASE("remapc: a signal that ends a run with workers leaves no process and n
 TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said by check, show and --json",
           "[slow]") {
   const Session session;
-  const remapc::FakeSession fake;
+  const FakeSession fake;
   auto arguments = sweep(session, fake, "a.csv", "oren-nayar");
   for (std::string& word : arguments)
     if (word == "5") word = "8";  // alphas and, below, speculars: as many as a fit needs
@@ -173,7 +171,7 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
 
 TEST_CASE("remapc sweep: a cache that cannot be written is a warning", "[slow]") {
   const Session session;
-  const remapc::FakeSession fake;
+  const FakeSession fake;
   session.write("blocked", "x");
   const ProcessResult result = session.remapc(sweep(session, fake, "a.csv", "", "blocked"));
   INFO(result.errors);
@@ -184,7 +182,7 @@ TEST_CASE("remapc sweep: a cache that cannot be written is a warning", "[slow]")
 
 TEST_CASE("remapc renderers: what is there is listed, and why the rest is not", "[slow]") {
   const Session session;
-  const remapc::FakeSession fake;
+  const FakeSession fake;
   const ProcessResult result = require_success(session.remapc(
       {"renderers", "--json", "--worker", "fake=" + fake.command(), "--worker", "gone=/no/such/program"}));
   CHECK_THAT(result.output, Contains("\"version\": \"Fake 1\"") && Contains("\"model\": \"fake/ggx\""));

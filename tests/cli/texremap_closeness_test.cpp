@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "model/fit_file.hpp"
+#include "core/number_text.hpp"
+#include "lower/fit_file.hpp"
 #include "remap/path.hpp"
-#include "text/number_text.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 #include "support/campaign.hpp"
 #include "support/random_warp.hpp"
 

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
+#include "core/number_text.hpp"
 #include "remap/path.hpp"
 #include "remap/shipped_converters.hpp"
 #include "support/skip.hpp"
-#include "text/number_text.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_tree.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/workflow.hpp"
 #include "support/campaign.hpp"

@@ -11,13 +11,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "remap/converter.hpp"
 #include "remap/shipped_converters.hpp"
 #include "support/process.hpp"
 #include "support/srgb.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
-#include "system/files.hpp"
 
 namespace remap {
 

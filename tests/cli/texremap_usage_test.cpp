@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 #include "remap/shipped_converters.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"

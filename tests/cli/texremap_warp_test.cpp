@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 #include "support/random_warp.hpp"
 #include "support/skip.hpp"
 

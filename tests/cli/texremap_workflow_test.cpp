@@ -10,9 +10,9 @@
 #include "cli/texremap_session.hpp"
 #include "remap/converter.hpp"
 #include "remap/shipped_converters.hpp"
+#include "stages/conversion.hpp"
+#include "stages/diagnosis.hpp"
 #include "support/skip.hpp"
-#include "workflow/conversion.hpp"
-#include "workflow/diagnosis.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

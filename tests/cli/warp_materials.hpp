@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "cli/remapc_session.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 #include "support/test_image.hpp"
 
 namespace remap::warp_cli {

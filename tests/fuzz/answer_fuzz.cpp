@@ -4,6 +4,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string line(remap::text_of(data, size));
-  remap::read_or_refuse([&] { remapc::read_description(line, 1, "fake", "worker fake"); });
-  return remap::read_or_refuse([&] { remapc::read_answer(line, 1, "worker fake"); });
+  remap::read_or_refuse([&] { remap::read_description(line, 1, "fake", "worker fake"); });
+  return remap::read_or_refuse([&] { remap::read_answer(line, 1, "worker fake"); });
 }

@@ -2,7 +2,7 @@
 // read as the same.
 #include "convert/converter_file.hpp"
 #include "fuzz/fuzz.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   remap::read_or_refuse([&] { remap::fitted_converter_from_json(remap::text_of(data, size), "fit.json"); });

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
-#include "text/plain_text.hpp"
 
 namespace remap {
 

@@ -2,8 +2,8 @@
 #include <fstream>
 #include <unistd.h>
 
+#include "core/files.hpp"
 #include "fuzz/fuzz.hpp"
-#include "system/files.hpp"
 #include "texremap/journal.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,8 +1,8 @@
 // Manifests.
+#include "build/manifest.hpp"
 #include "fuzz/fuzz.hpp"
-#include "manifest/manifest.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return remap::read_or_refuse(
-      [&] { remapc::manifest_from_json(remap::text_of(data, size), "manifest.json"); });
+      [&] { remap::manifest_from_json(remap::text_of(data, size), "manifest.json"); });
 }

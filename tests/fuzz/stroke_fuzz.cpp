@@ -5,7 +5,7 @@
 // which libpng even fills.
 #include "fuzz/fuzz.hpp"
 #include "fuzz/fuzz_file.hpp"
-#include "warp/input/strokes.hpp"
+#include "warp/strokes.hpp"
 
 namespace {
 
@@ -25,6 +25,6 @@ bool has_endless_chunk(std::string_view png) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (has_endless_chunk(remap::text_of(data, size))) return -1;  // not kept
-  const remapc::MapFrame frame{"maps", 4, 4};
-  return remap::read_or_refuse([&] { remapc::read_stroke(remap::fuzz_file(data, size), frame); });
+  const remap::MapFrame frame{"maps", 4, 4};
+  return remap::read_or_refuse([&] { remap::read_stroke(remap::fuzz_file(data, size), frame); });
 }

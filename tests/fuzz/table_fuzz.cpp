@@ -4,7 +4,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return remap::read_or_refuse([&] {
-    const remapc::AnyTable table = remapc::parse_any_table(remap::text_of(data, size), "table.csv", {});
-    std::visit([](const auto& any) { remapc::check_table(any); }, table);
+    const remap::AnyTable table = remap::parse_any_table(remap::text_of(data, size), "table.csv", {});
+    std::visit([](const auto& any) { remap::check_table(any); }, table);
   });
 }

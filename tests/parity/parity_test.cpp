@@ -11,15 +11,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "emit/emit.hpp"
+#include "lower/fit_file.hpp"
+#include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
-#include "model/fit_file.hpp"
-#include "model/interpreter.hpp"
 #include "support/campaign.hpp"
 #include "support/made_regimes.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
@@ -271,7 +271,7 @@ class Headers {
     std::string includes, entries;
     for (const MadeModel& subject : subjects_) {
       const std::string& id = subject.fit.id;
-      write_file(path(id + ".hpp"), remapc::emit_header(subject.fit));
+      write_file(path(id + ".hpp"), emit_header(subject.fit));
       inputs_.push_back(texels(subject.fit));
       includes += "#include \"" + id + ".hpp\"\n";
       entries += " ENTRY(" + id + ")";
@@ -340,7 +340,7 @@ TEST_CASE("generated header: self_test fails when any one coefficient is changed
   const TemporaryFolder folder;
   Fit fit = committed_fit();
   fit.id = "original";
-  const std::string header = remapc::emit_header(fit);
+  const std::string header = emit_header(fit);
   std::string text, tests;
   const auto add = [&](const std::string& name, const std::string& changed) {
     text += std::regex_replace(std::regex_replace(changed, std::regex("ORIGINAL_HPP"), name + "_HPP"),
@@ -385,7 +385,7 @@ TEST_CASE("generated header: compiles alone, twice, beside another and in two fi
   std::string includes, tests;
   for (const MadeModel& subject : subjects()) {
     const Fit& fit = all.emplace_back(subject.fit);
-    write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit));
+    write_file(folder.path() / (fit.id + ".hpp"), emit_header(fit));
     includes += "#include \"" + fit.id + ".hpp\"\n#include \"" + fit.id + ".hpp\"\n";
     tests += "  passed = passed && remap::" + fit.id + "::self_test();\n";
   }

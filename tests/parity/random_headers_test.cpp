@@ -10,16 +10,16 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "emit/emit.hpp"
+#include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
-#include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/build_speed.hpp"
 #include "support/campaign.hpp"
 #include "support/example_fit.hpp"
 #include "support/random_models.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
 
 using namespace remap;
 
@@ -72,8 +72,7 @@ std::vector<Header> lowered_headers(const std::string& kind, int models) {
     try {
       add_converter(&fit, options);
       const Lowered& lowered = fit.converter->lowered;
-      headers.push_back(
-          {fit, remapc::emit_header(fit), lowered.alpha.bound, lowered.specular.bound, lowered});
+      headers.push_back({fit, emit_header(fit), lowered.alpha.bound, lowered.specular.bound, lowered});
     } catch (const Error& error) {
       REQUIRE(error.kind() == ErrorKind::kNumeric);
     }

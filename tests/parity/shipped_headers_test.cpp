@@ -8,11 +8,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
+#include "core/parallel.hpp"
 #include "remap/shipped_converters.hpp"
 #include "runtime/convert/texel_rows.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
-#include "system/parallel.hpp"
 
 using namespace remap;
 

@@ -8,13 +8,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/kernels.hpp"
+#include "core/files.hpp"
 #include "emit/emit.hpp"
+#include "stages/kernels.hpp"
 #include "support/random_warp.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/warp_rows.hpp"
-#include "system/files.hpp"
 
 using namespace remap;
 
@@ -78,7 +78,7 @@ const Entry* build(const TemporaryFolder& folder, const std::vector<WarpMapFit>&
   if (!has_program(compiler)) return nullptr;
   std::string includes, entries;
   for (const WarpMapFit& fit : fits) {
-    write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit));
+    write_file(folder.path() / (fit.id + ".hpp"), emit_header(fit));
     includes += "#include \"" + fit.id + ".hpp\"\n";
     entries += "ENTRY(" + fit.id + ")\n";
   }

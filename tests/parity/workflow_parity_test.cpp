@@ -7,13 +7,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "emit/emit.hpp"
-#include "model/fit_file.hpp"
-#include "runtime/workflow/materials.hpp"
+#include "lower/fit_file.hpp"
+#include "runtime/stages/materials.hpp"
 #include "support/campaign.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
@@ -140,7 +140,7 @@ std::vector<Expected> write_headers(const fs::path& folder) {
   std::vector<Expected> all;
   std::string includes, entries;
   for (const WorkflowFit& fit : probed_models()) {
-    write_file(folder / (fit.id + ".hpp"), remapc::emit_header(fit));
+    write_file(folder / (fit.id + ".hpp"), emit_header(fit));
     const auto rows = texels(fit.conversion.is_to_metallic() ? 7 : 5);
     std::string bytes;
     for (const auto& row : rows)
@@ -196,6 +196,6 @@ TEST_CASE("workflow headers: what ships is what its fits give") {
   for (const WorkflowFit& fit : probed_models())
     if (const fs::path header = root / "generated" / (fit.id + ".hpp"); fs::exists(header)) {
       INFO(fit.id);
-      CHECK((read_file(header) == remapc::emit_header(fit)));
+      CHECK((read_file(header) == emit_header(fit)));
     }
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/mapping.hpp"
+#include "lower/mapping.hpp"
 
 namespace remap {
 

@@ -1,7 +1,7 @@
 // A small fit for tests that need one and do not care which.
 #pragma once
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 
 namespace remap {
 

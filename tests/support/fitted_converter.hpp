@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "convert/brdf_stage.hpp"
-#include "convert/stage.hpp"
+#include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
-#include "model/interpreter.hpp"
+#include "stages/brdf_stage.hpp"
+#include "stages/stage.hpp"
 
 namespace remap {
 

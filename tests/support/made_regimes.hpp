@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 
 namespace made_regimes {
 

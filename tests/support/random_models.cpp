@@ -6,7 +6,7 @@
 #include <optional>
 #include <random>
 
-#include "model/interpreter.hpp"
+#include "lower/interpreter.hpp"
 
 namespace remap {
 namespace {

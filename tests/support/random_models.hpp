@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 
 namespace remap {
 

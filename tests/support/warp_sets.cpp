@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using Color = std::array<double, 3>;
@@ -26,8 +26,8 @@ Color mix(const Color& a, const Color& b, double share) {
   return color;
 }
 
-remap::WarpTexel texel_of(const Color& diffuse, const Color& specular, double alpha) {
-  remap::WarpTexel texel{};
+WarpTexel texel_of(const Color& diffuse, const Color& specular, double alpha) {
+  WarpTexel texel{};
   for (std::size_t c = 0; c < 3; ++c) {
     texel[c] = static_cast<float>(diffuse[c]);
     texel[3 + c] = static_cast<float>(specular[c]);
@@ -36,16 +36,16 @@ remap::WarpTexel texel_of(const Color& diffuse, const Color& specular, double al
   return texel;
 }
 
-using Law = remap::WarpTexel (*)(const std::array<double, 3>&);
+using Law = WarpTexel (*)(const std::array<double, 3>&);
 
-remap::WarpTexel leaf_source(const std::array<double, 3>& l) {
+WarpTexel leaf_source(const std::array<double, 3>& l) {
   const double v = l[1], u = 0.5 + (l[0] - 0.5) * (1.0 - 0.45 * v);
   const Color body = mix({0.22, 0.10, 0.035}, {0.07, 0.025, 0.012}, std::pow(u, 0.6));
   return texel_of(mix(body, {0.36, 0.27, 0.16}, std::pow(v, 1.5)),
                   mix({0.03, 0.03, 0.03}, {0.05, 0.05, 0.05}, u), 0.62 - 0.22 * std::pow(u, 1.5) - 0.15 * v);
 }
 
-remap::WarpTexel leaf_template(const std::array<double, 3>& l) {
+WarpTexel leaf_template(const std::array<double, 3>& l) {
   const double v = l[1], u = 0.5 + (l[0] - 0.5) * (1.0 - 0.6 * v);
   const Color body = mix({0.02, 0.09, 0.015}, {0.16, 0.26, 0.03}, std::pow(u, 1.2));
   return texel_of(mix(body, {0.34, 0.40, 0.20}, v), mix({0.06, 0.06, 0.06}, {0.035, 0.035, 0.035}, u),
@@ -54,7 +54,7 @@ remap::WarpTexel leaf_template(const std::array<double, 3>& l) {
 
 Color scaled(const Color& color, double factor) { return mix({0.0, 0.0, 0.0}, color, factor); }
 
-remap::WarpTexel rust_source(const std::array<double, 3>& l) {
+WarpTexel rust_source(const std::array<double, 3>& l) {
   const Color diffuse = mix({0.015, 0.015, 0.015}, {0.33, 0.12, 0.035}, std::pow(l[0], 1.4));
   const Color specular = mix({0.50, 0.49, 0.47}, {0.04, 0.04, 0.04}, std::pow(l[0], 0.6));
   return texel_of(scaled(diffuse, 0.55 + 0.8 * std::pow(l[1], 0.7)),
@@ -62,32 +62,32 @@ remap::WarpTexel rust_source(const std::array<double, 3>& l) {
                   0.22 + 0.4 * std::pow(l[0], 1.2) + 0.25 * std::pow(l[2], 1.3) * (1.0 - 0.4 * l[0]));
 }
 
-remap::WarpTexel rust_template(const std::array<double, 3>& l) {
+WarpTexel rust_template(const std::array<double, 3>& l) {
   const Color diffuse = mix({0.02, 0.012, 0.01}, {0.10, 0.30, 0.24}, l[0]);
   const Color specular = mix({0.75, 0.42, 0.28}, {0.04, 0.04, 0.04}, std::pow(l[0], 0.8));
   return texel_of(scaled(diffuse, 0.65 + 0.7 * l[1]), scaled(specular, 0.75 + 0.25 * l[2] * (1.0 - l[0])),
                   0.15 + 0.35 * l[0] + 0.22 * l[2] * (1.0 - 0.5 * l[0]) + 0.05 * l[1]);
 }
 
-remap::WarpTexel wood_source(const std::array<double, 3>& l) {
+WarpTexel wood_source(const std::array<double, 3>& l) {
   const Color diffuse = mix({0.20, 0.11, 0.06}, {0.06, 0.03, 0.02}, std::pow(l[0], 0.7));
   return texel_of(scaled(diffuse, 1.0 + 0.3 * std::pow(l[1], 1.4)),
                   mix({0.05, 0.05, 0.05}, {0.035, 0.035, 0.035}, l[1]),
                   0.25 + 0.3 * std::pow(l[1], 0.7) + 0.06 * l[0]);
 }
 
-remap::WarpTexel wood_template(const std::array<double, 3>& l) {
+WarpTexel wood_template(const std::array<double, 3>& l) {
   const Color diffuse = mix({0.47, 0.30, 0.15}, {0.22, 0.10, 0.04}, l[0]);
   return texel_of(scaled(diffuse, 1.0 - 0.25 * l[1]), mix({0.055, 0.055, 0.055}, {0.04, 0.04, 0.04}, l[1]),
                   0.12 + 0.3 * l[1] + 0.08 * l[0] * l[1]);
 }
 
 // Evaluates the material at `latents` and adds texel noise of 1 %.
-std::vector<remap::WarpTexel> material_of(Law law, const Latents& latents, std::uint32_t seed) {
+std::vector<WarpTexel> material_of(Law law, const Latents& latents, std::uint32_t seed) {
   std::mt19937 random(seed);
-  std::vector<remap::WarpTexel> texels;
+  std::vector<WarpTexel> texels;
   for (const auto& latent : latents) {
-    remap::WarpTexel texel = law(latent);
+    WarpTexel texel = law(latent);
     for (float& value : texel) {
       const double noise = uniform(random) + uniform(random) + uniform(random) + uniform(random) - 2.0;
       value = static_cast<float>(std::clamp(static_cast<double>(value) * (1.0 + 0.0173 * noise), 0.002, 1.0));
@@ -239,4 +239,4 @@ std::vector<StrokePair> strokes_of(const WarpSet& set, std::uint32_t seed) {
   return strokes;
 }
 
-}  // namespace remapc
+}  // namespace remap

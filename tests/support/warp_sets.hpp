@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "warp/space/material.hpp"
+#include "warp/material.hpp"
 
-namespace remapc {
+namespace remap {
 
 using Latents = std::vector<std::array<double, 3>>;
 
@@ -20,7 +20,7 @@ struct WarpSet {
   std::size_t size = 0;
   WarpMaterial source, target;
   Latents source_latents, target_latents;
-  std::vector<remap::WarpTexel> truth;  // the template's reflectance at the source's latents
+  std::vector<WarpTexel> truth;  // the template's reflectance at the source's latents
 };
 
 // `leaf`: age and stem. `wood`: grain and wear. `rust`: rust, grime and polish.
@@ -32,4 +32,4 @@ WarpSet rust_set(std::size_t size);
 // They differ between the materials and the seeds.
 std::vector<StrokePair> strokes_of(const WarpSet& set, std::uint32_t seed);
 
-}  // namespace remapc
+}  // namespace remap

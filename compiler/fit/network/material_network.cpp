@@ -4,14 +4,14 @@
 #include <array>
 #include <cmath>
 
-#include "fit/rows/split.hpp"
-#include "model/evaluate.hpp"
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
+#include "lower/evaluate.hpp"
 #include "remap/version.hpp"
+#include "table/split.hpp"
 #include "table/table.hpp"
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr double kLargestDeviation = 1e-3;
@@ -69,7 +69,7 @@ FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
       squares += (1.0 - metal) * (1.0 - metal);
     }
   FamilyDeviation deviation;
-  deviation.dielectric_f0 = squares > 0.0 ? remap::rounded(products / squares, 6) : 0.0;
+  deviation.dielectric_f0 = squares > 0.0 ? rounded(products / squares, 6) : 0.0;
   for (const MaterialRow& row : rows)
     for (std::size_t c = 0; c < 3; ++c) {
       const double metal = row.metallic[3], base = row.metallic[c];
@@ -90,16 +90,16 @@ std::string comment_of(const MaterialTable& table, const std::string& key) {
   throw input_error(table.name + ": missing comment " + key + " (remapc sample writes it)");
 }
 
-remap::RoughnessConvention width_of(const MaterialTable& table, const std::string& key) {
+RoughnessConvention width_of(const MaterialTable& table, const std::string& key) {
   const std::string name = comment_of(table, key);
-  const auto convention = remap::convention_from_name(name);
+  const auto convention = convention_from_name(name);
   if (!convention)
     throw input_error(table.name + ": unknown convention '" + name + "' in the comment " + key);
   return *convention;
 }
 
-remap::WorkflowConversion conversion_of(const MaterialTable& table, double dielectric_f0) {
-  remap::WorkflowConversion conversion;
+WorkflowConversion conversion_of(const MaterialTable& table, double dielectric_f0) {
+  WorkflowConversion conversion;
   conversion.specular.model = comment_of(table, "target");
   conversion.specular.width = width_of(table, "target_roughness");
   conversion.metallic.model = comment_of(table, "source");
@@ -111,7 +111,7 @@ remap::WorkflowConversion conversion_of(const MaterialTable& table, double diele
 struct MaterialSplit {
   Samples training;
   std::vector<MaterialRow> held_out;
-  remap::Split record;
+  Split record;
 };
 
 MaterialSplit split_materials(const MaterialTable& table, const std::vector<MaterialRow>& rows,
@@ -136,12 +136,11 @@ MaterialSplit split_materials(const MaterialTable& table, const std::vector<Mate
 }
 
 // Computes the errors of the converter, whose outputs are clamped to 0 to 1.
-void judge(const remap::Network& network, const std::vector<MaterialRow>& rows,
-           remap::NetworkTraining* training) {
+void judge(const Network& network, const std::vector<MaterialRow>& rows, NetworkTraining* training) {
   std::vector<double> colors, metals;
   for (const MaterialRow& row : rows) {
     const std::vector<double> outputs =
-        remap::network_outputs(network, std::vector<double>(row.specular.begin(), row.specular.end()));
+        network_outputs(network, std::vector<double>(row.specular.begin(), row.specular.end()));
     for (std::size_t i = 0; i < 4; ++i)
       (i < 3 ? colors : metals).push_back(std::clamp(outputs[i], 0.0, 1.0) - row.metallic[i]);
   }
@@ -151,21 +150,21 @@ void judge(const remap::Network& network, const std::vector<MaterialRow>& rows,
 
 }  // namespace
 
-remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
-                                        const MaterialNetworkOptions& options, const FitProgress& progress) {
+WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
+                                 const MaterialNetworkOptions& options, const FitProgress& progress) {
   const std::vector<MaterialRow> rows = material_rows(table);
   const FamilyDeviation deviation = deviation_of(rows);
   if (deviation.f0 > kLargestDeviation || deviation.diffuse > kLargestDeviation)
     throw input_error(table.name + ": rows differ from equation (2) by " +
-                      remap::number_text(std::max(deviation.f0, deviation.diffuse)) + " (rms), more than " +
-                      remap::number_text(kLargestDeviation) +
+                      number_text(std::max(deviation.f0, deviation.diffuse)) + " (rms), more than " +
+                      number_text(kLargestDeviation) +
                       " (both models must have the same BRDF and plain diffuse)");
-  remap::WorkflowFit fit;
+  WorkflowFit fit;
   fit.conversion = conversion_of(table, deviation.dielectric_f0);
   fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);
   const MaterialSplit split = split_materials(table, rows, options);
   const TrainedNetwork trained = train_network(split.training, options, progress);
-  fit.conversion.formula = remap::LearnedNetwork{trained.network};
+  fit.conversion.formula = LearnedNetwork{trained.network};
   fit.training.emplace();
   fit.training->method["network"] = trained.method;
   fit.training->method["table_against_equation_2"] =
@@ -173,9 +172,9 @@ remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_
   judge(trained.network, split.held_out, &*fit.training);
   fit.training->split = split.record;
   fit.training->table = table_record(table.name, bytes, table.comments);
-  fit.tool_version = remap::kVersion;
+  fit.tool_version = kVersion;
   require_valid(fit.conversion, fit.id);
   return fit;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "fit/network/network_training.hpp"
-#include "model/workflow_fit.hpp"
+#include "lower/workflow_fit.hpp"
 #include "table/material_table.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The defaults describe the network of the paper.
 struct MaterialNetworkOptions : TrainingOptions {
   MaterialNetworkOptions() {
     hidden = {300};
-    activation = remap::Activation::kRelu;
+    activation = Activation::kRelu;
     starts = 1;
   }
   std::string id;                  // empty: `<specular model>_to_<metallic model>`
@@ -29,8 +29,7 @@ struct MaterialNetworkOptions : TrainingOptions {
 // status ok count. Diffuse is plain; the roughness conventions are those of the table's models. Throws kInput
 // for missing columns, without rows, and if rows deviate from equation (2) by more than 1e-3 (RMS); kUsage
 // for an invalid id or share; and the errors of train_network().
-remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
-                                        const MaterialNetworkOptions& options,
-                                        const FitProgress& progress = {});
+WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
+                                 const MaterialNetworkOptions& options, const FitProgress& progress = {});
 
-}  // namespace remapc
+}  // namespace remap

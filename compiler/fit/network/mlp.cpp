@@ -4,12 +4,10 @@
 #include <map>
 #include <string>
 
-#include "text/number_text.hpp"
+#include "core/number_text.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 Samples samples_of(const std::vector<TableRow>& rows, bool with_specular, double TableRow::*output) {
   Samples samples;
@@ -27,8 +25,8 @@ void record(const std::string& name, const TrainedNetwork& trained,
             std::map<std::string, std::string>& method) {
   const double unit = 1.0 / trained.network.outputs.front().scale;
   method[name] = trained.method;
-  method[name + "_training_rms"] = number_text(remap::rounded_up(trained.training_rms * unit, 3));
-  method[name + "_validation_rms"] = number_text(remap::rounded_up(trained.validation_rms * unit, 3));
+  method[name + "_training_rms"] = number_text(rounded_up(trained.training_rms * unit, 3));
+  method[name + "_validation_rms"] = number_text(rounded_up(trained.validation_rms * unit, 3));
   method[name + "_best_start"] = std::to_string(trained.best_start + 1);
 }
 
@@ -49,9 +47,9 @@ Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
       train_network(samples_of(rows, true, &TableRow::specular2), options, part_of(progress, 0.5, 1.0));
 
   Regression regression;
-  regression.mapping = remap::Mlp{alpha.network, specular.network};
+  regression.mapping = Mlp{alpha.network, specular.network};
   std::map<std::string, std::string>& method = regression.method;
-  method["activation"] = std::string(remap::activation_name(options.activation));
+  method["activation"] = std::string(activation_name(options.activation));
   method["hidden"] = hidden_text(options.hidden);
   method["seed"] = std::to_string(options.seed);
   method["starts"] = std::to_string(options.starts);
@@ -64,4 +62,4 @@ Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
   return regression;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,7 +5,7 @@
 
 #include "fit/network/network_training.hpp"
 
-namespace remapc {
+namespace remap {
 
 using MlpOptions = TrainingOptions;
 
@@ -18,4 +18,4 @@ using MlpOptions = TrainingOptions;
 Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
                    const FitProgress& progress = {});
 
-}  // namespace remapc
+}  // namespace remap

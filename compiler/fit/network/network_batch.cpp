@@ -3,14 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include "model/evaluate.hpp"
+#include "lower/evaluate.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using remap::Activation;
 
 // The derivative of the activation at x, where its value is y.
 double activation_slope(Activation activation, double x, double y) {
@@ -39,11 +38,11 @@ std::vector<std::size_t> layer_offsets(const NetworkShape& shape) {
 
 std::size_t NetworkShape::parameter_count() const { return layer_offsets(*this).back(); }
 
-std::vector<remap::Layer> layers_from_parameters(const NetworkShape& shape, const double* parameters) {
-  std::vector<remap::Layer> layers;
+std::vector<Layer> layers_from_parameters(const NetworkShape& shape, const double* parameters) {
+  std::vector<Layer> layers;
   for (std::size_t l = 0; l + 1 < shape.sizes.size(); ++l) {
     const std::size_t weight_count = shape.sizes[l] * shape.sizes[l + 1];
-    remap::Layer layer;
+    Layer layer;
     layer.input_count = shape.sizes[l];
     layer.weights.assign(parameters, parameters + weight_count);
     parameters += weight_count;
@@ -92,7 +91,7 @@ const MatrixXd& NetworkBatch::forward(const double* parameters) {
     slopes.resize(sums.rows(), sums.cols());
     for (Index i = 0; i < sums.size(); ++i) {
       const double x = sums.data()[i];
-      const double y = remap::activated(shape_.activation, x);
+      const double y = activated(shape_.activation, x);
       sums.data()[i] = y;
       slopes.data()[i] = activation_slope(shape_.activation, x, y);
     }
@@ -135,4 +134,4 @@ void NetworkBatch::gradient(const double* parameters, const MatrixXd& by_outputs
   }
 }
 
-}  // namespace remapc
+}  // namespace remap

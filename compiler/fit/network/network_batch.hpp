@@ -7,12 +7,12 @@
 
 #include <Eigen/Core>
 
-#include "model/mapping.hpp"
+#include "lower/mapping.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct NetworkShape {
-  remap::Activation activation = remap::Activation::kTanh;
+  Activation activation = Activation::kTanh;
   std::vector<std::size_t> sizes;  // inputs, units of each hidden layer, outputs; at least two
 
   // The number of weights and biases: the length of a parameter vector.
@@ -20,7 +20,7 @@ struct NetworkShape {
 };
 
 // A parameter vector contains for each layer the weights, in the order of remap::Layer, then the biases.
-std::vector<remap::Layer> layers_from_parameters(const NetworkShape& shape, const double* parameters);
+std::vector<Layer> layers_from_parameters(const NetworkShape& shape, const double* parameters);
 
 // 1 for each weight and 0 for each bias of a parameter vector.
 Eigen::VectorXd weight_mask(const NetworkShape& shape);
@@ -62,4 +62,4 @@ class NetworkBatch {
   Eigen::MatrixXd before(const double* parameters, std::size_t layer, const Eigen::MatrixXd& behind) const;
 };
 
-}  // namespace remapc
+}  // namespace remap

@@ -10,7 +10,7 @@
 
 #include <ceres/ceres.h>
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using Eigen::Index;
@@ -224,4 +224,4 @@ OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& sampl
   return watch.best();
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,7 +7,7 @@
 
 #include "fit/network/network_batch.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Normalised samples, one column each. Validation samples determine when the training stops.
 struct NetworkSamples {
@@ -57,4 +57,4 @@ OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samp
 // RMS difference of normalised outputs.
 double rms_difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected);
 
-}  // namespace remapc
+}  // namespace remap

@@ -11,19 +11,18 @@
 #include <random>
 #include <utility>
 
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
+#include "core/parallel.hpp"
 #include "fit/network/network_optimisers.hpp"
-#include "fit/rows/split.hpp"
-#include "system/parallel.hpp"
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
+#include "table/split.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using remap::Scaling;
 
 constexpr std::size_t kFewestRows = 10;
 constexpr std::size_t kLevenbergParameters = 600;
@@ -63,10 +62,10 @@ void require_sound(const Samples& samples, const TrainingOptions& options) {
     throw usage_error("network: every hidden layer must have at least 1 unit");
   if (options.starts == 0) throw usage_error("network: at least 1 start is required");
   if (!(options.validation_fraction >= 0.0 && options.validation_fraction <= 0.5))
-    throw usage_error("network: validation share " + remap::number_text(options.validation_fraction) +
+    throw usage_error("network: validation share " + number_text(options.validation_fraction) +
                       " is out of range (0 to 0.5)");
   if (!(options.weight_decay >= 0.0 && std::isfinite(options.weight_decay)))
-    throw usage_error("network: weight decay " + remap::number_text(options.weight_decay) +
+    throw usage_error("network: weight decay " + number_text(options.weight_decay) +
                       " must be finite and at least 0");
 }
 
@@ -109,7 +108,7 @@ std::uint64_t mixed_seed(std::uint64_t seed, std::uint64_t stream) {
 }
 
 struct NormalisedSamples {
-  std::vector<remap::Scaling> input_scalings, output_scalings;
+  std::vector<Scaling> input_scalings, output_scalings;
   Eigen::MatrixXd inputs, outputs;  // one column per sample, in random order
 };
 
@@ -163,8 +162,7 @@ VectorXd initial_parameters(const NetworkShape& shape, std::uint64_t seed) {
     const auto inputs = static_cast<double>(shape.sizes[l]),
                outputs = static_cast<double>(shape.sizes[l + 1]);
     const bool is_last = l + 2 == shape.sizes.size();
-    const double reach =
-        std::sqrt(6.0 / (shape.activation == remap::Activation::kTanh ? inputs + outputs : inputs));
+    const double reach = std::sqrt(6.0 / (shape.activation == Activation::kTanh ? inputs + outputs : inputs));
     for (std::size_t i = 0; i < shape.sizes[l] * shape.sizes[l + 1]; ++i)
       parameters[next++] = reach * uniform();
     for (std::size_t i = 0; i < shape.sizes[l + 1]; ++i) parameters[next++] = is_last ? 0.0 : uniform();
@@ -218,7 +216,7 @@ struct BestStart {
 BestStart run_starts(const Training& train, const TrainingOptions& options, const FitProgress& progress) {
   std::vector<OptimisedNetwork> results(options.starts);
   StartsProgress board(options.starts, progress);
-  remap::run_parallel(options.starts, options.jobs, [&](std::size_t start) {
+  run_parallel(options.starts, options.jobs, [&](std::size_t start) {
     const auto report = [&board, start](double share) { return board.report(start, share); };
     if (!report(0.0)) return;
     results[start] = train(mixed_seed(options.seed, start + 1), report);
@@ -241,7 +239,7 @@ BestStart run_starts(const Training& train, const TrainingOptions& options, cons
 std::string shape_text(const NetworkShape& shape) {
   std::string text;
   for (const std::size_t size : shape.sizes) text += (text.empty() ? "" : "-") + std::to_string(size);
-  return text + " " + std::string(remap::activation_name(shape.activation));
+  return text + " " + std::string(activation_name(shape.activation));
 }
 
 // The result of either way of training.
@@ -352,4 +350,4 @@ TrainedNetwork train_network(const Samples& samples, const TrainingOptions& opti
   return trained;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fit/rows/regression.hpp"
+#include "table/regression.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The samples that a network is trained on: rows of `input_count` inputs and `output_count` outputs.
 struct Samples {
@@ -23,7 +23,7 @@ struct Samples {
 // states the errors.
 struct TrainingOptions {
   std::vector<std::size_t> hidden = {8, 8};  // units of each hidden layer; empty: a linear map
-  remap::Activation activation = remap::Activation::kTanh;
+  Activation activation = Activation::kTanh;
   std::uint64_t seed = 1;             // of the initial weights and the validation rows
   std::size_t starts = 4;             // independent trainings, at least 1; the best is kept
   double validation_fraction = 0.15;  // of the rows, 0 to 0.5; 0: validate on the training rows
@@ -35,7 +35,7 @@ struct TrainingOptions {
 };
 
 struct TrainedNetwork {
-  remap::Network network;
+  Network network;
   double training_rms = 0.0;    // over the training rows, in normalised units
   double validation_rms = 0.0;  // of the best start before its refit to all rows, in normalised units
   std::size_t best_start = 0;
@@ -58,4 +58,4 @@ struct TrainedNetwork {
 TrainedNetwork train_network(const Samples& samples, const TrainingOptions& options,
                              const FitProgress& progress = {});
 
-}  // namespace remapc
+}  // namespace remap

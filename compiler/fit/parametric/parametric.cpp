@@ -5,18 +5,15 @@
 
 #include <Eigen/Dense>
 
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "fit/parametric/specular_terms.hpp"
-#include "model/evaluate.hpp"
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
+#include "lower/evaluate.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using Eigen::Index;
-using remap::number_text;
-using remap::Parametric;
-using remap::Range;
 
 constexpr int kAlphaSteps = 1000;  // of the grid on which a curve is checked
 constexpr int kSpecularSteps = 16;
@@ -36,7 +33,7 @@ struct Least {
 };
 
 // The least value of `quantity` over a grid of the domain; `flat`: it is the same at every specular.
-Least least_over(const remap::Domain& domain, bool flat, const auto& quantity) {
+Least least_over(const Domain& domain, bool flat, const auto& quantity) {
   Least least;
   for (int i = 0; i <= kAlphaSteps; ++i) {
     const double alpha = grid_value(domain.alpha, i, kAlphaSteps);
@@ -62,9 +59,9 @@ double alpha_derivative(const Parametric& form, double alpha, double specular) {
 
 double specular_derivative(const Parametric& form, double alpha, double specular) {
   double sum = 0.0;
-  for (const remap::SpecularTerm& term : form.specular)
+  for (const SpecularTerm& term : form.specular)
     if (term.power > 0)
-      sum += term.power * std::pow(specular, term.power - 1) * remap::curve_value(term.factor, alpha);
+      sum += term.power * std::pow(specular, term.power - 1) * curve_value(term.factor, alpha);
   return sum;
 }
 
@@ -76,7 +73,7 @@ std::string place(const Least& least, bool with_specular) {
 
 }  // namespace
 
-void require_rising_alpha(const Parametric& form, const remap::Domain& domain) {
+void require_rising_alpha(const Parametric& form, const Domain& domain) {
   const bool flat = form.alpha.size() == 1;
   const Least least = least_over(
       domain, flat, [&](double alpha, double specular) { return alpha_derivative(form, alpha, specular); });
@@ -85,14 +82,14 @@ void require_rising_alpha(const Parametric& form, const remap::Domain& domain) {
                       " to " + number_text(domain.alpha.max) + ": its slope is " + place(least, !flat));
 }
 
-void require_rising_specular(const Parametric& form, const remap::Domain& domain, double least_specular) {
-  const bool proportional = remap::is_proportional(form);
+void require_rising_specular(const Parametric& form, const Domain& domain, double least_specular) {
+  const bool proportional = is_proportional(form);
   const Least slope = least_over(domain, proportional, [&](double alpha, double specular) {
     return specular_derivative(form, alpha, specular);
   });
-  const Least value = least_over(
-      {domain.alpha, {least_specular, least_specular}}, true,
-      [&](double alpha, double specular) { return remap::target_specular(form, alpha, specular); });
+  const Least value =
+      least_over({domain.alpha, {least_specular, least_specular}}, true,
+                 [&](double alpha, double specular) { return target_specular(form, alpha, specular); });
   if (!(slope.value > 0.0))
     throw numeric_error(proportional ? "fit: k(alpha) is not positive: it is " + place(slope, false)
                                      : "fit: specular2 does not increase with specular1: its slope is " +
@@ -136,7 +133,7 @@ std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows
   return coefficients;
 }
 
-Parametric fit_parametric(const std::vector<TableRow>& rows, const remap::Domain& domain,
+Parametric fit_parametric(const std::vector<TableRow>& rows, const Domain& domain,
                           const ParametricForm& form) {
   Parametric fit;
   fit.specular = fit_specular_terms(rows, *form.specular);
@@ -146,4 +143,4 @@ Parametric fit_parametric(const std::vector<TableRow>& rows, const remap::Domain
   return fit;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,17 +6,17 @@
 #include <string>
 
 #include "fit/parametric/parametric_form.hpp"
-#include "fit/rows/regression.hpp"
+#include "table/regression.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Fits `form` to the rows by least squares, separately for target alpha and target specular. `domain`: the
 // range in which the curves must be sound. A curve is sound if alpha2 increases with alpha1 at every
 // specular; if the factor of a proportional specular is positive, or otherwise specular2 increases with
 // specular1 and is positive at the least specular of the rows. Throws kInput for too few distinct alpha1 or
 // specular1, kNumeric with the place if the solver does not converge or a curve is not sound.
-remap::Parametric fit_parametric(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                                 const ParametricForm& form);
+Parametric fit_parametric(const std::vector<TableRow>& rows, const Domain& domain,
+                          const ParametricForm& form);
 
 struct ParametricOptions {
   std::string form;  // a name of find_form(); empty: choose one
@@ -28,7 +28,7 @@ struct ParametricOptions {
 // coefficients within one standard error of the best (choice.hpp). Forms that the rows do not determine or
 // that are not sound are excluded. `method` records the choice and the errors. Throws the errors of
 // fit_parametric() for the paper's form if no form remains.
-Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::Domain& domain,
+Regression fit_parametric_best(const std::vector<TableRow>& rows, const Domain& domain,
                                const ParametricOptions& options, const FitProgress& progress = {});
 
 // The parts of the regression, for the code that chooses or refits a form; fit_specular_terms() is another.
@@ -37,14 +37,13 @@ Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::D
 std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form);
 
 // Throws kNumeric with the place if alpha2 does not increase with alpha1 everywhere in `domain`.
-void require_rising_alpha(const remap::Parametric& form, const remap::Domain& domain);
+void require_rising_alpha(const Parametric& form, const Domain& domain);
 
 // Throws kNumeric with the place if a proportional factor is not positive, or otherwise if specular2 does not
 // increase with specular1 or is negative at `least_specular`.
-void require_rising_specular(const remap::Parametric& form, const remap::Domain& domain,
-                             double least_specular);
+void require_rising_specular(const Parametric& form, const Domain& domain, double least_specular);
 
 // The least specular1 above 0.
 double least_positive_specular(const std::vector<TableRow>& rows);
 
-}  // namespace remapc
+}  // namespace remap

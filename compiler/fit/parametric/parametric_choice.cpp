@@ -1,16 +1,14 @@
 // Chooses the form of the parametric kind for a set of rows.
 #include <atomic>
 
+#include "core/number_text.hpp"
+#include "core/parallel.hpp"
 #include "fit/parametric/parametric.hpp"
 #include "fit/parametric/specular_terms.hpp"
-#include "fit/rows/choice.hpp"
-#include "system/parallel.hpp"
-#include "text/number_text.hpp"
+#include "table/choice.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::Parametric;
 
 // Rows used for the choice. More rows take longer and do not change the result.
 constexpr std::size_t kMostRows = 4000;
@@ -18,8 +16,7 @@ constexpr std::size_t kMostRows = 4000;
 constexpr std::size_t kFolds = 10;
 
 // Fits target alpha alone.
-Regression fit_form(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                    const RoughnessForm& form) {
+Regression fit_form(const std::vector<TableRow>& rows, const Domain& domain, const RoughnessForm& form) {
   const auto fit = [&form](const std::vector<TableRow>& some) {
     return Parametric{fit_roughness(some, form), {}};
   };
@@ -29,8 +26,7 @@ Regression fit_form(const std::vector<TableRow>& rows, const remap::Domain& doma
 }
 
 // Fits target specular alone.
-Regression fit_form(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                    const SpecularForm& form) {
+Regression fit_form(const std::vector<TableRow>& rows, const Domain& domain, const SpecularForm& form) {
   const Parametric whole{{}, fit_specular_terms(rows, form)};
   require_rising_specular(whole, domain, least_positive_specular(rows));
   return {whole, {}, [&form, near = whole.specular](const std::vector<TableRow>& some) {
@@ -46,15 +42,15 @@ struct FormChoice {
 
 // `error`: of the output that the forms fit; they leave the other one at 0, so that its error tells nothing.
 template <typename Form>
-FormChoice<Form> choose_form(std::span<const Form> forms, remap::RelativeError remap::Candidate::*error,
-                             const std::vector<TableRow>& rows, const remap::Domain& domain,
+FormChoice<Form> choose_form(std::span<const Form> forms, RelativeError CandidateRecord::*error,
+                             const std::vector<TableRow>& rows, const Domain& domain,
                              const ParametricOptions& options, const FitProgress& progress) {
   std::vector<Candidate> candidates(forms.size());
   std::atomic<std::size_t> done{0};
-  remap::run_parallel(forms.size(), options.jobs, [&](std::size_t i) {
+  run_parallel(forms.size(), options.jobs, [&](std::size_t i) {
     // The slowest forms start first, so that the threads end at about the same time.
     const std::size_t f = forms.size() - 1 - i;
-    remap::Candidate& record = candidates[f].record;
+    CandidateRecord& record = candidates[f].record;
     record.name = forms[f].name;
     record.number_count = forms[f].coefficient_count();
     record.verdict =
@@ -67,14 +63,14 @@ FormChoice<Form> choose_form(std::span<const Form> forms, remap::RelativeError r
   std::string errors;
   for (const auto& [record, regression] : candidates)
     errors += (errors.empty() ? "" : ", ") + record.name + " " +
-              (record.verdict.empty() ? remap::number_text(remap::rounded_up((record.*error).rms, 2)) : "-");
+              (record.verdict.empty() ? number_text(rounded_up((record.*error).rms, 2)) : "-");
   const std::size_t chosen = choose(&candidates);
   return {&forms[chosen == forms.size() ? 0 : chosen], errors};
 }
 
 }  // namespace
 
-Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::Domain& domain,
+Regression fit_parametric_best(const std::vector<TableRow>& rows, const Domain& domain,
                                const ParametricOptions& options, const FitProgress& progress) {
   ParametricForm form;
   std::map<std::string, std::string> method;
@@ -83,9 +79,9 @@ Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::D
     method["form chosen by"] = "the caller";
   } else {
     const std::vector<TableRow> drawn = draw_rows(rows, kMostRows, options.seed);
-    const auto roughness = choose_form(roughness_forms(), &remap::Candidate::relative_alpha, drawn, domain,
+    const auto roughness = choose_form(roughness_forms(), &CandidateRecord::relative_alpha, drawn, domain,
                                        options, part_of(progress, 0.0, 0.1));
-    const auto specular = choose_form(specular_forms(), &remap::Candidate::relative_specular, drawn, domain,
+    const auto specular = choose_form(specular_forms(), &CandidateRecord::relative_specular, drawn, domain,
                                       options, part_of(progress, 0.1, 1.0));
     form = {roughness.form, specular.form};
     method = {{"form chosen by", std::to_string(kFolds) + "-fold cross-validation on " +
@@ -102,4 +98,4 @@ Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::D
           }};
 }
 
-}  // namespace remapc
+}  // namespace remap

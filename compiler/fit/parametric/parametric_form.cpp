@@ -2,10 +2,10 @@
 
 #include <numeric>
 
-#include "text/errors.hpp"
-#include "text/nearest_name.hpp"
+#include "core/errors.hpp"
+#include "core/nearest_name.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 const std::vector<RoughnessForm> kRoughnessForms = {
@@ -88,7 +88,7 @@ ParametricForm find_form(const std::string& name) {
   for (const RoughnessForm& roughness : kRoughnessForms)
     for (const SpecularForm& specular : kSpecularForms)
       known.push_back(std::string(roughness.name) + "/" + std::string(specular.name));
-  const std::string nearest = remap::nearest_name(name, known);
+  const std::string nearest = nearest_name(name, known);
   throw usage_error("unknown form '" + name + "' (" +
                     (nearest.empty() ? "" : "did you mean " + nearest + "? ") +
                     "choose paper, paper+pole or ROUGHNESS/SPECULAR of " + names_of(kRoughnessForms) + " / " +
@@ -108,4 +108,4 @@ std::string form_list() {
   return text;
 }
 
-}  // namespace remapc
+}  // namespace remap

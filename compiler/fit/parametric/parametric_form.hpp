@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace remapc {
+namespace remap {
 
 // alpha2 = sum over j of specular1^j times a polynomial of alpha1 without constant term, of degree
 // degrees[j].
@@ -48,4 +48,4 @@ ParametricForm find_form(const std::string& name);
 // Lists all forms for help texts, one per line.
 std::string form_list();
 
-}  // namespace remapc
+}  // namespace remap

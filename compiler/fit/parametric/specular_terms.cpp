@@ -10,18 +10,15 @@
 #include <Eigen/Dense>
 #include <ceres/ceres.h>
 
-#include "model/evaluate.hpp"
-#include "text/errors.hpp"
+#include "core/errors.hpp"
+#include "lower/evaluate.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using remap::AlphaCurve;
-using remap::rise;
-using remap::SpecularTerm;
 
 constexpr std::size_t kFewestAlphas = 6;
 // Rates at which the search starts, from straight lines over the domain to the narrowest bump that a table
@@ -95,9 +92,9 @@ double rise_derivative(double rate, double x) {
 // The squared error as a function of the rates alone, with the least squares coefficients for them (Golub and
 // Pereyra 1973; Jacobian after Kaufman 1975, whose gradient is exact). The rates are ramp_rate and bump_rate
 // of each term in turn.
-class Projection {
+class VariableProjection {
  public:
-  Projection(const Samples& samples, const SpecularForm& form)
+  VariableProjection(const Samples& samples, const SpecularForm& form)
       : samples_(samples), form_(form), penalty_(kContributionPenalty * std::sqrt(samples.row_count)) {
     target_ = VectorXd::Zero(size());
     target_.head(sample_count()) = samples.target;
@@ -200,7 +197,8 @@ class Projection {
 
 class RateCost : public ceres::CostFunction {
  public:
-  RateCost(const Projection& projection, int rate_count) : projection_(projection), rate_count_(rate_count) {
+  RateCost(const VariableProjection& projection, int rate_count)
+      : projection_(projection), rate_count_(rate_count) {
     set_num_residuals(static_cast<int>(projection.size()));
     mutable_parameter_block_sizes()->push_back(rate_count);
   }
@@ -211,7 +209,7 @@ class RateCost : public ceres::CostFunction {
   }
 
  private:
-  const Projection& projection_;
+  const VariableProjection& projection_;
   int rate_count_;
 };
 
@@ -222,7 +220,7 @@ struct Rates {
 
 bool cheaper(const Rates& a, const Rates& b) { return a.cost < b.cost; }
 
-Rates polish(const Projection& projection, Rates rates) {
+Rates polish(const VariableProjection& projection, Rates rates) {
   const auto count = static_cast<int>(rates.values.size());
   for (std::size_t r = 0; r < rates.values.size(); ++r)
     rates.values[r] = std::min(rates.values[r], projection.largest_rate(r % 2 == 1));
@@ -249,7 +247,7 @@ Rates polish(const Projection& projection, Rates rates) {
 
 // Searches rates on the grid term by term, the slope first: the best few pairs of one term are combined with
 // every pair of the next.
-std::vector<Rates> search_starts(const Projection& projection) {
+std::vector<Rates> search_starts(const VariableProjection& projection) {
   std::vector<Rates> beams = {{std::vector<double>(2 * projection.term_count(), 0.0)}};
   std::vector<std::size_t> order = {projection.slope_term()};
   for (std::size_t term = 0; term < projection.term_count(); ++term)
@@ -277,7 +275,7 @@ std::vector<Rates> search_starts(const Projection& projection) {
 }
 
 // Of infinite cost if no start converges.
-Rates best_or_none(const Projection& projection, const std::vector<Rates>& starts) {
+Rates best_or_none(const VariableProjection& projection, const std::vector<Rates>& starts) {
   Rates best;
   for (const Rates& start : starts) {
     const Rates candidate = polish(projection, start);
@@ -286,7 +284,7 @@ Rates best_or_none(const Projection& projection, const std::vector<Rates>& start
   return best;
 }
 
-Rates best_of(const Projection& projection, const std::vector<Rates>& starts) {
+Rates best_of(const VariableProjection& projection, const std::vector<Rates>& starts) {
   const Rates best = best_or_none(projection, starts);
   if (!std::isfinite(best.cost))
     throw numeric_error(
@@ -324,7 +322,7 @@ std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, 
     if (position++ % step == 0) thinned.insert(group);
 
   const Samples samples = join_rows(by_alpha, form.powers);
-  const Projection projection(samples, form);
+  const VariableProjection projection(samples, form);
   if (near != nullptr) {
     std::vector<Rates> starts(1);
     for (const SpecularTerm& term : *near)
@@ -333,10 +331,10 @@ std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, 
     if (std::isfinite(found.cost)) return projection.terms(found.values);
   }
   const Samples few = join_rows(thinned, form.powers);
-  const Projection few_projection(few, form);
+  const VariableProjection few_projection(few, form);
   std::vector<Rates> starts = search_starts(few_projection);
   if (step > 1) starts = {best_of(few_projection, starts)};
   return projection.terms(best_of(projection, starts).values);
 }
 
-}  // namespace remapc
+}  // namespace remap

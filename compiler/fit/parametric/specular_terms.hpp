@@ -5,18 +5,17 @@
 #include <vector>
 
 #include "fit/parametric/parametric_form.hpp"
-#include "model/mapping.hpp"
+#include "lower/mapping.hpp"
 #include "table/table.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Returns the terms of `form` that minimize the squared error in specular2 over the rows, by variable
 // projection: Ceres searches the rates from a grid of starts, and least squares gives the linear coefficients
 // for them. `near`: terms of the same form, fitted to similar rows, whose rates are the only start if it
 // converges. Throws kInput for rows with too few distinct alpha1 (6) or specular1 (one per power), kNumeric
 // if no start converges.
-std::vector<remap::SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows,
-                                                    const SpecularForm& form,
-                                                    const std::vector<remap::SpecularTerm>* near = nullptr);
+std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
+                                             const std::vector<SpecularTerm>* near = nullptr);
 
-}  // namespace remapc
+}  // namespace remap

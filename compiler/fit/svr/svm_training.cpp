@@ -10,10 +10,10 @@
 
 #include <libsvm/svm.h>
 
-#include "model/evaluate.hpp"
-#include "text/errors.hpp"
+#include "core/errors.hpp"
+#include "lower/evaluate.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr long kIterationBound = 10'000'000;  // the limit of libsvm (svm.cpp, Solver::Solve)
@@ -39,14 +39,13 @@ struct ModelDeleter {
 
 // The samples in libsvm's format: one list of (index, value) per sample, terminated by index -1.
 struct OwnedProblem {
-  OwnedProblem(const SvrSamples& samples, const std::vector<remap::Scaling>& scalings)
-      : outputs(samples.outputs) {
+  OwnedProblem(const SvrSamples& samples, const std::vector<Scaling>& scalings) : outputs(samples.outputs) {
     const std::size_t width = samples.input_count + 1;
     nodes.reserve(samples.count() * width);
     for (std::size_t i = 0; i < samples.count(); ++i) {
       for (std::size_t j = 0; j < samples.input_count; ++j) {
         const double input = samples.inputs[i * samples.input_count + j];
-        nodes.push_back({static_cast<int>(j) + 1, remap::normalised(scalings[j], input)});
+        nodes.push_back({static_cast<int>(j) + 1, normalised(scalings[j], input)});
       }
       nodes.push_back({-1, 0.0});
     }
@@ -63,16 +62,16 @@ struct OwnedProblem {
 };
 
 // Scales alpha, transformed by the pole, to [0, 1] over the samples, and specular by its span.
-std::vector<remap::Scaling> input_scalings(const SvrSamples& samples, const SvrHyperParameters& parameters) {
+std::vector<Scaling> input_scalings(const SvrSamples& samples, const SvrHyperParameters& parameters) {
   double low = samples.inputs[0], high = low;
   for (std::size_t i = 0; i < samples.inputs.size(); i += samples.input_count) {
     low = std::min(low, samples.inputs[i]);
     high = std::max(high, samples.inputs[i]);
   }
-  const remap::Scaling warp{0.0, 1.0, parameters.alpha_pole};
-  low = remap::normalised(warp, low);
-  const double range = remap::normalised(warp, high) - low;
-  std::vector<remap::Scaling> scalings = {
+  const Scaling warp{0.0, 1.0, parameters.alpha_pole};
+  low = normalised(warp, low);
+  const double range = normalised(warp, high) - low;
+  std::vector<Scaling> scalings = {
       {low, range > 0.0 && std::isfinite(1.0 / range) ? 1.0 / range : 1.0, parameters.alpha_pole}};
   if (samples.input_count > 1) scalings.push_back({0.0, parameters.specular_span});
   return scalings;
@@ -91,8 +90,8 @@ svm_parameter parameters_of(const SvrHyperParameters& given) {
   return parameters;
 }
 
-remap::KernelExpansion expansion_of(const svm_model& model, std::vector<remap::Scaling> inputs) {
-  remap::KernelExpansion expansion;
+KernelExpansion expansion_of(const svm_model& model, std::vector<Scaling> inputs) {
+  KernelExpansion expansion;
   const std::size_t input_count = inputs.size();
   expansion.inputs = std::move(inputs);
   expansion.gamma = model.param.gamma;
@@ -107,12 +106,12 @@ remap::KernelExpansion expansion_of(const svm_model& model, std::vector<remap::S
 
 }  // namespace
 
-std::optional<remap::KernelExpansion> train_expansion(const SvrSamples& samples,
-                                                      const SvrHyperParameters& parameters) {
+std::optional<KernelExpansion> train_expansion(const SvrSamples& samples,
+                                               const SvrHyperParameters& parameters) {
   static std::once_flag listening;
   std::call_once(listening, [] { svm_set_print_string_function(listen); });
 
-  const std::vector<remap::Scaling> scalings = input_scalings(samples, parameters);
+  const std::vector<Scaling> scalings = input_scalings(samples, parameters);
   const OwnedProblem problem(samples, scalings);
   const svm_parameter settings = parameters_of(parameters);
   if (const char* refusal = svm_check_parameter(&problem.problem, &settings); refusal != nullptr)
@@ -121,7 +120,7 @@ std::optional<remap::KernelExpansion> train_expansion(const SvrSamples& samples,
   // The model refers to the lists of `problem`, which must outlive it.
   const std::unique_ptr<svm_model, ModelDeleter> model(svm_train(&problem.problem, &settings));
   if (iteration_count >= kIterationBound) return std::nullopt;
-  remap::KernelExpansion expansion = expansion_of(*model, scalings);
+  KernelExpansion expansion = expansion_of(*model, scalings);
   const auto finite = [](double number) { return std::isfinite(number); };
   if (!finite(expansion.bias) || !std::all_of(expansion.weights.begin(), expansion.weights.end(), finite))
     return std::nullopt;
@@ -132,4 +131,4 @@ std::string solver_name() {
   return "libsvm " + std::to_string(libsvm_version / 100) + "." + std::to_string(libsvm_version % 100);
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "model/mapping.hpp"
+#include "lower/mapping.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Hyper-parameters of one output, in normalised units: alpha (or alpha / (alpha + alpha_pole)) and the output
 // are scaled to [0, 1] over the training rows, specular to [0, specular_span]. Target specular is curved in
@@ -36,10 +36,10 @@ struct SvrSamples {
 // units of `samples`. Empty if libsvm stopped at its limit of 10^7 iterations or found no finite solution.
 // Thread-safe; the same samples in the same order give the same bits. Throws kUsage if libsvm refuses the
 // hyper-parameters.
-std::optional<remap::KernelExpansion> train_expansion(const SvrSamples& samples,
-                                                      const SvrHyperParameters& parameters);
+std::optional<KernelExpansion> train_expansion(const SvrSamples& samples,
+                                               const SvrHyperParameters& parameters);
 
 // For example `libsvm 3.24`.
 std::string solver_name();
 
-}  // namespace remapc
+}  // namespace remap

@@ -7,15 +7,13 @@
 #include <mutex>
 #include <string_view>
 
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "fit/svr/svr_search.hpp"
-#include "model/evaluate.hpp"
-#include "text/errors.hpp"
-#include "text/number_text.hpp"
+#include "lower/evaluate.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
-
-using remap::number_text;
 
 constexpr std::size_t kLargestTraining = 2000;  // samples; time grows faster than their square
 constexpr int kSoftenings = 3;  // reductions of C to a tenth if the final training does not converge
@@ -25,12 +23,12 @@ constexpr double kSoftening = 0.1;
 struct Problem {
   std::string name;  // `alpha` or `specular`, as in `method`
   SvrSamples samples;
-  std::vector<remap::Scaling> inputs;
-  remap::Scaling output;
+  std::vector<Scaling> inputs;
+  Scaling output;
 };
 
 // Scales `values` to [0, 1]; constant values become 0.
-remap::Scaling scaling_of(const std::vector<double>& values) {
+Scaling scaling_of(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double range = *high - *low;
   return {*low, range > 0.0 && std::isfinite(1.0 / range) ? 1.0 / range : 1.0};
@@ -59,8 +57,8 @@ Problem make_problem(const std::string& name, const std::vector<TableRow>& rows,
   if (input_count > 1) problem.inputs.push_back(scaling_of(inputs[1]));
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < input_count; ++j)
-      problem.samples.inputs.push_back(remap::normalised(problem.inputs[j], inputs[j][i]));
-    problem.samples.outputs.push_back(remap::normalised(problem.output, outputs[i]));
+      problem.samples.inputs.push_back(normalised(problem.inputs[j], inputs[j][i]));
+    problem.samples.outputs.push_back(normalised(problem.output, outputs[i]));
   }
   return problem;
 }
@@ -78,8 +76,8 @@ void require_in_range(const SvrHyperParameters& parameters, const std::string& n
 }
 
 // Trains on `samples`. If C was searched, it is reduced until libsvm converges.
-remap::KernelExpansion train(const std::string& name, const SvrSamples& samples, bool is_given,
-                             SvrHyperParameters& parameters) {
+KernelExpansion train(const std::string& name, const SvrSamples& samples, bool is_given,
+                      SvrHyperParameters& parameters) {
   for (int softening = 0; softening <= (is_given ? 0 : kSoftenings); ++softening) {
     if (softening > 0) parameters.cost *= kSoftening;
     if (auto expansion = train_expansion(samples, parameters)) return *expansion;
@@ -90,9 +88,9 @@ remap::KernelExpansion train(const std::string& name, const SvrSamples& samples,
 }
 
 // Searches `used`, the hyper-parameters, if they are not given.
-remap::KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParameters>* used,
-                                  const SvrOptions& options, const FitProgress& progress,
-                                  std::map<std::string, std::string>& method) {
+KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParameters>* used,
+                           const SvrOptions& options, const FitProgress& progress,
+                           std::map<std::string, std::string>& method) {
   const auto record = [&](const std::string& key, const std::string& value) {
     method[problem.name + "." + key] = value;
   };
@@ -110,7 +108,7 @@ remap::KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyper
     record("cross_validation_rms", number_text(choice.rms / problem.output.scale));
   }
   const SvrSamples training = draw_evenly(problem.samples, kLargestTraining, options.seed);
-  remap::KernelExpansion expansion = train(problem.name, training, is_given, parameters);
+  KernelExpansion expansion = train(problem.name, training, is_given, parameters);
   if (expansion.inputs.size() > 1)
     expansion.inputs[1] = {problem.inputs[1].offset, problem.inputs[1].scale * expansion.inputs[1].scale};
   expansion.output = problem.output;
@@ -158,7 +156,7 @@ Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
   regression.method["seed"] = std::to_string(options.seed);
   RisingProgress rising(progress);
   const double share_of_alpha = alpha_inputs > 1 ? 0.5 : 0.05;  // the rest is for specular
-  remap::Svr svr;
+  Svr svr;
   SvrOptions used = options;
   svr.alpha = fit_output(alpha, &used.alpha, options, rising.part(0.0, share_of_alpha), regression.method);
   svr.specular =
@@ -170,4 +168,4 @@ Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
   return regression;
 }
 
-}  // namespace remapc
+}  // namespace remap

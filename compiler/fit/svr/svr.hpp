@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "fit/rows/regression.hpp"
 #include "fit/svr/svm_training.hpp"
+#include "table/regression.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct SvrOptions {
   std::uint64_t seed = 1;  // of the folds of the search and of the drawn samples
@@ -36,4 +36,4 @@ struct SvrOptions {
 Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
                    const FitProgress& progress = {});
 
-}  // namespace remapc
+}  // namespace remap

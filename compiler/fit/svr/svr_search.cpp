@@ -9,11 +9,11 @@
 #include <mutex>
 #include <random>
 
-#include "model/evaluate.hpp"
-#include "system/parallel.hpp"
-#include "text/errors.hpp"
+#include "core/errors.hpp"
+#include "core/parallel.hpp"
+#include "lower/evaluate.hpp"
 
-namespace remapc {
+namespace remap {
 namespace {
 
 constexpr std::size_t kFewestSamples = 8;
@@ -112,7 +112,7 @@ Judgement judge(const FoldedSamples& folded, const SvrHyperParameters& parameter
     if (!expansion) continue;
     const double specular = all.input_count > 1 ? all.inputs[2 * i + 1] : 0.0;
     const double error =
-        remap::expansion_value(*expansion, all.inputs[i * all.input_count], specular) - all.outputs[i];
+        expansion_value(*expansion, all.inputs[i * all.input_count], specular) - all.outputs[i];
     judgement.square_sum += error * error;
   }
   if (expansion)
@@ -213,7 +213,7 @@ class Contest {
     for (Trial* candidate : entered) candidate->folds.resize(fold_count);
     std::size_t done = 0;
     std::mutex mutex;
-    remap::run_parallel(entered.size() * folds, jobs_, [&](std::size_t task) {
+    run_parallel(entered.size() * folds, jobs_, [&](std::size_t task) {
       Trial& candidate = *entered[task / folds];
       const std::size_t fold = begin + task % folds;
       candidate.folds[fold] = judge(folded_, parameters_at(candidate.point), fold);
@@ -328,4 +328,4 @@ SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed,
   return choice;
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
-#include "fit/rows/regression.hpp"
 #include "fit/svr/svm_training.hpp"
+#include "table/regression.hpp"
 
-namespace remapc {
+namespace remap {
 
 struct SvrChoice {
   SvrHyperParameters parameters;
@@ -36,4 +36,4 @@ SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed,
 // sections of the list, so that a sorted list stays covered.
 SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64_t seed);
 
-}  // namespace remapc
+}  // namespace remap

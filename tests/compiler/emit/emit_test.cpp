@@ -5,15 +5,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "emit/header_data.hpp"
 #include "emit/text_template.hpp"
-#include "model/fit_file.hpp"
-#include "model/interpreter.hpp"
+#include "lower/fit_file.hpp"
+#include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/random_warp.hpp"
-#include "system/files.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 TEST_CASE("template: holes are filled, lines of a value keep the indentation, empty lines are removed") {
   CHECK(fill_template("a @x@ b\n", {{"x", "1"}}) == "a 1 b\n");
@@ -40,8 +40,7 @@ TEST_CASE("template: a file of code that does not exist is a bug") {
 }
 
 TEST_CASE("emit: the description of a header has the values of the fit and no code") {
-  const remap::Fit fit =
-      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
+  const Fit fit = load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
   const HeaderData data = describe(fit);
   CHECK(data.source.parameters[0].name == "exponent");
   CHECK(data.target.parameters[1].name == fit.target.specular);
@@ -49,26 +48,25 @@ TEST_CASE("emit: the description of a header has the values of the fit and no co
   for (const GoldenValues& texel : data.golden) {
     const double in = static_cast<double>(texel.in[1]);
     double out = 0.0;
-    const double width = remap::evaluate_texel(fit, static_cast<double>(texel.in[0]), {&in, 1}, {&out, 1});
+    const double width = evaluate_texel(fit, static_cast<double>(texel.in[0]), {&in, 1}, {&out, 1});
     CHECK(texel.out[0] == static_cast<float>(width));
     CHECK(texel.out[1] == static_cast<float>(out));
   }
-  const auto& converter = std::get<remap::ConverterData>(data.code);
+  const auto& converter = std::get<ConverterData>(data.code);
   CHECK(converter == fit.converter);
   CHECK(converter.info.roughness_rms_error >= fit.alpha_error.rms);
 }
 
 TEST_CASE("emit: the committed header is what its fit gives, read again or not") {
   const std::string root = REMAP_SOURCE_DIR;
-  const remap::Fit fit = remap::load_fit(root + "/fits/mitsuba_ward_to_mitsuba_as.json");
-  const std::string committed = remap::read_file(root + "/generated/mitsuba_ward_to_mitsuba_as.hpp");
+  const Fit fit = load_fit(root + "/fits/mitsuba_ward_to_mitsuba_as.json");
+  const std::string committed = read_file(root + "/generated/mitsuba_ward_to_mitsuba_as.hpp");
   CHECK(emit_header(fit) == committed);
-  CHECK(emit_header(remap::fit_from_json(remap::fit_to_json(fit), "copy")) == committed);
+  CHECK(emit_header(fit_from_json(fit_to_json(fit), "copy")) == committed);
 }
 
 TEST_CASE("emit: the header names models, table, errors and licence, and defines no macro but its guard") {
-  const remap::Fit fit =
-      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
+  const Fit fit = load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
   const std::string header = emit_header(fit);
   for (const std::string& part : {fit.source.model, fit.target.model, fit.table.sha256, std::string("MIT-0"),
                                   std::string("remapc emit")})
@@ -80,17 +78,17 @@ TEST_CASE("emit: the header names models, table, errors and licence, and defines
 }
 
 TEST_CASE("emit: a parameter with the name of a variable of the header is refused") {
-  remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
+  Fit fit = load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
   fit.target.specular = "count";
   CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("parameter count has the name"));
 }
 
 TEST_CASE("emit: warps are headers of whole materials") {
-  remap::WarpMapFit fit;
+  WarpMapFit fit;
   fit.id = "leaf";
   fit.source_model = "mitsuba/ggx";
   fit.template_model = "cycles/ggx";
-  fit.warp = remap::random_warp(3, 4, 32);
+  fit.warp = random_warp(3, 4, 32);
   fit.copy_rms_error = 0.0123;
   fit.method = {{"source", "brown_leaf"}};
   fit.tool_version = "0";
@@ -123,10 +121,10 @@ TEST_CASE("emit: no text of a fit leaves its comment") {
               "// turned \\u202e about\n// split\n// in two\\.\n// cut\\x00off\n// feed\\x0ced\n") !=
           std::string::npos);
   };
-  auto fit = remap::load_fit(fits + "mitsuba_phong_to_mitsuba_ggx.json");
+  auto fit = load_fit(fits + "mitsuba_phong_to_mitsuba_ggx.json");
   fit.remarks = remarks;
   check(emit_header(fit));
-  auto workflow = std::get<remap::WorkflowFit>(remap::load_any_fit(fits + "metallic_to_specular.json"));
+  auto workflow = std::get<WorkflowFit>(load_any_fit(fits + "metallic_to_specular.json"));
   workflow.remarks = remarks;
   check(emit_header(workflow));
 }

@@ -5,11 +5,11 @@
 
 #include "compiler/fit/made_table.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/rows/split.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 #include "table/domain.hpp"
+#include "table/split.hpp"
 
-using namespace remapc;
+using namespace remap;
 using namespace made_table;
 
 TEST_CASE("fit: the held-out rows judge and do not train") {
@@ -21,7 +21,7 @@ TEST_CASE("fit: the held-out rows judge and do not train") {
   for (TableRow& row : table.rows)
     for (const TableRow& held : split.held_out)
       if (row.line == held.line) row.specular2 += 0.01;
-  const remap::Fit fit = fit_of(table, 3);
+  const Fit fit = fit_of(table, 3);
   CHECK(slope_at(fit, 0.5) == Approx(0.7).epsilon(1e-7));
   CHECK(fit.specular_error.rms == Approx(0.01).epsilon(1e-4));
 }
@@ -32,7 +32,7 @@ TEST_CASE("fit: rows that are not ok are left out and counted") {
     table.rows[i].status = i < 6 ? RowStatus::kClamped : RowStatus::kUnstable;
     table.rows[i].specular2 = 0.123;
   }
-  const remap::Fit fit = fit_of(table);
+  const Fit fit = fit_of(table);
   CHECK(fit.split.left_out == std::map<std::string, std::int64_t>{{"clamped", 6}, {"unstable", 6}});
   CHECK(fit.specular_error.max < 1e-8);
   CHECK(fit.domain.alpha.min > 0.09);

@@ -5,32 +5,31 @@
 #include <vector>
 
 #include "fit/fit_table.hpp"
-#include "model/evaluate.hpp"
-#include "model/interpreter.hpp"
+#include "lower/evaluate.hpp"
+#include "lower/interpreter.hpp"
 #include "table/table.hpp"
 
 namespace made_table {
 
-using namespace remapc;
-using remap::Parametric;
+using namespace remap;
 
 inline Table table_of(const Parametric& form, double low = 0.02, double high = 1.0, int widths = 25) {
   Table table;
   table.name = "made.csv";
-  table.source = {"mitsuba/ward", remap::RoughnessConvention::kAlpha, "specular"};
-  table.target = {"mitsuba/as", remap::RoughnessConvention::kAlpha, "f0"};
+  table.source = {"mitsuba/ward", RoughnessConvention::kAlpha, "specular"};
+  table.target = {"mitsuba/as", RoughnessConvention::kAlpha, "f0"};
   std::size_t line = 2;
   for (int i = 0; i < widths; ++i) {
     for (int j = 1; j <= 6; ++j) {
       const double alpha = low + (high - low) * i / (widths - 1), specular = 0.15 * j;
-      const remap::MappedTexel texel = remap::evaluate_mapping(form, alpha, specular);
+      const MappedTexel texel = evaluate_mapping(form, alpha, specular);
       table.rows.push_back({alpha, specular, texel.alpha, texel.specular, 0.0, RowStatus::kOk, line++});
     }
   }
   return table;
 }
 
-inline remap::Fit fit_of(const Table& table, std::uint64_t seed = 1, const std::string& form = "paper") {
+inline Fit fit_of(const Table& table, std::uint64_t seed = 1, const std::string& form = "paper") {
   FitOptions options;
   options.kind = "parametric";
   options.regression.seed = seed;
@@ -39,13 +38,13 @@ inline remap::Fit fit_of(const Table& table, std::uint64_t seed = 1, const std::
 }
 
 // The paper's form.
-inline Parametric paper_form(const std::vector<double>& quartic, const remap::AlphaCurve& slope) {
+inline Parametric paper_form(const std::vector<double>& quartic, const AlphaCurve& slope) {
   return {{quartic}, {{1, slope}}};
 }
 inline const Parametric kStraight = paper_form({1.0, 0.0, 0.0, 0.0}, {0.7, 0.0, 0.0, 0.0, 0.0, 0.0});
 
-inline double slope_at(const remap::Fit& fit, double alpha) {
-  return remap::curve_value(std::get<Parametric>(fit.mapping).specular[0].factor, alpha);
+inline double slope_at(const Fit& fit, double alpha) {
+  return curve_value(std::get<Parametric>(fit.mapping).specular[0].factor, alpha);
 }
 
 }  // namespace made_table

@@ -8,12 +8,12 @@
 #include <catch2/catch.hpp>
 
 #include "fit/fit_table.hpp"
+#include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
-#include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/made_regimes.hpp"
 
-using namespace remapc;
+using namespace remap;
 using made_regimes::Place;
 
 namespace {
@@ -22,11 +22,11 @@ namespace {
 Table regime_table(int widths = 30, int speculars = 30) {
   Table table;
   table.name = "made.csv";
-  table.source = {"mitsuba/ward", remap::RoughnessConvention::kAlpha, "specular"};
-  table.target = {"mitsuba/as", remap::RoughnessConvention::kAlpha, "f0"};
+  table.source = {"mitsuba/ward", RoughnessConvention::kAlpha, "specular"};
+  table.target = {"mitsuba/as", RoughnessConvention::kAlpha, "f0"};
   table.comments = {{kAlphaLimitComment, "0.9"}, {kSpecularLimitComment, "1"}};
   const auto add = [&](double alpha, double specular) {
-    const remap::MappedTexel target = made_regimes::exact(alpha, specular);
+    const MappedTexel target = made_regimes::exact(alpha, specular);
     const bool is_ok = made_regimes::place(alpha, specular) == Place::kInside;
     table.rows.push_back({alpha, specular, target.alpha, target.specular, 0.1,
                           is_ok ? RowStatus::kOk : RowStatus::kClamped, table.rows.size() + 2});
@@ -52,7 +52,7 @@ Table regime_table(int widths = 30, int speculars = 30) {
   return table;
 }
 
-remap::Fit fit_of(const Table& table, std::string_view kind) {
+Fit fit_of(const Table& table, std::string_view kind) {
   FitOptions options;
   options.kind = kind;
   options.regression.form = kind == "parametric" ? "paper" : "";
@@ -60,13 +60,13 @@ remap::Fit fit_of(const Table& table, std::string_view kind) {
 }
 
 // The largest differences from the closed form over materials that are in no row.
-remap::MappedTexel worst_of(const remap::Fit& fit) {
-  remap::MappedTexel worst;
+MappedTexel worst_of(const Fit& fit) {
+  MappedTexel worst;
   for (int i = 0; i <= 173; ++i)
     for (int j = 0; j <= 171; ++j) {
       const double alpha = 0.01 + 0.99 * i / 173, specular = 0.03 + 0.97 * j / 171;
-      const remap::MappedTexel found = evaluate_fit(fit, alpha, specular),
-                               exact = made_regimes::exact(alpha, specular);
+      const MappedTexel found = evaluate_fit(fit, alpha, specular),
+                        exact = made_regimes::exact(alpha, specular);
       worst.alpha = std::max(worst.alpha, std::fabs(found.alpha - exact.alpha));
       worst.specular = std::max(worst.specular, std::fabs(found.specular - exact.specular));
     }
@@ -77,18 +77,18 @@ remap::MappedTexel worst_of(const remap::Fit& fit) {
 
 TEST_CASE("regime fit: every regime follows the closed form between the rows") {
   for (const std::string_view kind : {"series", "parametric"}) {
-    const remap::Fit fit = fit_of(regime_table(), kind);
-    CHECK(fit.domain == remap::Domain{{0.01, 1.0}, {0.0, 1.0}});
+    const Fit fit = fit_of(regime_table(), kind);
+    CHECK(fit.domain == Domain{{0.01, 1.0}, {0.0, 1.0}});
     CHECK(fit.regimes.alpha_limit == 0.9);
     CHECK(fit.regimes.specular_limit == 1.0);
     REQUIRE(fit.regimes.wide.has_value());
     REQUIRE(fit.regimes.bright.has_value());
     CHECK(fit.regimes.wide->mapping_to == Approx(made_regimes::kWideFrom).epsilon(0.01));
-    const remap::MappedTexel worst = worst_of(fit);
+    const MappedTexel worst = worst_of(fit);
     CHECK(worst.alpha < 4e-3);  // the seam, half a hundredth of the limit
     CHECK(worst.specular < 4e-3);
     CHECK(fit.alpha_error.max < 4e-3);
-    CHECK(remap::lower(fit).has_limits());
+    CHECK(lower(fit).has_limits());
   }
 }
 
@@ -102,8 +102,8 @@ TEST_CASE("regime fit: without limits in its comments, a table ends where its ta
   table.limits = {};
   for (TableRow& row : table.rows)
     if (row.status != RowStatus::kOk) row.status = RowStatus::kClamped;
-  const remap::Fit fit = fit_of(table, "series");
-  CHECK(fit.regimes == remap::Regimes{});
+  const Fit fit = fit_of(table, "series");
+  CHECK(fit.regimes == Regimes{});
   CHECK(fit.domain.alpha.max < made_regimes::kWideFrom);
 }
 
@@ -112,10 +112,10 @@ TEST_CASE("regime fit: too few rows of a regime leave the mapping cut off at the
   std::erase_if(table.rows, [](const TableRow& row) {
     return row.alpha1 > 0.62 || (row.alpha1 > made_regimes::kWideFrom && row.specular1 > 0.2);
   });
-  const remap::Fit fit = fit_of(table, "series");
+  const Fit fit = fit_of(table, "series");
   CHECK_FALSE(fit.regimes.wide.has_value());
   CHECK(fit.domain.alpha.max == Approx(0.62).margin(0.04));
-  const remap::MappedTexel end = evaluate_fit(fit, fit.domain.alpha.max, 0.3);
+  const MappedTexel end = evaluate_fit(fit, fit.domain.alpha.max, 0.3);
   CHECK(end.alpha <= 0.9);
   CHECK(end.specular == Approx(made_regimes::free_specular(fit.domain.alpha.max, 0.3)).margin(0.01));
 }
@@ -131,10 +131,10 @@ TEST_CASE("regime fit: a model that reaches its limits at the last rows alone ha
       table.rows.push_back({alpha, specular, alpha, specular, 0.0, status, table.rows.size() + 2});
     }
   find_limits(&table);
-  const remap::Fit fit = fit_of(table, "series");
+  const Fit fit = fit_of(table, "series");
   CHECK_FALSE(fit.regimes.wide.has_value());
   CHECK_FALSE(fit.regimes.bright.has_value());
-  CHECK(fit.domain == remap::Domain{{0.01, 1.0}, {0.0, 1.0}});
+  CHECK(fit.domain == Domain{{0.01, 1.0}, {0.0, 1.0}});
   for (const double value : {0.013, 0.3, 0.99, 1.0}) {
     CHECK(evaluate_fit(fit, value, 1.0).alpha == Approx(value).margin(1e-5));
     CHECK(evaluate_fit(fit, 1.0, value).specular == Approx(value).margin(1e-5));

@@ -7,9 +7,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "lower/evaluate.hpp"
 #include "lower/lower.hpp"
 #include "lower/prove.hpp"
-#include "model/evaluate.hpp"
 #include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/exact_scalar.hpp"

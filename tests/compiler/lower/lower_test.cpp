@@ -11,15 +11,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/number_text.hpp"
+#include "lower/evaluate.hpp"
+#include "lower/interpreter.hpp"
 #include "lower/prove.hpp"
-#include "model/evaluate.hpp"
-#include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/build_speed.hpp"
 #include "support/campaign.hpp"
 #include "support/made_regimes.hpp"
 #include "support/random_models.hpp"
-#include "text/number_text.hpp"
 
 using namespace remap;
 

@@ -11,7 +11,7 @@
 #include "compiler/renderer/oren_nayar.hpp"
 #include "renderer/renderer.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The built-in renderer, plus one model of a closed one.
 class DisguisedRenderer : public Renderer {
@@ -45,15 +45,14 @@ class BothRenderers final : public DisguisedRenderer {
  private:
   ModelDescription disguise() const override {
     return {"disguised/metal",
-            remap::RoughnessConvention::kGlossiness,
+            RoughnessConvention::kGlossiness,
             {1e-3, 1.0},
             {{"gloss", ParameterRole::kRoughness, {0.0, 1.0}},
              {"shine", ParameterRole::kSpecular, {0.0, 4.0}},
              {"paint", ParameterRole::kDiffuse, {0.0, 1.0}}}};
   }
   Image render_disguise(const Material& material, const Scene& scene) const override {
-    const double alpha =
-        remap::to_alpha(remap::RoughnessConvention::kGlossiness, material.parameters.at("gloss")[0]);
+    const double alpha = to_alpha(RoughnessConvention::kGlossiness, material.parameters.at("gloss")[0]);
     const double shine = material.parameters.at("shine")[0], paint = material.parameters.at("paint")[0];
     Image image = builtin().render(
         {"mitsuba/ward", {{"alpha", {alpha * 0.8}}, {"specular", {shine / 4.0}}, {"diffuse", {paint}}}},
@@ -94,7 +93,7 @@ class ClayRenderer final : public DisguisedRenderer {
 // parameter, over `range`.
 class LawRenderer final : public DisguisedRenderer {
  public:
-  LawRenderer(std::string inner, remap::Range range, std::function<double(double)> law)
+  LawRenderer(std::string inner, Range range, std::function<double(double)> law)
       : inner_(std::move(inner)), range_(range), law_(std::move(law)) {}
 
  private:
@@ -116,7 +115,7 @@ class LawRenderer final : public DisguisedRenderer {
   }
 
   std::string inner_;
-  remap::Range range_;
+  Range range_;
   std::function<double(double)> law_;
 };
 
@@ -131,15 +130,14 @@ class BlendRenderer final : public DisguisedRenderer {
     std::function<double(double)> weight;
   };
 
-  BlendRenderer(std::vector<Term> terms, remap::Range speculars)
-      : terms_(std::move(terms)), speculars_(speculars) {}
+  BlendRenderer(std::vector<Term> terms, Range speculars) : terms_(std::move(terms)), speculars_(speculars) {}
 
   std::size_t pictures() const { return pictures_; }
 
  private:
   ModelDescription disguise() const override {
     return {"disguised/blend",
-            remap::RoughnessConvention::kAlpha,
+            RoughnessConvention::kAlpha,
             {0.05, 0.8},
             {{"alpha", ParameterRole::kRoughness, {0.05, 0.8}},
              {"level", ParameterRole::kSpecular, speculars_, 0.0, true}}};
@@ -162,8 +160,8 @@ class BlendRenderer final : public DisguisedRenderer {
   }
 
   std::vector<Term> terms_;
-  remap::Range speculars_;
+  Range speculars_;
   mutable std::atomic<std::size_t> pictures_{0};
 };
 
-}  // namespace remapc
+}  // namespace remap

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "remap/error.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
@@ -88,5 +88,5 @@ TEST_CASE("image similarity: display values are sRGB, held in its range") {
 TEST_CASE("image similarity: pictures of different sizes are refused") {
   const std::vector<float> a(16), b(12);
   CHECK_THROWS_WITH(structural_similarity(a, b, 4, 4), Catch::Contains("each must have 16"));
-  CHECK_THROWS_AS(rms_difference(a, b), remap::Error);
+  CHECK_THROWS_AS(rms_difference(a, b), Error);
 }

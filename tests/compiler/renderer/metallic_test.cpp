@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "renderer/renderer.hpp"
-#include "workflow/conversion.hpp"
+#include "stages/conversion.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
@@ -31,14 +31,14 @@ TEST_CASE("equation (2): the pictures of both materials are the same to 1e-6") {
   scene.resolution = 64;
   scene.light.angle = 45.0;
   for (const double f0 : {0.03, 0.04}) {
-    remap::WorkflowConversion conversion;
+    WorkflowConversion conversion;
     conversion.metallic.dielectric_f0 = f0;
-    conversion.specular.width = remap::RoughnessConvention::kAlpha;
-    conversion.formula = remap::Equation2{};
+    conversion.specular.width = RoughnessConvention::kAlpha;
+    conversion.formula = Equation2{};
     for (const float metallic : {0.0f, 0.3f, 0.7f, 1.0f})
       for (const float roughness : {0.4f, 0.7f}) {
-        const remap::MetallicMaterial material{{0.9f, 0.5f, 0.1f}, metallic, roughness};
-        const remap::SpecularMaterial specular = to_specular(conversion, material);
+        const MetallicMaterial material{{0.9f, 0.5f, 0.1f}, metallic, roughness};
+        const SpecularMaterial specular = to_specular(conversion, material);
         const Image expected = renderer->render({"mitsuba/ggx-metallic",
                                                  {{"base_color", rgb(material.base_color)},
                                                   {"metallic", {metallic}},

@@ -10,7 +10,7 @@
 #include "renderer/image.hpp"
 #include "renderer/scene.hpp"
 
-namespace remapc {
+namespace remap {
 
 // The factor on Lambert's reflectance; `sigma` is the standard deviation of the slopes' angles in radians.
 inline double oren_nayar_factor(double cos_light, double cos_view, double cos_between, double sigma) {
@@ -51,4 +51,4 @@ inline Image oren_nayar_picture(const Scene& scene, double sigma) {
   return image;
 }
 
-}  // namespace remapc
+}  // namespace remap

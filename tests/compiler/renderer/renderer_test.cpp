@@ -10,7 +10,7 @@
 #include "renderer/brdf.hpp"
 #include "renderer/fresnel.hpp"
 
-using namespace remapc;
+using namespace remap;
 using std::numbers::pi;
 
 namespace {

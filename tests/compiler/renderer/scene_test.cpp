@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace remapc;
+using namespace remap;
 
 TEST_CASE("scene: the middle of the image shows the pole of the sphere") {
   SurfacePoint point;

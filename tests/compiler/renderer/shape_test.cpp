@@ -8,7 +8,7 @@
 #include "remap/error.hpp"
 #include "renderer/renderer.hpp"
 
-using namespace remapc;
+using namespace remap;
 using std::numbers::pi;
 
 namespace {

@@ -4,13 +4,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "compiler/measure/sweep_session.hpp"
 #include "compiler/renderer/disguised_renderer.hpp"
-#include "compiler/sweep/sweep_session.hpp"
-#include "probe/picture_taker.hpp"
+#include "measure/picture_taker.hpp"
 #include "remap/error.hpp"
 #include "renderer/steady_renderer.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {

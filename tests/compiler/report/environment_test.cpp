@@ -9,7 +9,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/fit_file.hpp"
+#include "core/files.hpp"
+#include "lower/fit_file.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/scene.hpp"
@@ -17,9 +18,8 @@
 #include "study/environments_report.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
 
-using namespace remapc;
+using namespace remap;
 using std::numbers::pi;
 
 namespace {
@@ -217,7 +217,7 @@ TEST_CASE("radiance pyramid: a map of any size keeps its light at every level") 
 }
 
 TEST_CASE("environment: an EXR file is read as it was written, grey as three channels") {
-  const remap::TemporaryFolder folder;
+  const TemporaryFolder folder;
   Image image{4, 2, 3, {}};
   for (int i = 0; i < 24; ++i) image.values.push_back(static_cast<float>(i));
   write_exr(folder.path() / "map.exr", image, {});
@@ -235,7 +235,7 @@ TEST_CASE("environment: an EXR file is read as it was written, grey as three cha
 }
 
 TEST_CASE("environment: files that do not hold a map are refused") {
-  const remap::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto written = [&](const Image& image) {
     write_exr(folder.path() / "bad.exr", image, {});
     return folder.path() / "bad.exr";
@@ -253,14 +253,14 @@ TEST_CASE("environment: files that do not hold a map are refused") {
   const auto cut = written({64, 32, 1, std::vector<float>(64 * 32, 1.0f)});
   std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
   CHECK_THROWS_WITH(load_environment(cut), Catch::Contains("cannot be read"));
-  remap::write_file(folder.path() / "text.exr", "no picture");
-  CHECK_THROWS_AS(load_environment(folder.path() / "text.exr"), remap::Error);
+  write_file(folder.path() / "text.exr", "no picture");
+  CHECK_THROWS_AS(load_environment(folder.path() / "text.exr"), Error);
 }
 
 TEST_CASE("environment: maps of Blender are read", "[needs]") {
   const std::filesystem::path folder = "/usr/share/blender/datafiles/studiolights/world";
   if (!std::filesystem::is_directory(folder))
-    return remap::skip("blender-data", "Debian's blender-data is not installed");
+    return skip("blender-data", "Debian's blender-data is not installed");
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".exr") CHECK(mean_luminance(load_environment(entry.path())) > 0.0);
 }
@@ -309,7 +309,7 @@ TEST_CASE(
   CHECK(natural.ssim > copy.ssim);
   CHECK(natural.energy < copy.energy);
   const StudyReport report = environments_report(options, result);
-  for (const remap::Json& worse : *report.figures.find("worse_than_copy")->entries())
+  for (const Json& worse : *report.figures.find("worse_than_copy")->entries())
     CHECK(*worse.find("method")->text() != "natural");
   options.jobs = 1;
   CHECK(environments_report(options, study_environments(options)).tables == report.tables);
@@ -337,7 +337,7 @@ TEST_CASE("study environments: no method has less than the least error, and copi
 TEST_CASE("study environments: a fit is used as shipped") {
   EnvironmentsOptions options = small_study();
   options.pairs = {{"mitsuba/ward", "mitsuba/as"}};
-  options.fits = {remap::load_fit(REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_as.json")};
+  options.fits = {load_fit(REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_as.json")};
   const EnvironmentsResult result = study_environments(options);
   const auto shipped = comparisons_of(result, Method::kShipped);
   const auto natural = comparisons_of(result, Method::kNatural);

@@ -7,7 +7,7 @@
 #include "report/contact_sheet.hpp"
 #include "report/preview.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -74,12 +74,12 @@ TEST_CASE("lit preview: environments have the mean luminance of the exposure") {
 TEST_CASE(
     "lit preview: unknown environments, models without a lobe and values out of range are usage errors") {
   const Environment sky = environment_for_preview("sky", 1.0);
-  const remap::Fit fit = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
+  const Fit fit = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
   CHECK_THROWS_WITH(environment_for_preview("skye", 1.0),
                     Contains("unknown environment 'skye'") && Contains("sky, overcast, studio"));
   CHECK_THROWS_WITH(environment_for_preview("sky", 0.0), Contains("--exposure: 0 is not above 0"));
   CHECK_THROWS_AS(make_lit_preview(scaled_fit("cycles-5/ggx", "mitsuba/ggx", 1.0), sky, small_preview()),
-                  remap::Error);
+                  Error);
   LitPreviewOptions options = small_preview();
   options.specular = {0.5, 0.5};
   CHECK_THROWS_WITH(make_lit_preview(fit, sky, options), Contains("2 values"));

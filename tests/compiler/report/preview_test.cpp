@@ -8,7 +8,7 @@
 #include "compiler/report/scaled_fit.hpp"
 #include "remap/error.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -41,7 +41,7 @@ TEST_CASE("preview: the identity looks the same on every shape") {
 }
 
 TEST_CASE("preview: shows the domain by default") {
-  remap::Fit fit = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
+  Fit fit = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
   fit.domain = {{0.01, 1.0}, {0.0, 0.08}};
   PreviewOptions options = small_preview();
   options.alphas.clear();
@@ -79,14 +79,14 @@ TEST_CASE("preview: an index is shown as the F0 of the fit, and light of another
   for (const PreviewFigure& figure :
        make_preview(*renderer, scaled_fit("mitsuba/ggx", "mitsuba/ggx-ior", 1.0), options).figures)
     CHECK(figure.ssim == Approx(1.0).margin(1e-5));
-  remap::Fit dimmed = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
+  Fit dimmed = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
   dimmed.table.comments["irradiance_scale"] = "0.25";
   CHECK(make_preview(*renderer, dimmed, options).figures.front().rms > 0.01);
 }
 
 TEST_CASE("preview: a fit of a model with fixed parameters is shown with them") {
-  remap::Fit fit = scaled_fit("mitsuba/ggx-metallic", "mitsuba/ggx", 1.0);
-  fit.source.roughness = remap::RoughnessConvention::kRoughness;
+  Fit fit = scaled_fit("mitsuba/ggx-metallic", "mitsuba/ggx", 1.0);
+  fit.source.roughness = RoughnessConvention::kRoughness;
   fit.source.specular = "base_color";
   fit.table.comments = {{"source_specular", "base_color"}, {"source_fixed", "metallic=1,specular=0.5"}};
   const auto renderer = make_builtin_renderer();

@@ -3,19 +3,19 @@
 
 #include <string>
 
-#include "model/fit.hpp"
+#include "lower/fit.hpp"
 
-namespace remapc {
+namespace remap {
 
 // alpha2 = scale alpha1, specular2 = specular1.
-inline remap::Fit scaled_fit(const std::string& source, const std::string& target, double scale) {
-  remap::Fit fit;
+inline Fit scaled_fit(const std::string& source, const std::string& target, double scale) {
+  Fit fit;
   fit.id = "test";
-  fit.source = {source, remap::RoughnessConvention::kAlpha, "f0"};
-  fit.target = {target, remap::RoughnessConvention::kAlpha, "f0"};
+  fit.source = {source, RoughnessConvention::kAlpha, "f0"};
+  fit.target = {target, RoughnessConvention::kAlpha, "f0"};
   fit.domain = {{0.05, 1.0}, {0.0, 1.0}};
-  fit.mapping = remap::Parametric{{{scale, 0.0, 0.0, 0.0}}, {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
+  fit.mapping = Parametric{{{scale, 0.0, 0.0, 0.0}}, {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
   return fit;
 }
 
-}  // namespace remapc
+}  // namespace remap

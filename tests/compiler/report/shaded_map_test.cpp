@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace remapc;
+using namespace remap;
 
 TEST_CASE("pictures of maps: sizes, and what a pixel shows") {
   const PictureGrid small = picture_grid(4, 2, 8);
@@ -20,8 +20,8 @@ TEST_CASE("pictures of maps: sizes, and what a pixel shows") {
   CHECK(*std::max_element(large.texels.begin(), large.texels.end()) < 4096u * 1024u);
   // A white diffuse map is brightest where it faces the key light, and no channel is ahead.
   const PictureGrid grid = picture_grid(16, 16, 16);
-  const remap::WarpTexel white = {1, 1, 1, 0, 0, 0, 0.5f};
-  const Image lit = shaded_map(grid, std::vector<remap::WarpTexel>(256, white), {Brdf::kGgx, Fresnel::kNone});
+  const WarpTexel white = {1, 1, 1, 0, 0, 0, 0.5f};
+  const Image lit = shaded_map(grid, std::vector<WarpTexel>(256, white), {Brdf::kGgx, Fresnel::kNone});
   CHECK(lit.values[0] == lit.values[2]);
   CHECK(lit.values[0] > lit.values[3 * 255]);
   CHECK(lit.values[0] > 0.9f);

@@ -5,12 +5,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/files.hpp"
 #include "renderer/fresnel.hpp"
 #include "support/shared_data.hpp"
 #include "support/skip.hpp"
-#include "system/files.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
@@ -25,8 +25,7 @@ nlohmann::json record(const nlohmann::json& database, const std::string& name) {
 bool is_linear_srgb(const nlohmann::json& index) { return index.at("colorSpace") == "srgb-linear"; }
 
 nlohmann::json metals() {
-  return nlohmann::json::parse(remap::read_file(REMAP_SOURCE_DIR "/scripts/studies/metals.json"))
-      .at("metals");
+  return nlohmann::json::parse(read_file(REMAP_SOURCE_DIR "/scripts/studies/metals.json")).at("metals");
 }
 
 }  // namespace
@@ -46,9 +45,9 @@ TEST_CASE("metals: named once, with a source, and physical") {
 }
 
 TEST_CASE("metals: values equal those of the database", "[needs]") {
-  const auto path = remap::shared_data("materials/physicallybased.json");
+  const auto path = shared_data("materials/physicallybased.json");
   if (path.empty()) return;
-  const nlohmann::json database = nlohmann::json::parse(remap::read_file(path));
+  const nlohmann::json database = nlohmann::json::parse(read_file(path));
   for (const nlohmann::json& metal : metals()) {
     const auto item = record(database, metal["name"]);
     const auto& indices = item.at("complexIor");

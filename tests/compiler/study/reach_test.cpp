@@ -2,16 +2,16 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/report/scaled_fit.hpp"
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
+#include "measure/sweep.hpp"
 #include "study/reach_report.hpp"
 #include "support/campaign.hpp"
-#include "sweep/sweep.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
-ReachOptions small_reach(remap::Fit fit) {
+ReachOptions small_reach(Fit fit) {
   fit.table.comments["objective"] = "natural";
   ReachOptions options;
   options.fits = {std::move(fit)};
@@ -21,9 +21,7 @@ ReachOptions small_reach(remap::Fit fit) {
   return options;
 }
 
-FitReach reach_of(const remap::Fit& fit) {
-  return study_reach(*make_builtin_renderer(), small_reach(fit)).front();
-}
+FitReach reach_of(const Fit& fit) { return study_reach(*make_builtin_renderer(), small_reach(fit)).front(); }
 
 }  // namespace
 
@@ -67,10 +65,10 @@ TEST_CASE("reach: the least error is that of the sweep, which finds it another w
 // Every pair of the hub at full length: `remap-study reach`.
 TEST_CASE("reach: shipped converters leave at most 1 % over the whole range", "[study][slow][campaign]") {
   ReachOptions options;
-  options.materials = remap::is_full_campaign() ? 16 : 5;
+  options.materials = is_full_campaign() ? 16 : 5;
   options.resolution = 128;
   for (const std::string id : {"as_to_mitsuba_ward", "ggx_to_mitsuba_ward", "phong_to_mitsuba_ward"})
-    options.fits.push_back(remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_" + id + ".json"));
+    options.fits.push_back(load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_" + id + ".json"));
   for (const FitReach& reach : study_reach(*make_builtin_renderer(), options)) {
     INFO(options.fits[reach.fit].id << ": " << reach.worst().alpha << " " << reach.worst().specular);
     CHECK(reach.worst().excess() < 0.01);

@@ -5,13 +5,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
 #include "study/workflows_report.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -164,9 +164,9 @@ TEST_CASE("study workflows: groups without a file are left out, and a bad file i
   const MaterialSet drawn = study_materials({{}, 3, 2, 1});
   CHECK(drawn.materials.size() == 9);
   CHECK(drawn.remarks.size() == 2);
-  const remap::TemporaryFolder folder;
-  remap::write_file(folder.path() / "ngan_ward.fit",
-                    "# comment\nred = Aggregate(Lambertian(albedo = [0.1, x, 0]))\n");
+  const TemporaryFolder folder;
+  write_file(folder.path() / "ngan_ward.fit",
+             "# comment\nred = Aggregate(Lambertian(albedo = [0.1, x, 0]))\n");
   CHECK_THROWS_WITH(study_materials({folder.path(), 3, 2, 1}),
                     Contains("ngan_ward.fit:2: cannot find two albedos"));
   for (const StudyMaterial& material : drawn.materials)
@@ -177,7 +177,7 @@ TEST_CASE("study workflows: groups without a file are left out, and a bad file i
 }
 
 TEST_CASE("study workflows: measured materials are read", "[needs]") {
-  const auto path = remap::shared_data("materials/physicallybased.json");
+  const auto path = shared_data("materials/physicallybased.json");
   if (path.empty()) return;
   const MaterialSet set = study_materials({path.parent_path(), 40, 5, 1});
   CHECK(set.remarks.empty());

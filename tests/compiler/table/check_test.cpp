@@ -8,7 +8,7 @@
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
@@ -36,7 +36,7 @@ std::vector<Finding> of_kind(const Table& table, const std::string& kind) {
 TEST_CASE("check: a table without faults has no findings") { CHECK(check_table(sound_table()).empty()); }
 
 TEST_CASE("check: the published table can be fitted", "[needs]") {
-  const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  const auto path = shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (path.empty()) return;
   const Table table = read_table(path, column_map("sztrajman-2019"));
   CHECK_NOTHROW(require_fittable(table));

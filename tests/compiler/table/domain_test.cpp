@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
@@ -32,24 +32,23 @@ RowStatus clamped_where(bool condition) { return condition ? RowStatus::kClamped
 }  // namespace
 
 TEST_CASE("domain: without clamped rows, it is the box of all rows") {
-  const remap::Domain domain = table_domain(grid([](double, double) { return RowStatus::kOk; }));
-  CHECK(domain.alpha == remap::Range{0.05, 1.0});
-  CHECK(domain.specular == remap::Range{0.0, 1.0});
+  const Domain domain = table_domain(grid([](double, double) { return RowStatus::kOk; }));
+  CHECK(domain.alpha == Range{0.05, 1.0});
+  CHECK(domain.specular == Range{0.0, 1.0});
 }
 
 TEST_CASE("domain: a width that the target cannot reach ends it, whatever the specular") {
-  const remap::Domain domain =
-      table_domain(grid([](double alpha, double) { return clamped_where(alpha > 0.71); }));
-  CHECK(domain.alpha == remap::Range{0.05, 0.7});
-  CHECK(domain.specular == remap::Range{0.0, 1.0});
+  const Domain domain = table_domain(grid([](double alpha, double) { return clamped_where(alpha > 0.71); }));
+  CHECK(domain.alpha == Range{0.05, 0.7});
+  CHECK(domain.specular == Range{0.0, 1.0});
 }
 
 TEST_CASE("domain: if the target's specular exceeds its bound, widths count more than specular") {
   // As Beckmann to Ward: specular2 = (1 + 2 alpha) specular1 must stay within 1.
   const Table table =
       grid([](double alpha, double specular) { return clamped_where((1.0 + 2.0 * alpha) * specular > 1.0); });
-  const remap::Domain domain = table_domain(table);
-  CHECK(domain.alpha == remap::Range{0.05, 1.0});
+  const Domain domain = table_domain(table);
+  CHECK(domain.alpha == Range{0.05, 1.0});
   CHECK(domain.specular.max == Approx(0.3));
   for (const TableRow& row : table.rows) {
     const bool inside = is_inside(row, domain);
@@ -58,11 +57,11 @@ TEST_CASE("domain: if the target's specular exceeds its bound, widths count more
 }
 
 TEST_CASE("domain: unstable and flat rows are gaps and do not limit it") {
-  const remap::Domain domain = table_domain(grid([](double alpha, double specular) {
+  const Domain domain = table_domain(grid([](double alpha, double specular) {
     if (alpha == 0.5 && specular == 0.5) return RowStatus::kUnstable;
     return alpha == 0.25 ? RowStatus::kFlat : RowStatus::kOk;
   }));
-  CHECK(domain.alpha == remap::Range{0.05, 1.0});
+  CHECK(domain.alpha == Range{0.05, 1.0});
   CHECK(domain.specular.max == 1.0);
 }
 
@@ -74,7 +73,7 @@ TEST_CASE("domain: scattered rows are covered if their neighbours in width reach
     const double alpha = 0.05 + 0.95 * uniform(), specular = uniform();
     table.rows.push_back({alpha, specular, alpha, specular, 0.0, clamped_where(alpha > 0.8), 0});
   }
-  const remap::Domain domain = table_domain(table);
+  const Domain domain = table_domain(table);
   CHECK(domain.alpha.max < 0.8);
   CHECK(domain.alpha.max > 0.75);
   CHECK(domain.specular.max > 0.98);

@@ -6,7 +6,7 @@
 #include "remap/error.hpp"
 #include "table/check.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 TEST_CASE("light: nothing is said within 1 %, a remark beyond it, an error beyond 5 % that nobody accepted") {
   for (const LightMatch& same : {LightMatch{}, LightMatch{1.009, 0.009}, LightMatch{0.991, 0.0}})

@@ -6,7 +6,7 @@
 #include "remap/error.hpp"
 #include "table/check.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -5,11 +5,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
-#include "system/files.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
@@ -38,7 +38,7 @@ TEST_CASE("table: what is written is read back number for number") {
   CHECK(back.rows[1].status == RowStatus::kClamped);
   CHECK(back.rows[3].line == 10);
   CHECK(back.source.model == "mitsuba/ward");
-  CHECK(back.target.roughness == remap::RoughnessConvention::kExponent);
+  CHECK(back.target.roughness == RoughnessConvention::kExponent);
 }
 
 TEST_CASE("table: diffuse is written where rows have it, and read back") {
@@ -81,7 +81,7 @@ TEST_CASE("table: comma, tab or semicolon is detected; spaces, quotes, BOM and C
 }
 
 TEST_CASE("table: the published table loads by its preset and by a column map", "[needs]") {
-  const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  const auto path = shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (path.empty()) return;
   const Table preset = read_table(path, column_map("sztrajman-2019"));
   REQUIRE(preset.rows.size() == 721);
@@ -152,7 +152,7 @@ TEST_CASE("csv: what is too large is refused with the limit, and no message repe
   try {
     parse_table(header + "\n" + long_cell + ",1,1,1\n", "t.csv");
     FAIL("accepted");
-  } catch (const remap::Error& error) {
+  } catch (const Error& error) {
     CHECK(std::string(error.what()).size() < 200);
   }
 }

@@ -8,20 +8,20 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 #include "remap/error.hpp"
 #include "support/random_warp.hpp"
 #include "support/warp_sets.hpp"
-#include "warp/space/quadrature.hpp"
+#include "warp/quadrature.hpp"
 
 namespace {
 
-using namespace remapc;
+using namespace remap;
 
 // The distance by direct quadrature of the BRDF at both alphas, which is independent of the tables.
-double brute_distance(const Eigen::VectorXd& weights, const remap::WarpTexel& a, const remap::WarpTexel& b) {
+double brute_distance(const Eigen::VectorXd& weights, const WarpTexel& a, const WarpTexel& b) {
   const auto directions = half_vector_quadrature();
-  const auto reflectance = [](const remap::WarpTexel& texel, std::size_t c, const LocalGeometry& geometry) {
+  const auto reflectance = [](const WarpTexel& texel, std::size_t c, const LocalGeometry& geometry) {
     const Lobe lobe = evaluate_lobe(Brdf::kGgx, Fresnel::kSchlick, static_cast<double>(texel[6]), geometry);
     return static_cast<double>(texel[c]) / 3.14159265358979 + lobe.base +
            static_cast<double>(texel[3 + c]) * lobe.slope;
@@ -61,12 +61,11 @@ Figures measure(const WarpSet& set, const WarpFit& fit) {
     }
   Figures figures;
   figures.bins = reached / occupied;
-  std::vector<remap::WarpTexel> some;
+  std::vector<WarpTexel> some;
   for (std::size_t i = 0; i < copy.size(); i += 13) {
     some.push_back(set.source.texels[i]);
     const auto own = features_of(features.target, set.target.texels[copy[i]]);
-    const auto compiled =
-        features_of(features.target, remap::evaluate_warp(fit.compiled, set.source.texels[i]));
+    const auto compiled = features_of(features.target, evaluate_warp(fit.compiled, set.source.texels[i]));
     figures.error += (own - features_of(features.target, set.truth[i])).norm();
     figures.table_error += (own - compiled).norm();
     figures.result.push_back(own);
@@ -128,7 +127,7 @@ TEST_CASE("coordinates: closed form is the projection of features", "[warp]") {
     const Eigen::VectorXd projected = space.axes.transpose() *
                                       (features_of(features.source, set.source.texels[i]) - space.mean) /
                                       space.radius;
-    const auto position = remap::coordinates_of(coordinates, set.source.texels[i]);
+    const auto position = coordinates_of(coordinates, set.source.texels[i]);
     for (std::size_t k = 0; k < 3; ++k)  // float tables
       CHECK(position[k] == Approx(projected[static_cast<Eigen::Index>(k)]).margin(1e-5));
   }
@@ -177,7 +176,7 @@ TEST_CASE("warp: near the truth, without tears and folds", "[warp][slow]") {
       CHECK(tears(set, fit) <= 0.01);
       CHECK(figures.back().table_error <
             3.0);  // few texels: neighbors are farther apart than in a map of 256^2
-      CHECK(remap::byte_count(fit.compiled) <= 250000);
+      CHECK(byte_count(fit.compiled) <= 250000);
       error += figures.back().error / 3.0;
       bins += figures.back().bins / 3.0;
       radius = fit.target_radius;
@@ -212,15 +211,15 @@ TEST_CASE("warp: an exact table gives only texels of the template, about as near
   options.exact = true;
   const WarpFit exact = fit_warp(set.source, set.target, strokes, options),
                 blended = fit_warp(set.source, set.target, strokes);
-  const auto& entries = std::get<remap::CopiedNodes>(exact.compiled.table.entries);
+  const auto& entries = std::get<CopiedNodes>(exact.compiled.table.entries);
   CHECK(exact.compiled.table.nodes == 256);
-  std::vector<remap::WarpTexel> texels = set.target.texels;
+  std::vector<WarpTexel> texels = set.target.texels;
   std::sort(texels.begin(), texels.end());
-  for (const remap::WarpTexel& texel : entries.palette)
+  for (const WarpTexel& texel : entries.palette)
     REQUIRE(std::binary_search(texels.begin(), texels.end(), texel));
   for (std::size_t i = 0; i < set.source.texels.size(); i += 7)
     REQUIRE(std::binary_search(texels.begin(), texels.end(),
-                               remap::evaluate_warp(exact.compiled, set.source.texels[i])));
+                               evaluate_warp(exact.compiled, set.source.texels[i])));
   const double of_blends = copy_rms_error(blended, set.source, set.target),
                of_copies = copy_rms_error(exact, set.source, set.target);
   CAPTURE(of_blends, of_copies);
@@ -234,9 +233,9 @@ TEST_CASE("warp: the error of the table equals that of individually measured pos
   const auto copy = copy_exactly(fit, set.source, set.target);
   double squares = 0.0;
   for (std::size_t i = 0; i < copy.size(); ++i) {
-    const auto own = remap::coordinates_of(fit.target_coordinates(),
-                                           remap::evaluate_warp(fit.compiled, set.source.texels[i]));
-    const auto copied = remap::coordinates_of(fit.target_coordinates(), set.target.texels[copy[i]]);
+    const auto own =
+        coordinates_of(fit.target_coordinates(), evaluate_warp(fit.compiled, set.source.texels[i]));
+    const auto copied = coordinates_of(fit.target_coordinates(), set.target.texels[copy[i]]);
     for (std::size_t k = 0; k < 3; ++k) squares += std::pow(own[k] - copied[k], 2);
   }
   CHECK(copy_rms_error(fit, set.source, set.target) ==
@@ -253,7 +252,7 @@ TEST_CASE("warp: texels that are not finite are skipped", "[warp]") {
   CHECK(fit.diagnostics.source_left_out == 1);
   CHECK(fit.diagnostics.target_left_out == 1);
   CHECK_FALSE(warnings_of(fit.diagnostics).empty());
-  CHECK(std::isnan(remap::evaluate_warp(fit.compiled, set.source.texels[5])[0]));
+  CHECK(std::isnan(evaluate_warp(fit.compiled, set.source.texels[5])[0]));
 }
 
 TEST_CASE("warp: one stroke does not determine all directions, with a warning", "[warp]") {
@@ -272,7 +271,7 @@ TEST_CASE("warp: invalid input is refused", "[warp]") {
   const auto message = [](const auto& call) {
     try {
       call();
-    } catch (const remap::Error& error) {
+    } catch (const Error& error) {
       return std::string(error.what());
     }
     return std::string();
@@ -300,7 +299,7 @@ TEST_CASE("warp: invalid input is refused", "[warp]") {
 
 TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", "[warp]") {
   const WarpSet set = small_leaf();
-  remap::WarpMapFit fit;
+  WarpMapFit fit;
   fit.id = "leaf";
   fit.source_model = fit.template_model = "mitsuba/ggx";
   fit.warp = fit_warp(set.source, set.target, strokes_of(set, 0)).compiled;
@@ -310,17 +309,17 @@ TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", 
   fit.tool_version = "0";
   for (const bool quadratic : {false, true})
     for (const bool copied : {false, true}) {
-      fit.warp = remap::random_warp({2, quadratic, copied}, 7, 128);
+      fit.warp = random_warp({2, quadratic, copied}, 7, 128);
       const std::string text = fit_to_json(fit);
-      const remap::AnyFit read = remap::any_fit_from_json(text, "x");
-      REQUIRE(std::holds_alternative<remap::WarpMapFit>(read));
-      CHECK(std::get<remap::WarpMapFit>(read) == fit);
-      CHECK_THROWS_AS(remap::fit_from_json(text, "x"), remap::Error);
+      const AnyFit read = any_fit_from_json(text, "x");
+      REQUIRE(std::holds_alternative<WarpMapFit>(read));
+      CHECK(std::get<WarpMapFit>(read) == fit);
+      CHECK_THROWS_AS(fit_from_json(text, "x"), Error);
       const auto refused = [&](const std::string& found, const std::string& other,
                                const std::string& message) {
         std::string copy = text;
         copy.replace(copy.find(found), found.size(), other);
-        CHECK_THROWS_WITH(remap::any_fit_from_json(copy, "x"), Catch::Contains(message));
+        CHECK_THROWS_WITH(any_fit_from_json(copy, "x"), Catch::Contains(message));
       };
       refused("\"nodes\": 128", "\"nodes\": 127", "the table has the wrong size");
       refused("\"nodes\": 128", "\"nodes\": 1", "the number of nodes is invalid (2 to 4096");

@@ -5,20 +5,20 @@
 #include "compiler/worker/fake_session.hpp"
 #include "support/process.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {
 
-remap::ProcessResult check(const std::string& command) {
-  return remap::run({"/usr/bin/env", "python3", REMAP_SOURCE_DIR "/compiler/adapters/check.py", "--json",
-                     "--resolution", "24", command});
+ProcessResult check(const std::string& command) {
+  return run({"/usr/bin/env", "python3", REMAP_SOURCE_DIR "/compiler/adapters/check.py", "--json",
+              "--resolution", "24", command});
 }
 
 // The results of all failed checks, `check: words`, a line each.
 std::string wrong_words(const std::string& fault) {
   const FakeSession session;
-  const remap::ProcessResult result = check(session.command(fault));
+  const ProcessResult result = check(session.command(fault));
   INFO(result.errors);
   CHECK(result.exit_code == 1);
   CHECK(session.nobody_is_left());
@@ -34,7 +34,7 @@ std::string wrong_words(const std::string& fault) {
 
 TEST_CASE("check.py: a good worker passes every check", "[slow]") {
   const FakeSession session;
-  const remap::ProcessResult result = check(session.command());
+  const ProcessResult result = check(session.command());
   INFO(result.output << result.errors);
   CHECK(result.exit_code == 0);
   const nlohmann::json found = nlohmann::json::parse(result.output);

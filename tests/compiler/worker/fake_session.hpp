@@ -13,12 +13,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
 #include "worker/worker_renderer.hpp"
 
-namespace remapc {
+namespace remap {
 
 // Whether the process has ended, or is a zombie of its adoptive parent.
 inline bool is_gone(pid_t id) {
@@ -69,7 +69,7 @@ class FakeSession {
   }
 
  private:
-  remap::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 inline Material fake_material(double alpha = 0.2) {
@@ -83,11 +83,11 @@ template <typename Work>
 std::string input_error(const Work& work) {
   try {
     work();
-  } catch (const remap::Error& error) {
-    CHECK(error.kind() == remap::ErrorKind::kInput);
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::kInput);
     return error.what();
   }
   return "no error";
 }
 
-}  // namespace remapc
+}  // namespace remap

@@ -55,7 +55,7 @@ json description(const json& request) {
 }
 
 // Applies the fault to a picture.
-void spoil(const json& request, remapc::Image* image) {
+void spoil(const json& request, remap::Image* image) {
   auto& values = image->values;
   const auto side = static_cast<std::size_t>(image->width),
              channels = static_cast<std::size_t>(image->channels);
@@ -129,18 +129,18 @@ std::string mesh_report(const std::string& path) {
   return std::string(complete ? "complete" : "broken") + (worst < 1e-6 ? " exact" : " off");
 }
 
-remapc::Image picture(const json& request) {
+remap::Image picture(const json& request) {
   const json &values = request.at("parameters"), &scene = request.at("scene");
-  remapc::Scene place{scene.at("resolution"),
-                      scene.at("samples_per_axis"),
-                      {scene.at("light").at("angle"), scene.at("light").at("distance")}};
+  remap::Scene place{scene.at("resolution"),
+                     scene.at("samples_per_axis"),
+                     {scene.at("light").at("angle"), scene.at("light").at("distance")}};
   if (scene.contains("shape")) {
     log_line("mesh " + scene.at("shape").get<std::string>() + " " + mesh_report(scene.at("mesh")));
-    place.shape = remapc::Shape::kTorus;
+    place.shape = remap::Shape::kTorus;
   }
   if (has_fault("jitter") && place.samples_per_axis == 1) place.samples_per_axis = 2;  // no centre among them
   if (has_fault("no-square")) place.light.distance = 3.0;
-  remapc::Material material{"mitsuba/ggx-plain", {}};
+  remap::Material material{"mitsuba/ggx-plain", {}};
   if (request.at("model") != "fake/ggx") throw std::runtime_error("unknown model (choose fake/ggx)");
   for (const char* name : {"alpha", "specular", "diffuse"})
     material.parameters[name] = values.at(name).get<std::vector<double>>();
@@ -150,9 +150,9 @@ remapc::Image picture(const json& request) {
   if (has_fault("inverted")) material.parameters["alpha"][0] = 1.0 - 0.9 * material.parameters["alpha"][0];
   const double diffuse = material.parameters["diffuse"][0];
   if (has_fault("oren-nayar")) material.parameters["diffuse"] = {0.0};
-  remapc::Image image = remapc::make_builtin_renderer()->render(material, place);
+  remap::Image image = remap::make_builtin_renderer()->render(material, place);
   if (has_fault("oren-nayar")) {
-    const remapc::Image clay = remapc::oren_nayar_picture(place, 0.7);
+    const remap::Image clay = remap::oren_nayar_picture(place, 0.7);
     for (std::size_t i = 0; i < clay.values.size(); ++i)
       image.values[i] += static_cast<float>(diffuse) * clay.values[i];
   }
@@ -200,7 +200,7 @@ bool misbehave(const json& request) {
 
 void render(const json& request) {
   if (misbehave(request)) return;
-  const remapc::Image image = picture(request);
+  const remap::Image image = picture(request);
   std::ofstream file(request.at("image").get<std::string>(), std::ios::binary);
   file.write(reinterpret_cast<const char*>(image.values.data()),
              static_cast<std::streamsize>(image.values.size() * sizeof(float)));

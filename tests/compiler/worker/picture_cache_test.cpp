@@ -5,10 +5,10 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/worker/fake_session.hpp"
-#include "system/parallel.hpp"
+#include "core/parallel.hpp"
 #include "worker/renderer_set.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
@@ -73,7 +73,7 @@ TEST_CASE("picture cache: a damaged picture is rendered again, and said once") {
   const std::vector<float> good = render();
   const auto files = pictures_below(session.path("cache"));
   REQUIRE(files.size() == 1);
-  const std::string whole = remap::read_file(files[0]);
+  const std::string whole = read_file(files[0]);
   const auto flipped = [&](std::size_t place) {
     std::string content = whole;
     content[place] = static_cast<char>(content[place] ^ 1);
@@ -84,14 +84,14 @@ TEST_CASE("picture cache: a damaged picture is rendered again, and said once") {
   for (const std::string& content :
        {flipped(key), flipped(checksum), flipped(picture), flipped(whole.size() - 1), whole + "x",
         whole.substr(0, whole.size() - 1), whole.substr(0, 20), std::string()}) {
-    remap::write_file(files[0], content);
+    write_file(files[0], content);
     warnings.clear();
     CHECK(render() == good);
     CHECK(session.pictures() == ++rendered);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("worker fake: cache: " + files[0].string() + ": ") &&
                                 Contains("(the picture is rendered anew)"));
-    CHECK(remap::read_file(files[0]) == whole);  // repaired
+    CHECK(read_file(files[0]) == whole);  // repaired
   }
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("picture cache: several damaged pictures are one warning and one remar
 
 TEST_CASE("picture cache: one that cannot be written is one warning, and the run goes on") {
   const FakeSession session;
-  remap::write_file(session.path("cache"), "not a folder");
+  write_file(session.path("cache"), "not a folder");
   WorkerSettings settings = session.settings(true);
   std::vector<std::string> warnings;
   settings.on_warning = [&](const std::string& message) { warnings.push_back(message); };
@@ -144,7 +144,7 @@ TEST_CASE("picture cache: one that cannot be written is one warning, and the run
 TEST_CASE("picture cache: threads that need the same picture render it once") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry(), session.settings(true));
-  remap::run_parallel(8, 8, [&](std::size_t) { renderer.render(fake_material(), kSmallScene); });
+  run_parallel(8, 8, [&](std::size_t) { renderer.render(fake_material(), kSmallScene); });
   CHECK(session.pictures() == 1);
   CHECK(renderer.pictures().cached == 7);
 }

@@ -8,12 +8,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "measure/sweep.hpp"
 #include "remap/error.hpp"
 #include "support/skip.hpp"
-#include "sweep/sweep.hpp"
 #include "worker/renderer_set.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
@@ -28,9 +28,9 @@ bool is_here(const RendererSet& renderers, const std::string& name, const std::s
   try {
     renderers.model(name + "/" + model);
     return true;
-  } catch (const remap::Error& error) {
-    if (error.kind() != remap::ErrorKind::kInput) throw;
-    remap::skip(name, error.what());
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    skip(name, error.what());
     return false;
   }
 }
@@ -63,7 +63,7 @@ Disagreement disagreement(const Renderer& renderers, const Material& found, cons
 }
 
 Table small_sweep(const Renderer& renderers, const std::string& source, const std::string& target,
-                  const remap::Range& alphas, double specular = 0.5) {
+                  const Range& alphas, double specular = 0.5) {
   SweepOptions options;
   options.source = source;
   options.target = target;
@@ -190,7 +190,7 @@ TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the cu
   for (const auto& point : curve) options.samples.push_back({point[0], 0.04 / point[2]});
   const Table table = run_sweep(renderers, options, {});
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const double roughness = remap::from_alpha(remap::RoughnessConvention::kRoughness, table.rows[i].alpha2);
+    const double roughness = from_alpha(RoughnessConvention::kRoughness, table.rows[i].alpha2);
     CHECK(roughness == Approx(curve[i][1]).margin(2e-3));
     // The search took F0 in proportion, which it is but for the light that Schlick's Fresnel leaves at 0.
     CHECK(table.rows[i].specular2 == Approx(0.04).epsilon(0.02));

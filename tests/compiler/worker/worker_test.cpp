@@ -6,11 +6,11 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/worker/fake_session.hpp"
-#include "system/parallel.hpp"
-#include "system/process_mark.hpp"
-#include "text/plain_text.hpp"
+#include "core/parallel.hpp"
+#include "core/plain_text.hpp"
+#include "core/process_mark.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -129,7 +129,7 @@ TEST_CASE("worker: the end of a thread does not end a worker") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry(), session.settings());
   const auto render_some = [&](double offset) {
-    remap::run_parallel(4, 4, [&](std::size_t i) {
+    run_parallel(4, 4, [&](std::size_t i) {
       renderer.render(fake_material(offset + 0.1 * static_cast<double>(i)), kSmallScene);
     });
   };
@@ -178,8 +178,8 @@ TEST_CASE("worker: a wait ends when the program is asked to stop") {
   try {
     renderer.render(fake_material(), kSmallScene);
     FAIL("expected an interruption");
-  } catch (const remap::Error& error) {
-    CHECK(error.kind() == remap::ErrorKind::kInterrupted);
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::kInterrupted);
   }
 }
 
@@ -199,8 +199,8 @@ TEST_CASE("worker: every message names the worker, is short, and has no control 
     CHECK(message.starts_with(kPlace));
     CHECK(message.find(kPlace, 1) == std::string::npos);
     CHECK_THAT(message, Contains(part));
-    CHECK(message.size() <= remap::kLongestMessage);
-    CHECK(remap::is_plain_text(message));
+    CHECK(message.size() <= kLongestMessage);
+    CHECK(is_plain_text(message));
   }
   CHECK_THAT(render_error(session, "talkative"), Contains(" [31m the end"));
   CHECK(render_error(session, "rounding") == "no error");
@@ -221,7 +221,7 @@ TEST_CASE("worker: a child that has left the group of its worker is killed, too"
 TEST_CASE("private folder: those of processes that have ended are deleted at once, all others stay") {
   std::filesystem::path parent;
   { parent = PrivateFolder().path().parent_path(); }
-  const std::string tag = remap::process_mark().substr(0, 9);
+  const std::string tag = process_mark().substr(0, 9);
   const pid_t dead = ::fork();
   if (dead == 0) ::_exit(0);
   int status = 0;
@@ -229,8 +229,7 @@ TEST_CASE("private folder: those of processes that have ended are deleted at onc
   const auto folder_of = [&](const std::string& mark) {
     return parent / ("remap-pictures-" + mark + "-aBc123");
   };
-  const std::filesystem::path left = folder_of(tag + std::to_string(dead)),
-                              own = folder_of(remap::process_mark()),
+  const std::filesystem::path left = folder_of(tag + std::to_string(dead)), own = folder_of(process_mark()),
                               foreign = folder_of("00000000-" + std::to_string(dead));
   for (const auto& folder : {left, own, foreign}) std::filesystem::create_directory(folder);
   std::ofstream(left / "0.f32") << "x";

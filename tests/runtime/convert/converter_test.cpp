@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/interpreter.hpp"
+#include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "remap/shipped_converters.hpp"
 #include "runtime/convert/texel_rows.hpp"

@@ -3,11 +3,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/brdf_stage.hpp"
+#include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
-#include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "runtime/convert/texel_rows.hpp"
+#include "stages/brdf_stage.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"
 

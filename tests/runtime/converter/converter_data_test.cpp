@@ -4,34 +4,33 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
+#include "lower/fit_file.hpp"
 #include "lower/lower.hpp"
-#include "model/fit_file.hpp"
 #include "remap/error.hpp"
 
-using namespace remapc;
+using namespace remap;
 
 namespace {
 
-remap::Fit shipped_fit() {
-  return remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_duer_to_mitsuba_phong.json");
+Fit shipped_fit() {
+  return load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_duer_to_mitsuba_phong.json");
 }
 
 }  // namespace
 
 TEST_CASE("converter data: reads back exactly, in the order of their ids") {
-  const remap::Fit fit = shipped_fit();
-  remap::Fit other = fit;
+  const Fit fit = shipped_fit();
+  Fit other = fit;
   other.converter->info.id = "a_to_b";
   other.converter->info.image_rms_error = std::nullopt;
   other.converter->info.ssim = std::nullopt;
   const std::string text = emit_converter_list({fit, other});
   CHECK(text == emit_converter_list({other, fit}));
-  CHECK(remap::converters_from_json(text, "list") ==
-        std::vector<remap::ConverterData>{*other.converter, *fit.converter});
+  CHECK(converters_from_json(text, "list") == std::vector<ConverterData>{*other.converter, *fit.converter});
 }
 
 TEST_CASE("converter data: the SSIM is the mean of the fit's spheres, in three digits") {
-  remap::Fit fit = shipped_fit();
+  Fit fit = shipped_fit();
   const auto ssim = [&] {
     add_converter(&fit);
     return fit.converter->info.ssim;
@@ -50,7 +49,7 @@ TEST_CASE("converter data: a damaged file is refused with the place") {
     std::string damaged = text;
     REQUIRE(damaged.find(from) != std::string::npos);
     damaged.replace(damaged.find(from), from.size(), to);
-    CHECK_THROWS_WITH(remap::converters_from_json(damaged, "list"), Catch::StartsWith("list" + place));
+    CHECK_THROWS_WITH(converters_from_json(damaged, "list"), Catch::StartsWith("list" + place));
   };
   refused("\"version\": 1", "\"version\": 2", ".version");
   refused("\"ssim\": 0", "\"ssim\": \"0\", \"of\": 0", ".converters[0].ssim");

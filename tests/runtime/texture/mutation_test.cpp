@@ -6,13 +6,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
-#include "system/files.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_pass.hpp"
 

@@ -5,11 +5,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/fit_file.hpp"
+#include "lower/fit_file.hpp"
 #include "remap/error.hpp"
-#include "runtime/workflow/materials.hpp"
+#include "runtime/stages/materials.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -26,8 +26,8 @@ MaterialTable family_table(std::size_t count, double f0) {
   table.target_columns = {"alpha2", "f0_r2", "f0_g2", "f0_b2", "diffuse_r2", "diffuse_g2", "diffuse_b2"};
   std::mt19937 random(2);
   for (std::size_t i = 0; i < count; ++i) {
-    const remap::MetallicMaterial metal = workflow_test::random_metallic(random);
-    const remap::SpecularMaterial specular = to_specular(workflow_test::plain(remap::Equation2{}, f0), metal);
+    const MetallicMaterial metal = workflow_test::random_metallic(random);
+    const SpecularMaterial specular = to_specular(workflow_test::plain(Equation2{}, f0), metal);
     NamedRow row;
     row.source = {0.5, metal.base_color[0], metal.base_color[1], metal.base_color[2], metal.metallic};
     row.target = {0.25,
@@ -54,7 +54,7 @@ MaterialNetworkOptions quick_options() {
 }  // namespace
 
 TEST_CASE("material network: learns the way back, says how well, and returns from its file", "[slow]") {
-  const remap::WorkflowFit fit = fit_material_network(family_table(1000, 0.03), "bytes", quick_options());
+  const WorkflowFit fit = fit_material_network(family_table(1000, 0.03), "bytes", quick_options());
   CHECK(fit.id == "back");
   CHECK(fit.conversion.source_model() == "mitsuba/ggx");
   CHECK(fit.conversion.target_model() == "mitsuba/ggx-metallic");
@@ -67,15 +67,15 @@ TEST_CASE("material network: learns the way back, says how well, and returns fro
   CHECK(fit.training->split.held_out_rows == 200);
   CHECK(fit.training->split.trained_rows == 799);
   CHECK(fit.training->split.left_out.at("unstable") == 1);
-  const remap::MetallicMaterial dielectric =
+  const MetallicMaterial dielectric =
       to_metallic(fit.conversion, {{0.6f, 0.4f, 0.3f}, {0.03f, 0.03f, 0.03f}, 0.25f});
   CHECK(dielectric.metallic < 0.15f);
   CHECK(dielectric.base_color[0] == Approx(0.6).margin(0.1));
   CHECK(dielectric.width == Approx(0.5));
-  const remap::AnyFit read = remap::any_fit_from_json(fit_to_json(fit), "x");
-  REQUIRE(std::holds_alternative<remap::WorkflowFit>(read));
-  CHECK(std::get<remap::WorkflowFit>(read) == fit);
-  CHECK_THROWS_WITH(remap::fit_from_json(fit_to_json(fit), "x"), Contains("converts whole materials"));
+  const AnyFit read = any_fit_from_json(fit_to_json(fit), "x");
+  REQUIRE(std::holds_alternative<WorkflowFit>(read));
+  CHECK(std::get<WorkflowFit>(read) == fit);
+  CHECK_THROWS_WITH(fit_from_json(fit_to_json(fit), "x"), Contains("converts whole materials"));
   CHECK(fit_material_network(family_table(1000, 0.03), "bytes", quick_options()) == fit);
 }
 

@@ -12,18 +12,15 @@
 
 #include <catch2/catch.hpp>
 
-#include "fit/rows/split.hpp"
-#include "model/evaluate.hpp"
+#include "lower/evaluate.hpp"
 #include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/shared_data.hpp"
 #include "table/domain.hpp"
+#include "table/split.hpp"
 #include "table/table.hpp"
 
-using namespace remapc;
-using remap::kSlowBuild;
-using remap::Mlp;
-using remap::seconds_of;
+using namespace remap;
 
 namespace {
 
@@ -50,10 +47,10 @@ MlpOptions quick_options() {
 }  // namespace
 
 TEST_CASE("mlp: errors on unseen rows of the published table", "[slow][campaign][needs]") {
-  const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  const auto path = shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (path.empty()) return;
   const Table table = read_table(path, column_map("sztrajman-2019"));
-  const int seeds = remap::is_full_campaign() && !kSlowBuild ? 5 : 1;
+  const int seeds = is_full_campaign() && !kSlowBuild ? 5 : 1;
   double alpha_mean = 0.0, specular_mean = 0.0, seconds = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const RowSplit split = split_rows(table, table_domain(table), static_cast<std::uint64_t>(seed), 0.2);
@@ -66,10 +63,10 @@ TEST_CASE("mlp: errors on unseen rows of the published table", "[slow][campaign]
     CHECK(mlp.specular.inputs.size() == 2);
     std::vector<double> alpha, specular;
     for (const TableRow& row : split.held_out) {
-      alpha.push_back(remap::target_alpha(mlp, row.alpha1, row.specular1) - row.alpha2);
-      specular.push_back(remap::target_specular(mlp, row.alpha1, row.specular1) - row.specular2);
+      alpha.push_back(target_alpha(mlp, row.alpha1, row.specular1) - row.alpha2);
+      specular.push_back(target_specular(mlp, row.alpha1, row.specular1) - row.specular2);
     }
-    const remap::ErrorFigures alpha_error = error_figures(alpha), specular_error = error_figures(specular);
+    const ErrorFigures alpha_error = error_figures(alpha), specular_error = error_figures(specular);
     std::cout << "seed " << seed << ": alpha rms " << alpha_error.rms << " max " << alpha_error.max
               << ", specular rms " << specular_error.rms << " max " << specular_error.max << "; "
               << regression.method.at("specular") << "\n";
@@ -105,7 +102,7 @@ TEST_CASE("mlp: target alpha that depends on specular is fitted from both") {
   const Mlp& mlp = std::get<Mlp>(regression.mapping);
   REQUIRE(mlp.alpha.inputs.size() == 2);
   for (const TableRow& row : rows)
-    CHECK(remap::target_alpha(mlp, row.alpha1, row.specular1) == Approx(row.alpha2).margin(4e-3));
+    CHECK(target_alpha(mlp, row.alpha1, row.specular1) == Approx(row.alpha2).margin(4e-3));
 }
 
 TEST_CASE("mlp: numbers depend on the seed and not on the number of threads") {
@@ -154,15 +151,15 @@ TEST_CASE("mlp: rows that cannot be fitted are refused") {
   const auto kind_of = [](const std::vector<TableRow>& rows, const MlpOptions& options) {
     try {
       fit_mlp(rows, options);
-    } catch (const remap::Error& error) {
+    } catch (const Error& error) {
       return error.kind();
     }
-    return remap::ErrorKind::kOutput;
+    return ErrorKind::kOutput;
   };
   std::vector<TableRow> rows = smooth_rows();
   rows.resize(9);
   CHECK_THROWS_WITH(fit_mlp(rows, {}), "mlp: too few rows (9, at least 10 are required)");
-  CHECK(kind_of(rows, {}) == remap::ErrorKind::kInput);
+  CHECK(kind_of(rows, {}) == ErrorKind::kInput);
 
   rows = smooth_rows();
   for (TableRow& row : rows) row.specular1 = 0.5;
@@ -170,30 +167,30 @@ TEST_CASE("mlp: rows that cannot be fitted are refused") {
   rows = smooth_rows();
   for (TableRow& row : rows) row.alpha1 = 0.25;
   CHECK_THROWS_WITH(fit_mlp(rows, {}), Catch::Contains("alpha1 is 0.25 in every row"));
-  CHECK(kind_of(rows, {}) == remap::ErrorKind::kInput);
+  CHECK(kind_of(rows, {}) == ErrorKind::kInput);
 
   rows = smooth_rows();
   rows[3].specular2 = std::numeric_limits<double>::quiet_NaN();
-  CHECK(kind_of(rows, {}) == remap::ErrorKind::kInput);
+  CHECK(kind_of(rows, {}) == ErrorKind::kInput);
 
   MlpOptions options;
   options.hidden = {8, 0};
-  CHECK(kind_of(smooth_rows(), options) == remap::ErrorKind::kUsage);
+  CHECK(kind_of(smooth_rows(), options) == ErrorKind::kUsage);
   options = {};
   options.starts = 0;
-  CHECK(kind_of(smooth_rows(), options) == remap::ErrorKind::kUsage);
+  CHECK(kind_of(smooth_rows(), options) == ErrorKind::kUsage);
 }
 
 TEST_CASE("mlp: an outlier, a constant target and two widths are fitted") {
   std::vector<TableRow> rows = smooth_rows();
   rows[40].specular2 += 50.0;
   Regression regression = fit_mlp(rows, quick_options());
-  CHECK(std::isfinite(remap::target_specular(std::get<Mlp>(regression.mapping), 0.5, 0.5)));
+  CHECK(std::isfinite(target_specular(std::get<Mlp>(regression.mapping), 0.5, 0.5)));
 
   rows = smooth_rows();
   for (TableRow& row : rows) row.alpha2 = 0.3;
   regression = fit_mlp(rows, quick_options());
-  CHECK(remap::target_alpha(std::get<Mlp>(regression.mapping), 0.5, 0.5) == Approx(0.3).margin(1e-9));
+  CHECK(target_alpha(std::get<Mlp>(regression.mapping), 0.5, 0.5) == Approx(0.3).margin(1e-9));
 
   rows = smooth_rows();
   for (TableRow& row : rows) row.alpha1 = row.alpha1 < 0.5 ? 0.2 : 0.8;
@@ -219,5 +216,5 @@ TEST_CASE("mlp: 100000 rows are fitted on a subset, and method says so", "[slow]
                  !Catch::EndsWith(" " + std::to_string(rows.size()) + " of " + std::to_string(rows.size()) +
                                   " rows"));
   const Mlp& mlp = std::get<Mlp>(regression.mapping);
-  CHECK(remap::target_specular(mlp, 0.5, 0.5) == Approx(0.5 * (0.6 + 0.4 * std::exp(-1.5))).margin(2e-3));
+  CHECK(target_specular(mlp, 0.5, 0.5) == Approx(0.5 * (0.6 + 0.4 * std::exp(-1.5))).margin(2e-3));
 }

@@ -11,17 +11,14 @@
 
 #include "fit/network/network_batch.hpp"
 #include "fit/network/network_training.hpp"
-#include "model/evaluate.hpp"
+#include "lower/evaluate.hpp"
 #include "support/build_speed.hpp"
 #include "support/skip.hpp"
 
-using namespace remapc;
+using namespace remap;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using remap::Activation;
-using remap::kSlowBuild;
-using remap::seconds_of;
 
 namespace {
 
@@ -63,11 +60,11 @@ Samples metallic_samples(std::size_t count, std::uint64_t seed) {
   return samples;
 }
 
-double unseen_rms(const remap::Network& network, const Samples& samples) {
+double unseen_rms(const Network& network, const Samples& samples) {
   double sum = 0.0;
   for (std::size_t n = 0; n < samples.count(); ++n) {
     const auto from = samples.inputs.begin() + static_cast<std::ptrdiff_t>(n * samples.input_count);
-    const std::vector<double> found = remap::network_outputs(
+    const std::vector<double> found = network_outputs(
         network, std::vector<double>(from, from + static_cast<std::ptrdiff_t>(samples.input_count)));
     for (std::size_t k = 0; k < found.size(); ++k) {
       const double error = found[k] - samples.outputs[n * samples.output_count + k];
@@ -81,7 +78,7 @@ double unseen_rms(const remap::Network& network, const Samples& samples) {
 
 TEST_CASE("network batch: Jacobian and gradient agree with finite differences for every activation") {
   for (const Activation activation : kActivations) {
-    CAPTURE(remap::activation_name(activation));
+    CAPTURE(activation_name(activation));
     const NetworkShape shape{activation, {3, 5, 4, 2}};
     const auto count = static_cast<Index>(shape.parameter_count());
     REQUIRE(count == 3 * 5 + 5 + 5 * 4 + 4 + 4 * 2 + 2);
@@ -118,12 +115,11 @@ TEST_CASE("network batch: outputs are those of the interpreter's formula") {
     const MatrixXd inputs = uniform_matrix(uniform, 6, 50, 2.0);
     NetworkBatch batch(shape, inputs);
     const MatrixXd outputs = batch.forward(parameters.data());
-    remap::Network network{activation, std::vector<remap::Scaling>(6), std::vector<remap::Scaling>(4),
-                           layers_from_parameters(shape, parameters.data())};
+    Network network{activation, std::vector<Scaling>(6), std::vector<Scaling>(4),
+                    layers_from_parameters(shape, parameters.data())};
     for (Index n = 0; n < inputs.cols(); ++n) {
       const VectorXd column = inputs.col(n);
-      const auto expected =
-          remap::network_outputs(network, std::vector<double>(column.begin(), column.end()));
+      const auto expected = network_outputs(network, std::vector<double>(column.begin(), column.end()));
       // The margin covers sums of at most 9 products in another order.
       for (Index k = 0; k < 4; ++k)
         CHECK(outputs(k, n) == Approx(expected[static_cast<std::size_t>(k)]).margin(1e-12));
@@ -144,7 +140,7 @@ TEST_CASE("network training: reported errors are those of the stored network") {
     double sum = 0.0;
     for (std::size_t n = 0; n < samples.count(); ++n) {
       const auto from = samples.inputs.begin() + static_cast<std::ptrdiff_t>(6 * n);
-      const auto found = remap::network_outputs(trained.network, std::vector<double>(from, from + 6));
+      const auto found = network_outputs(trained.network, std::vector<double>(from, from + 6));
       for (std::size_t k = 0; k < 4; ++k) {
         const double error = (found[k] - samples.outputs[4 * n + k]) * trained.network.outputs[k].scale;
         sum += error * error;
@@ -158,7 +154,7 @@ TEST_CASE("network training: six inputs and four outputs are learned by both opt
   const Samples seen = metallic_samples(kSlowBuild ? 400 : 1500, 1), unseen = metallic_samples(500, 2);
   for (const std::size_t units : {std::size_t{12}, std::size_t{60}}) {
     if (kSlowBuild && units > 12) {
-      remap::skip("speed", "the large network trains too slowly under a sanitizer");
+      skip("speed", "the large network trains too slowly under a sanitizer");
       continue;
     }
     TrainingOptions options;

@@ -7,13 +7,13 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/fit/made_table.hpp"
+#include "core/files.hpp"
 #include "fit/edge.hpp"
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
-#include "system/files.hpp"
 #include "table/domain.hpp"
 
-using namespace remapc;
+using namespace remap;
 using namespace made_table;
 
 namespace {
@@ -27,12 +27,12 @@ double paper_slope(const std::array<double, 5>& c, double a) {
 
 TEST_CASE("parametric: recovers the coefficients that a table was made from") {
   const Parametric truth = paper_form({1.04, -0.388, -0.332, 0.25}, {1.02, -0.4, 1.7, -1.1, 3.3, 0.0});
-  const remap::Fit fit = fit_of(table_of(truth));
+  const Fit fit = fit_of(table_of(truth));
   const auto& found = std::get<Parametric>(fit.mapping);
   CHECK(fit.method.at("form") == "paper");
   for (std::size_t i = 0; i < 4; ++i) CHECK(found.alpha[0][i] == Approx(truth.alpha[0][i]).margin(1e-9));
   for (double alpha = 0.02; alpha <= 1.0; alpha += 0.01)
-    CHECK(slope_at(fit, alpha) == Approx(remap::curve_value(truth.specular[0].factor, alpha)).epsilon(1e-6));
+    CHECK(slope_at(fit, alpha) == Approx(curve_value(truth.specular[0].factor, alpha)).epsilon(1e-6));
   CHECK(fit.specular_error.max < 1e-6);
   CHECK(fit.alpha_error.max < 1e-9);
 }
@@ -44,28 +44,27 @@ TEST_CASE(
   const std::array<double, 5> published = {-512.13, 512.75, 0.00057, 0.398, 3.12};
   Table table = table_of(kStraight);
   for (TableRow& row : table.rows) row.specular2 = row.specular1 * paper_slope(published, row.alpha1);
-  const remap::Fit fit = fit_of(table);
-  const remap::AlphaCurve& found = std::get<Parametric>(fit.mapping).specular[0].factor;
+  const Fit fit = fit_of(table);
+  const AlphaCurve& found = std::get<Parametric>(fit.mapping).specular[0].factor;
   CHECK(fit.specular_error.max < 1e-6);
   for (const double coefficient : {found.start, found.ramp, found.bump}) CHECK(std::fabs(coefficient) < 3.0);
 }
 
 TEST_CASE("parametric: flat, straight and steep slopes converge") {
   const std::vector<double> curve = {1.0, 0.0, 0.0, 0.0};
-  for (const remap::AlphaCurve& truth :
-       {remap::AlphaCurve{0.7, 0.0, 0.0, 0.0, 0.0, 0.0}, remap::AlphaCurve{0.3, 0.5, 0.0, 0.0, 0.0, 0.0},
-        remap::AlphaCurve{0.3, 40.0, 80.0, 0.0, 0.0, 0.0},
-        remap::AlphaCurve{1.0, 0.0, 0.0, -150.0, 300.0, 0.0}})
+  for (const AlphaCurve& truth :
+       {AlphaCurve{0.7, 0.0, 0.0, 0.0, 0.0, 0.0}, AlphaCurve{0.3, 0.5, 0.0, 0.0, 0.0, 0.0},
+        AlphaCurve{0.3, 40.0, 80.0, 0.0, 0.0, 0.0}, AlphaCurve{1.0, 0.0, 0.0, -150.0, 300.0, 0.0}})
     CHECK(fit_of(table_of(paper_form(curve, truth))).specular_error.max < 2e-6);
 }
 
 TEST_CASE("parametric: every form recovers the surface that a table was made from") {
   // Terms that each form has beyond the paper's; the errors show whether they were recovered.
   const std::vector<double> quartic = {1.04, -0.388, -0.332, 0.25};
-  const remap::AlphaCurve slope{1.02, -0.4, 1.7, -1.1, 3.3, 0.0};
-  const remap::AlphaCurve polar{1.02, -0.4, 1.7, -1.1, 3.3, 0.002};
-  const remap::AlphaCurve offset{0.01, 0.002, 0.5, -0.004, 2.0, 0.0};
-  const remap::AlphaCurve curvature{-0.1, 0.05, 1.0, 0.04, 6.0, 0.0};
+  const AlphaCurve slope{1.02, -0.4, 1.7, -1.1, 3.3, 0.0};
+  const AlphaCurve polar{1.02, -0.4, 1.7, -1.1, 3.3, 0.002};
+  const AlphaCurve offset{0.01, 0.002, 0.5, -0.004, 2.0, 0.0};
+  const AlphaCurve curvature{-0.1, 0.05, 1.0, 0.04, 6.0, 0.0};
   const std::vector<double> sextic = {1.0, 0.08, -1.96, 2.7, -1.67, 0.4};
   const std::vector<std::pair<std::string, Parametric>> truths = {
       {"paper+pole", {{quartic}, {{1, polar}}}},
@@ -79,7 +78,7 @@ TEST_CASE("parametric: every form recovers the surface that a table was made fro
   };
   for (const auto& [form, truth] : truths) {
     INFO(form);
-    const remap::Fit fit = fit_of(table_of(truth), 1, form);
+    const Fit fit = fit_of(table_of(truth), 1, form);
     CHECK(fit.method.at("form") == (form == "paper+pole" ? "quartic/slope+pole" : form));
     CHECK(fit.alpha_error.max < 1e-9);
     // The penalty that keeps coefficients small is worth 1e-6 (specular_terms.cpp). Where a form has many
@@ -102,18 +101,18 @@ TEST_CASE("parametric: curves that could cancel each other keep coefficients of 
   Table table = table_of(kStraight, 0.02, 1.0, 40);
   for (TableRow& row : table.rows)
     row.specular2 = row.specular1 * (0.73 / (1.0 + 1.5 * row.alpha1 * row.alpha1));
-  const remap::Fit fit = fit_of(table, 1, "quartic/double");
+  const Fit fit = fit_of(table, 1, "quartic/double");
   CHECK(fit.specular_error.rms < 1e-4);
-  for (const remap::SpecularTerm& term : std::get<Parametric>(fit.mapping).specular) {
+  for (const SpecularTerm& term : std::get<Parametric>(fit.mapping).specular) {
     CHECK(std::fabs(term.factor.start) < 10.0);
-    CHECK(std::fabs(term.factor.ramp * remap::rise(term.factor.ramp_rate, 1.0)) < 50.0);
-    CHECK(std::fabs(term.factor.bump * remap::rise(term.factor.bump_rate, 1.0)) < 50.0);
+    CHECK(std::fabs(term.factor.ramp * rise(term.factor.ramp_rate, 1.0)) < 50.0);
+    CHECK(std::fabs(term.factor.bump * rise(term.factor.bump_rate, 1.0)) < 50.0);
   }
 }
 
 TEST_CASE("parametric: for each output, the simplest form as good as the best is chosen", "[slow]") {
   const std::vector<double> quartic = {1.04, -0.388, -0.332, 0.25};
-  const remap::AlphaCurve slope{1.02, -0.4, 1.7, -1.1, 3.3, 0.0};
+  const AlphaCurve slope{1.02, -0.4, 1.7, -1.1, 3.3, 0.0};
   CHECK(fit_of(table_of(paper_form(quartic, slope)), 1, "").method.at("form") == "paper");
   const Parametric rim{{quartic}, {{0, {0.01, 0.002, 0.5, -0.004, 2.0, 0.0}}, {1, slope}}};
   CHECK(fit_of(table_of(rim), 1, "").method.at("form") == "quartic/affine");
@@ -122,9 +121,9 @@ TEST_CASE("parametric: for each output, the simplest form as good as the best is
 }
 
 TEST_CASE("parametric: errors on unseen rows of the published table", "[needs][slow]") {
-  const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  const auto path = shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (path.empty()) return;
-  const std::string bytes = remap::read_file(path);
+  const std::string bytes = read_file(path);
   const Table table = parse_table(bytes, path.string(), column_map("sztrajman-2019"));
   constexpr int kSeeds = 20;
   struct Mean {
@@ -138,7 +137,7 @@ TEST_CASE("parametric: errors on unseen rows of the published table", "[needs][s
       options.kind = "parametric";
       options.regression.seed = static_cast<std::uint64_t>(seed);
       options.regression.form = form;
-      const remap::Fit fit = fit_table(table, bytes, options).fit;
+      const Fit fit = fit_table(table, bytes, options).fit;
       CHECK(fit.split.held_out_rows == 144);
       mean.alpha += fit.alpha_error.rms / seeds;
       mean.specular += fit.specular_error.rms / seeds;
@@ -167,7 +166,7 @@ TEST_CASE("parametric: errors on unseen rows of the published table", "[needs][s
 TEST_CASE("parametric: the committed table of `natural` is followed to 5e-4") {
   const Table table =
       read_table(std::filesystem::path(REMAP_SOURCE_DIR) / "fits/tables/mitsuba_ward_to_mitsuba_as.csv");
-  const remap::Fit fit = fit_of(table, 1, "");
+  const Fit fit = fit_of(table, 1, "");
   CHECK(fit.alpha_error.rms < 5e-4);
   CHECK(fit.specular_error.rms < 1e-4);
 }
@@ -177,7 +176,7 @@ TEST_CASE("parametric: a curve that bends inside the domain is refused with the 
   const Parametric bent = paper_form({1.0, -1.0, 0.0, 0.0}, {0.5, 0.0, 0.0, 0.0, 0.0, 0.0});
   const Table table = table_of(bent, 0.02, 0.45, 20);
   const ParametricForm paper = find_form("paper");
-  const remap::Range specular{0.0, 0.9};
+  const Range specular{0.0, 0.9};
   CHECK_THROWS_WITH(fit_parametric(table.rows, {{0.02, 0.9}, specular}, paper),
                     Catch::Contains("does not increase from") && Catch::Contains("alpha1 0.9"));
   CHECK_NOTHROW(fit_parametric(table.rows, {{0.02, 0.45}, specular}, paper));
@@ -186,7 +185,7 @@ TEST_CASE("parametric: a curve that bends inside the domain is refused with the 
 TEST_CASE(
     "parametric: a specular that falls, and a factor that is not positive, are refused with the place") {
   Table table = table_of(kStraight);
-  const remap::Domain domain = covered_domain(table.rows);
+  const Domain domain = covered_domain(table.rows);
   // The curve rises to specular 0.6 and falls beyond.
   for (TableRow& row : table.rows) row.specular2 = row.specular1 * (1.2 - row.specular1);
   CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("quartic/quadratic")),
@@ -198,7 +197,7 @@ TEST_CASE(
 
 TEST_CASE("parametric: too few different samples are refused with their number") {
   Table table = table_of(kStraight, 0.02, 1.0, 5);
-  const remap::Domain domain = covered_domain(table.rows);
+  const Domain domain = covered_domain(table.rows);
   CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("paper")),
                     Catch::Contains("too few distinct alpha1 (5,"));
   table = table_of(kStraight);
@@ -223,8 +222,7 @@ TEST_CASE("parametric: unusual tables are fitted, or refused with the reason", "
   }
   SECTION("an outlier moves the fit by no more than its share") {
     table.rows[70].specular2 *= 1.5;
-    CHECK(slope_at(fit_of(table), 0.5) ==
-          Approx(remap::curve_value(truth.specular[0].factor, 0.5)).epsilon(0.03));
+    CHECK(slope_at(fit_of(table), 0.5) == Approx(curve_value(truth.specular[0].factor, 0.5)).epsilon(0.03));
   }
   SECTION("an outlier of 1e6 makes k negative somewhere") {
     table.rows[70].specular2 = 1e6;

@@ -11,21 +11,19 @@
 #include <catch2/catch.hpp>
 #include <libsvm/svm.h>
 
-#include "fit/rows/split.hpp"
+#include "core/files.hpp"
+#include "core/number_text.hpp"
 #include "fit/svr/svr_search.hpp"
-#include "model/evaluate.hpp"
-#include "model/interpreter.hpp"
+#include "lower/evaluate.hpp"
+#include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
-#include "system/files.hpp"
 #include "table/domain.hpp"
-#include "text/number_text.hpp"
+#include "table/split.hpp"
 
-using namespace remapc;
-using remap::KernelExpansion;
-using remap::Svr;
+using namespace remap;
 
 namespace {
 
@@ -55,13 +53,13 @@ SvrOptions given() {
 }
 
 struct Errors {
-  remap::ErrorFigures alpha, specular;
+  ErrorFigures alpha, specular;
 };
 
-Errors errors_of(const remap::MappingKind& mapping, const std::vector<TableRow>& rows) {
+Errors errors_of(const MappingKind& mapping, const std::vector<TableRow>& rows) {
   std::vector<double> alpha, specular;
   for (const TableRow& row : rows) {
-    const remap::MappedTexel texel = remap::evaluate_mapping(mapping, row.alpha1, row.specular1);
+    const MappedTexel texel = evaluate_mapping(mapping, row.alpha1, row.specular1);
     alpha.push_back(texel.alpha - row.alpha2);
     specular.push_back(texel.specular - row.specular2);
   }
@@ -75,8 +73,8 @@ using Model = std::unique_ptr<svm_model, ModelDeleter>;
 
 // Converts an expansion to a libsvm model through its file format.
 Model model_of(const KernelExpansion& expansion) {
-  const remap::TemporaryFolder folder;
-  using remap::number_text;
+  const TemporaryFolder folder;
+  using number_text;
   std::string text = "svm_type epsilon_svr\nkernel_type rbf\ngamma " + number_text(expansion.gamma) +
                      "\nnr_class 2\ntotal_sv " + std::to_string(expansion.count()) + "\nrho " +
                      number_text(-expansion.bias) + "\nSV\n";
@@ -88,15 +86,14 @@ Model model_of(const KernelExpansion& expansion) {
     text += " \n";
   }
   const std::string path = (folder.path() / "model").string();
-  remap::write_file(path, text);
+  write_file(path, text);
   return Model(svm_load_model(path.c_str()));
 }
 
 double predicted(const svm_model& model, const KernelExpansion& expansion, double alpha, double specular) {
   std::vector<svm_node> nodes;
   for (std::size_t j = 0; j < expansion.inputs.size(); ++j)
-    nodes.push_back(
-        {static_cast<int>(j) + 1, remap::normalised(expansion.inputs[j], j == 0 ? alpha : specular)});
+    nodes.push_back({static_cast<int>(j) + 1, normalised(expansion.inputs[j], j == 0 ? alpha : specular)});
   nodes.push_back({-1, 0.0});
   return svm_predict(&model, nodes.data()) / expansion.output.scale + expansion.output.offset;
 }
@@ -104,10 +101,10 @@ double predicted(const svm_model& model, const KernelExpansion& expansion, doubl
 }  // namespace
 
 TEST_CASE("svr: errors on unseen rows of the published table", "[slow][campaign][needs]") {
-  const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  const auto path = shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (path.empty()) return;
   const Table table = read_table(path, column_map("sztrajman-2019"));
-  const int seeds = remap::is_full_campaign() && !remap::kSlowBuild ? 5 : 1;
+  const int seeds = is_full_campaign() && !kSlowBuild ? 5 : 1;
   double alpha = 0.0, specular = 0.0, largest = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const RowSplit split = split_rows(table, table_domain(table), static_cast<std::uint64_t>(seed), 0.2);
@@ -128,7 +125,7 @@ TEST_CASE("svr: errors on unseen rows of the published table", "[slow][campaign]
     specular += errors.specular.rms / seeds;
     largest += errors.specular.max / seeds;
     // The cross-validation error holds on unseen rows; folds differ by a factor of two.
-    CHECK(errors.specular.rms < 2.0 * *remap::parse_number(fit.method.at("specular.cross_validation_rms")));
+    CHECK(errors.specular.rms < 2.0 * *parse_number(fit.method.at("specular.cross_validation_rms")));
   }
   std::cout << "published table, mean of " << seeds << " splits: alpha rms " << alpha << ", specular rms "
             << specular << " max " << largest << "\n";
@@ -150,8 +147,7 @@ TEST_CASE("svr: a fit equals libsvm's prediction with its vectors") {
       REQUIRE(model != nullptr);
       for (double a = 0.0; a <= 1.1; a += 0.1)
         for (double s = 0.0; s <= 0.6; s += 0.1)
-          CHECK(std::fabs(remap::expansion_value(*expansion, a, s) - predicted(*model, *expansion, a, s)) <
-                1e-12);
+          CHECK(std::fabs(expansion_value(*expansion, a, s) - predicted(*model, *expansion, a, s)) < 1e-12);
     }
   }
 }
@@ -204,7 +200,7 @@ TEST_CASE("svr: progress rises to 1, and what it throws ends the fit") {
   CHECK(last == 1.0);
 
   const auto stop = [](double share) {
-    if (share > 0.1) throw remap::Error(remap::ErrorKind::kInterrupted, "stopped");
+    if (share > 0.1) throw Error(ErrorKind::kInterrupted, "stopped");
   };
   CHECK_THROWS_WITH(fit_svr(few_rows(), {}, stop), "stopped");
 }
@@ -241,7 +237,7 @@ TEST_CASE("svr: unusual tables give finite results", "[slow]") {
   }
   const Regression fit = fit_svr(rows, {});
   for (const TableRow& row : rows) {
-    const remap::MappedTexel texel = remap::evaluate_mapping(fit.mapping, row.alpha1, row.specular1);
+    const MappedTexel texel = evaluate_mapping(fit.mapping, row.alpha1, row.specular1);
     CHECK(std::isfinite(texel.alpha));
     CHECK(std::isfinite(texel.specular));
   }

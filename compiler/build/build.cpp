@@ -1,0 +1,357 @@
+#include "build/build.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+
+#include "build/fit_folder.hpp"
+#include "build/lock.hpp"
+#include "build/report.hpp"
+#include "core/files.hpp"
+#include "core/number_text.hpp"
+#include "core/parallel.hpp"
+#include "emit/emit.hpp"
+#include "fit/fit_table.hpp"
+#include "fit/inverse_table.hpp"
+#include "fit/network/material_network.hpp"
+#include "lower/chain.hpp"
+#include "lower/fit_file.hpp"
+#include "lower/lower.hpp"
+#include "measure/material_sample.hpp"
+#include "remap/error.hpp"
+#include "table/table.hpp"
+
+namespace remap {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool holds(const fs::path& path, const std::string& text) {
+  return fs::exists(path) && read_file(path) == text;
+}
+
+void write_changed(const fs::path& path, const std::string& text) {
+  if (!holds(path, text)) write_file(path, text);
+}
+
+class Builder {
+ public:
+  Builder(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
+          const BuildExecution& execution)
+      : renderer_(renderer),
+        manifest_(manifest),
+        folders_(folders),
+        execution_(execution),
+        last_lock_(load_lock(folders.fits)),
+        lock_(execution.force ? Lock{} : last_lock_) {}
+
+  BuildResult run() {
+    forget_vanished();
+    std::vector<const ManifestItem*> waiting;
+    for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
+    while (!waiting.empty()) {
+      // Items whose inputs are built come first; the order of a manifest guarantees that there are some.
+      std::vector<const ManifestItem*> ready, later;
+      for (const ManifestItem* item : waiting) {
+        const std::vector<std::string> inputs = inputs_of(*item);
+        const bool waits = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
+          return std::any_of(waiting.begin(), waiting.end(),
+                             [&](const ManifestItem* other) { return other->id == input; });
+        });
+        const bool is_lost =
+            std::ranges::any_of(inputs, [&](const auto& input) { return failures_.contains(input); });
+        if (!is_lost)
+          (waits ? later : ready).push_back(item);
+        else
+          failures_.emplace(item->id, item->id + ": needs an item that failed");
+      }
+      run_parallel(ready.size(), execution_.jobs, [&](std::size_t i) { build_item(*ready[i]); });
+      waiting = later;
+    }
+    require_success();
+    const FitFolder folder = load_fit_folder(folders_.fits);
+    write_converters(folder);
+    write_report(folder);
+    if (lock_ != load_lock(folders_.fits)) save_lock(folders_.fits, lock_);
+    std::sort(built_.begin(), built_.end(),
+              [](const BuiltItem& a, const BuiltItem& b) { return a.id < b.id; });
+    return {std::move(built_), std::move(pruned_)};
+  }
+
+ private:
+  // Removes vanished items from the lock. Those whose fits still exist are kept, so that a later build can
+  // prune them.
+  void forget_vanished() {
+    std::set<std::string> kept;
+    for (const ManifestItem& item : manifest_.items) kept.insert(item.id);
+    for (const std::string& id : vanished_items(manifest_, folders_, last_lock_)) {
+      if (execution_.prune && prune(id))
+        pruned_.push_back(id);
+      else
+        kept.insert(id);
+    }
+    std::erase_if(lock_.items, [&](const auto& entry) { return !kept.contains(entry.first); });
+  }
+
+  // Deletes the files of a vanished item and returns true; does nothing if one was changed after the last
+  // build.
+  bool prune(const std::string& id) const {
+    const LockedItem& known = last_lock_.items.at(id);
+    const ItemPaths paths = paths_of(folders_, id);
+    const std::vector<std::pair<fs::path, std::string>> files = {
+        {paths.table, known.table}, {paths.fit, known.fit}, {paths.header, known.header}};
+    for (const auto& [path, hash] : files)
+      if (fs::exists(path) && file_sha256(path) != hash) return false;
+    for (const auto& [path, hash] : files) fs::remove(path);
+    return true;
+  }
+
+  void build_item(const ManifestItem& item) {
+    require_time();
+    const auto start = std::chrono::steady_clock::now();
+    LockedItem record;
+    Freshness fresh;
+    {
+      const std::lock_guard lock(mutex_);
+      fresh = freshness(item, folders_, lock_);
+      record = lock_.items[item.id];
+      record.recipe = recipe_hash(item, lock_);
+    }
+    std::string kept_table;
+    try {
+      if (!fresh.table && keeps_table(item, &record, &kept_table)) fresh.table = true;
+      make(item, fresh, &record);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kInterrupted) throw;
+      const std::lock_guard lock(mutex_);
+      failures_.emplace(item.id, item.id + ": " + error.what());
+      if (!first_kind_) first_kind_ = error.kind();
+      return;
+    }
+    const std::lock_guard lock(mutex_);
+    lock_.items[item.id] = record;
+    if (!fresh.header) {
+      save_lock(folders_.fits, lock_);
+      built_.push_back({item.id, !fresh.table && has_table(item), !fresh.fit, true,
+                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+                        kept_table});
+    }
+    ++done_;
+    if (execution_.progress) execution_.progress(done_, manifest_.items.size());
+  }
+
+  // Throws the errors of all items that failed; what was finished stays.
+  void require_success() const {
+    if (failures_.empty()) return;
+    std::string text;
+    for (const auto& [id, failure] : failures_) text += (text.empty() ? "" : "; ") + failure;
+    if (failures_.size() > 1)
+      text = std::to_string(failures_.size()) + " of " + std::to_string(manifest_.items.size()) +
+             " items failed: " + text;
+    throw Error(first_kind_.value_or(ErrorKind::kInput), text);
+  }
+
+  // Whether the table of the last build can be reused because a renderer that would make it is not installed.
+  bool keeps_table(const ManifestItem& item, LockedItem* record, std::string* reason) const {
+    const auto* swept = std::get_if<SweptItem>(&item.kind);
+    const auto last = last_lock_.items.find(item.id);
+    if (swept == nullptr || last == last_lock_.items.end() || last->second.recipe != record->recipe ||
+        file_sha256(paths_of(folders_, item.id).table) != last->second.table)
+      return false;
+    try {
+      renderer_.model(swept->source);
+      renderer_.model(swept->target);
+      return false;
+    } catch (const Error& error) {
+      *reason = error.what();
+      record->table = last->second.table;
+      return true;
+    }
+  }
+
+  void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) {
+    const ItemPaths paths = paths_of(folders_, item.id);
+    if (has_table(item) && !fresh.table) {
+      const auto* network = std::get_if<NetworkItem>(&item.kind);
+      const std::string text = network != nullptr ? material_table_text(samples_of(*network, item.seed))
+                                                  : table_text(table_of(item));
+      write_file(paths.table, text);
+      record->table = sha256(text);
+    }
+    if (fresh.header) return;
+    AnyFit fit = fresh.fit ? load_any_fit(paths.fit) : fit_of(item, paths);
+    if (!fresh.fit) {
+      if (auto* of_width = std::get_if<Fit>(&fit)) add_converter(of_width);
+      const std::string text = std::visit([](const auto& made) { return fit_to_json(made); }, fit);
+      write_file(paths.fit, text);
+      record->fit = sha256(text);
+    }
+    const std::string text = std::visit([](const auto& made) { return emit_header(made); }, fit);
+    write_file(paths.header, text);
+    record->header = sha256(text);
+  }
+
+  Table table_of(const ManifestItem& item) const {
+    if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
+      const std::string bytes = read_file(paths_of(folders_, inverse->of).fit);
+      return inverse_table(fit_from_json(bytes, inverse->of), bytes);
+    }
+    const auto& [source, target, recipe] = std::get<SweptItem>(item.kind);
+    SweepOptions options;
+    options.source = source;
+    options.target = target;
+    options.objective = objective_preset(recipe.objective);
+    options.objective_name = recipe.objective;
+    options.accept_light = item.accept_light;
+    options.resolution = recipe.resolution;
+    Range speculars = canonical_speculars(renderer_, renderer_.model(source));
+    if (const auto part = recipe.speculars.find(source); part != recipe.speculars.end())
+      speculars = {std::max(speculars.min, part->second.min), std::min(speculars.max, part->second.max)};
+    options.samples =
+        grid_samples(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
+    options.sampling = grid_text(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
+    return run_sweep(renderer_, options, {1, {}, execution_.cancelled});
+  }
+
+  AnyFit fit_of(const ManifestItem& item, const ItemPaths& paths) const {
+    if (const auto* finished = std::get_if<FinishedItem>(&item.kind)) return finished->fit;
+    if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
+    if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, paths);
+    const std::string bytes = read_file(paths.table);
+    FitOptions options;
+    options.id = item.id;
+    options.regression.seed = item.seed;
+    options.regression.jobs = 1;
+    options.accept_light = item.accept_light;
+    return fit_table(parse_table(bytes, paths.table.string()), bytes, options,
+                     [&](double) { require_time(); })
+        .fit;
+  }
+
+  MaterialTable samples_of(const NetworkItem& item, std::uint64_t seed) const {
+    MaterialSampleOptions options;
+    options.source = item.metallic;
+    options.target = item.specular;
+    options.source_roles.fixed = item.fixed;
+    options.objective = objective_preset("natural");
+    options.objective_name = "natural";
+    options.resolution = item.resolution;
+    options.count = item.count;
+    options.seed = seed;
+    options.varied = item.varied;
+    return run_material_sample(renderer_, options, {1, {}, execution_.cancelled});
+  }
+
+  // The item defines the workflows of both ends; the F0 of its dielectrics must be that of the samples.
+  WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item, const ItemPaths& paths) const {
+    const std::string bytes = read_file(paths.table);
+    MaterialNetworkOptions options;
+    options.id = item.id;
+    options.hidden = network.hidden;
+    options.activation = network.activation;
+    options.seed = item.seed;
+    options.jobs = 1;
+    WorkflowFit fit = fit_material_network(parse_material_table(bytes, paths.table.string()), bytes, options,
+                                           [&](double) { require_time(); });
+    const double own = network.fit.conversion.metallic.dielectric_f0,
+                 sampled = fit.conversion.metallic.dielectric_f0;
+    if (std::fabs(own - sampled) > 1e-4)
+      throw Error(ErrorKind::kInput, "dielectric F0 is " + number_text(sampled) + " in the samples and " +
+                                         number_text(own) + " in the manifest");
+    fit.conversion.specular = network.fit.conversion.specular;
+    fit.conversion.metallic = network.fit.conversion.metallic;
+    fit.remarks = network.fit.remarks;
+    return fit;
+  }
+
+  void require_time() const {
+    if (execution_.cancelled != nullptr && *execution_.cancelled)
+      throw Error(ErrorKind::kInterrupted,
+                  "build: interrupted (finished items are kept; run it again to continue)");
+  }
+
+  Fit chain_of(const ChainItem& chain, const std::string& id) const {
+    std::vector<Fit> steps;
+    for (const std::string& step : chain.steps) steps.push_back(load_fit(paths_of(folders_, step).fit));
+    return composed_fit(steps, id);
+  }
+
+  void write_converters(const FitFolder& folder) {
+    // Warps are made from textures and strokes, so no item of a manifest is one.
+    for (const WarpMapFit& fit : folder.warps)
+      write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
+    write_changed(folders_.generated / kConverterListName, emit_converter_list(folder.fits));
+  }
+
+  // The report takes a second to compute, so it is written only if it changed.
+  void write_report(const FitFolder& folder) {
+    if (has_report(folders_, lock_)) return;
+    for (const ReportFile& file : report(folder)) write_changed(folders_.fits / file.name, file.text);
+    lock_.report = report_hash(folders_);
+  }
+
+  const Renderer& renderer_;
+  const Manifest& manifest_;
+  const BuildFolders& folders_;
+  const BuildExecution& execution_;
+  const Lock last_lock_;  // of the previous build
+  Lock lock_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::vector<BuiltItem> built_;
+  std::map<std::string, std::string> failures_;  // by id
+  std::optional<ErrorKind> first_kind_;          // of a failure
+  std::vector<std::string> pruned_;
+};
+
+}  // namespace
+
+BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
+                  const BuildExecution& execution) {
+  return Builder(renderer, manifest, folders, execution).run();
+}
+
+Fit composed_fit(const std::vector<Fit>& steps, const std::string& id) {
+  Fit chain = compose(steps, id);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    chain.table.comments["step " + std::to_string(i + 1)] =
+        steps[i].id + ", sha256 " + sha256(fit_to_json(steps[i]));
+  return chain;
+}
+
+std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders) {
+  return vanished_items(manifest, folders, load_lock(folders.fits));
+}
+
+std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders) {
+  const Lock lock = load_lock(folders.fits);
+  std::vector<std::string> reasons;
+  for (const ManifestItem& item : manifest.items) {
+    const Freshness fresh = freshness(item, folders, lock);
+    if (!fresh.header) reasons.push_back(item.id + ": " + fresh.reason);
+  }
+  for (const std::string& id : vanished_items(manifest, folders, lock))
+    reasons.push_back(id + ": no longer in the manifest (`remapc build --prune` removes its files)");
+  if (!has_report(folders, lock))
+    reasons.push_back((folders.fits / kReportName).string() + ": out of date with the fits of the folder");
+  const FitFolder folder = load_fit_folder(folders.fits);
+  if (!holds(folders.generated / kConverterListName, emit_converter_list(folder.fits)))
+    reasons.push_back((folders.generated / kConverterListName).string() + ": is out of date with the fits");
+  for (const WarpMapFit& fit : folder.warps) {
+    const fs::path header = paths_of(folders, fit.id).header;
+    if (!holds(header, emit_header(fit)))
+      reasons.push_back(fit.id + ": " + header.string() + " is out of date with its fit");
+  }
+  for (const Fit& fit : folder.fits) {
+    const fs::path table = folders.fits / "tables" / fit.table.name;
+    if (fit.table.name.empty() || !fs::exists(table) || file_sha256(table) == fit.table.sha256) continue;
+    reasons.push_back(fit.id + ": " + table.string() + " was changed after the fit");
+  }
+  return reasons;
+}
+
+}  // namespace remap

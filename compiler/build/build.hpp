@@ -1,0 +1,58 @@
+// Builds what a manifest describes: tables, fits, headers, the data of all converters and the report. Only
+// what is missing or out of date is made.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "build/freshness.hpp"
+#include "build/manifest.hpp"
+#include "lower/fit.hpp"
+#include "renderer/renderer.hpp"
+
+namespace remap {
+
+// How a build runs. None of this changes its results.
+struct BuildExecution {
+  unsigned jobs = 0;                                                // items at once; 0: one for each core
+  bool force = false;                                               // remakes everything
+  bool prune = false;                                               // deletes files of vanished items
+  std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
+  const std::atomic<bool>* cancelled = nullptr;  // throws kInterrupted; finished items stay
+};
+
+// What was made for one item.
+struct BuiltItem {
+  std::string id;
+  bool table = false, fit = false, header = false;
+  double seconds = 0.0;
+  std::string kept_table;  // why the table of an earlier build was reused; empty if it was up to date or made
+};
+
+struct BuildResult {
+  std::vector<BuiltItem> built;     // by id
+  std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
+};
+
+// Makes every item of `manifest` whose recipe, inputs or files changed since the last build, then the
+// data of all converters of the folder and the report. Each item is swept and fitted by one thread. An item
+// that fails does not stop the others; then throws what sweeping, fitting and lowering threw, each opened by
+// its item's id, and makes neither the data of converters nor the report. Finished items stay. If a renderer
+// is not installed, even `force` reuses a table made by the same recipe, and throws if there is none. Pruning
+// deletes only files that have not been changed after their build.
+BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
+                  const BuildExecution& execution);
+
+// Returns compose() of model/chain.hpp with the SHA-256 of every step's fit in the comments.
+Fit composed_fit(const std::vector<Fit>& steps, const std::string& id);
+
+// Returns the items of earlier builds that are no longer in the manifest and whose fits still exist, by id.
+std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders);
+
+// Returns what build() would make and why, one line each; also vanished items, and fits whose table was
+// changed after the fit. Empty if everything is up to date.
+std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders);
+
+}  // namespace remap

@@ -1,0 +1,145 @@
+// The table of all figures of all converters.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "build/report.hpp"
+#include "build/trust.hpp"
+#include "core/number_text.hpp"
+#include "lower/inverse.hpp"
+
+namespace remap {
+namespace {
+
+// One row, by column; missing columns stay empty.
+using Row = std::map<std::string, std::string>;
+
+const std::vector<std::string> kColumns = {
+    "converter",     "kind",           "source",         "target",         "warning",
+    "image_error",   "image_error_99", "ssim",           "ssim_least",     "ssim_least_at_alpha",
+    "alpha_error",   "specular_error", "alpha_bound",    "specular_bound", "round_trip_median",
+    "round_trip_99", "alpha_min",      "alpha_max",      "specular_max",   "dielectric_f0",
+    "diffuse",       "formula",        "template_error", "bytes",          "remarks"};
+
+// Measured fits by source and target.
+using Pairs = std::map<std::pair<std::string, std::string>, const Fit*>;
+
+std::string figure(double value) { return number_text(rounded(value, 3)); }
+
+std::string joined(const std::vector<std::string>& remarks) {
+  std::string text;
+  for (const std::string& remark : remarks) text += (text.empty() ? "" : " ") + remark;
+  return text;
+}
+
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string line(const Row& row) {
+  std::string text;
+  for (const std::string& column : kColumns) {
+    const auto found = row.find(column);
+    text += (column == kColumns.front() ? "" : ",") + (found == row.end() ? "" : cell(found->second));
+  }
+  return text + "\n";
+}
+
+void add_pictures(const Fit& fit, Row* row) {
+  if (!fit.image_similarity) return;
+  (*row)["image_error"] = figure(fit.image_similarity->image_error.rms);
+  (*row)["image_error_99"] = figure(fit.image_similarity->image_error.p99);
+  if (!is_measured(fit)) return;
+  const auto& spheres = fit.image_similarity->ssim;
+  const auto least =
+      std::min_element(spheres.begin(), spheres.end(),
+                       [](const SphereSimilarity& a, const SphereSimilarity& b) { return a.ssim < b.ssim; });
+  (*row)["ssim"] = figure(*mean_ssim(fit));
+  (*row)["ssim_least"] = figure(least->ssim);
+  (*row)["ssim_least_at_alpha"] = figure(least->alpha);
+}
+
+// The larger of the relative changes of alpha and specular, there and back by the converter of the other
+// direction.
+void add_round_trip(const Fit& fit, const Pairs& pairs, Row* row) {
+  const auto back = pairs.find({fit.target.model, fit.source.model});
+  if (!is_measured(fit) || back == pairs.end()) return;
+  const RoundTrip trip = round_trip(fit, *back->second);
+  if (trip.share == 0.0) return;
+  (*row)["round_trip_median"] = figure(std::max(trip.alpha_median, trip.specular_median));
+  (*row)["round_trip_99"] = figure(std::max(trip.alpha_p99, trip.specular_p99));
+}
+
+std::string origin(const Fit& fit) {
+  std::string text = joined(fit.remarks);
+  if (const auto inverse = fit.table.comments.find("inverse_of"); inverse != fit.table.comments.end())
+    text += "Inverse of " + inverse->second + ".";
+  if (std::holds_alternative<Chain>(fit.mapping))
+    text += " Against its steps: " + fit.method.at("against its steps one after another") + ".";
+  return text;
+}
+
+Row row_of(const Fit& fit, const Pairs& pairs) {
+  Row row = {{"converter", fit.id},
+             {"kind", kind_name(fit.mapping)},
+             {"source", fit.source.model},
+             {"target", fit.target.model},
+             {"warning", trust_warning(fit)},
+             {"alpha_min", figure(fit.domain.alpha.min)},
+             {"alpha_max", figure(fit.domain.alpha.max)},
+             {"specular_max", figure(fit.domain.specular.max)},
+             {"remarks", origin(fit)}};
+  add_pictures(fit, &row);
+  add_round_trip(fit, pairs, &row);
+  if (fit.has_errors()) {
+    row["alpha_error"] = figure(fit.alpha_error.rms);
+    row["specular_error"] = figure(fit.specular_error.rms);
+  }
+  if (fit.converter) {
+    row["alpha_bound"] = figure(fit.converter->lowered.alpha_bound());
+    row["specular_bound"] = figure(fit.converter->lowered.specular_bound());
+  }
+  return row;
+}
+
+Row row_of(const WorkflowFit& fit) {
+  const WorkflowConversion& conversion = fit.conversion;
+  return {{"converter", fit.id},
+          {"kind", material_kind(fit)},
+          {"source", conversion.source_model()},
+          {"target", conversion.target_model()},
+          {"dielectric_f0", number_text(conversion.metallic.dielectric_f0)},
+          {"diffuse", std::string(diffuse_convention_name(conversion.specular.diffuse))},
+          {"formula", formula_text(conversion.formula)},
+          {"remarks", joined(fit.remarks)}};
+}
+
+Row row_of(const WarpMapFit& fit) {
+  Row row = {{"converter", fit.id},
+             {"kind", "warp"},
+             {"source", fit.source_model},
+             {"target", fit.template_model},
+             {"bytes", std::to_string(byte_count(fit.warp))}};
+  if (fit.copy_rms_error >= 0.0) row["template_error"] = figure(fit.copy_rms_error);
+  return row;
+}
+
+}  // namespace
+
+std::string converters_csv(const FitFolder& folder) {
+  Row head;
+  for (const std::string& column : kColumns) head[column] = column;
+  Pairs pairs;
+  for (const Fit& fit : folder.fits)
+    if (is_measured(fit)) pairs[{fit.source.model, fit.target.model}] = &fit;
+  std::string text = line(head);
+  for (const Fit* fit : by_trust(folder.fits)) text += line(row_of(*fit, pairs));
+  for (const WorkflowFit& fit : folder.analytic) text += line(row_of(fit));
+  for (const WarpMapFit& fit : folder.warps) text += line(row_of(fit));
+  return text;
+}
+
+}  // namespace remap

@@ -1,0 +1,60 @@
+#include "build/fit_folder.hpp"
+
+#include <algorithm>
+
+#include "build/manifest.hpp"
+#include "core/errors.hpp"
+#include "core/nearest_name.hpp"
+#include "lower/fit_file.hpp"
+
+namespace remap {
+
+void FitFolder::add(AnyFit fit) {
+  if (auto* workflow = std::get_if<WorkflowFit>(&fit))
+    analytic.push_back(std::move(*workflow));
+  else if (auto* warp = std::get_if<WarpMapFit>(&fit))
+    warps.push_back(std::move(*warp));
+  else
+    fits.push_back(std::move(std::get<Fit>(fit)));
+}
+
+FitFolder load_fit_folder(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw input_error(folder.string() + ": not a folder (name one with fits, *.json)");
+  FitFolder loaded;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName) continue;
+    AnyFit fit = load_any_fit(entry.path());
+    if (entry.path().stem() != fit_id(fit))
+      throw input_error(entry.path().string() + ": holds the fit " + fit_id(fit) +
+                        " (rename the file after it)");
+    loaded.add(std::move(fit));
+  }
+  const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
+  std::sort(loaded.fits.begin(), loaded.fits.end(), by_id);
+  std::sort(loaded.warps.begin(), loaded.warps.end(), by_id);
+  std::sort(loaded.analytic.begin(), loaded.analytic.end(), by_id);
+  return loaded;
+}
+
+std::vector<Fit> load_fits(const std::filesystem::path& folder) { return load_fit_folder(folder).fits; }
+
+AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder) {
+  if (std::filesystem::is_regular_file(name)) return load_any_fit(name);
+  if (const auto path = folder / (name + ".json"); std::filesystem::is_regular_file(path))
+    return load_any_fit(path);
+  std::vector<std::string> known;
+  if (std::filesystem::is_directory(folder)) {
+    const FitFolder loaded = load_fit_folder(folder);
+    for (const Fit& fit : loaded.fits) known.push_back(fit.id);
+    for (const WorkflowFit& fit : loaded.analytic) known.push_back(fit.id);
+    for (const WarpMapFit& fit : loaded.warps) known.push_back(fit.id);
+  }
+  throw usage_error(name + ": neither a file nor a fit in " + folder.string() + suggestion(name, known));
+}
+
+Fit find_fit(const std::string& name, const std::filesystem::path& folder) {
+  return require_width_and_specular(find_any_fit(name, folder), ErrorKind::kUsage, name);
+}
+
+}  // namespace remap

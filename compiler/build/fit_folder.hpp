@@ -1,0 +1,33 @@
+// Loads the fits of a folder.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "lower/any_fit.hpp"
+
+namespace remap {
+
+// All fits of a folder, by id.
+struct FitFolder {
+  std::vector<Fit> fits;  // converters of width and specular
+  std::vector<WorkflowFit> analytic;
+  std::vector<WarpMapFit> warps;
+
+  void add(AnyFit fit);
+};
+
+// Loads every `*.json` of `folder` except its manifest. Throws kInput for a folder that cannot be read, a
+// file that does not hold a fit, and a file whose name is not the id of its fit.
+FitFolder load_fit_folder(const std::filesystem::path& folder);
+
+// Loads the converters of width and specular only.
+std::vector<Fit> load_fits(const std::filesystem::path& folder);
+
+// Loads the fit that `name` means: a file, or an id in `folder`. Throws kUsage with the nearest known id.
+AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder);
+
+// The same for commands that need a converter of width and specular. Throws kUsage for other kinds.
+Fit find_fit(const std::string& name, const std::filesystem::path& folder);
+
+}  // namespace remap

@@ -1,0 +1,83 @@
+#include "build/freshness.hpp"
+
+#include <set>
+
+#include "build/report.hpp"
+#include "converter/converter_fields.hpp"
+#include "core/files.hpp"
+#include "remap/version.hpp"
+#include "table/table.hpp"
+
+namespace remap {
+
+namespace fs = std::filesystem;
+
+std::string file_sha256(const fs::path& path) {
+  return fs::is_regular_file(path) ? sha256(read_file(path)) : std::string();
+}
+
+ItemPaths paths_of(const BuildFolders& folders, const std::string& id) {
+  return {folders.fits / "tables" / (id + ".csv"), folders.fits / (id + ".json"),
+          folders.generated / (id + ".hpp")};
+}
+
+bool has_table(const ManifestItem& item) {
+  return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind) ||
+         std::holds_alternative<NetworkItem>(item.kind);
+}
+
+std::string recipe_hash(const ManifestItem& item, const Lock& lock) {
+  std::string text = std::string(kVersion) + "\n" + std::to_string(kFitFormatVersion) + "\n" + item.recipe +
+                     "\n" + std::to_string(item.seed);
+  for (const std::string& input : inputs_of(item)) {
+    const auto found = lock.items.find(input);
+    text += "\n" + (found == lock.items.end() ? std::string() : found->second.fit);
+  }
+  return sha256(text);
+}
+
+Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock) {
+  const auto found = lock.items.find(item.id);
+  if (found == lock.items.end()) return {false, false, false, "not built yet"};
+  const LockedItem& known = found->second;
+  const ItemPaths paths = paths_of(folders, item.id);
+  if (known.recipe != recipe_hash(item, lock))
+    return {false, false, false, "its recipe or its inputs have changed"};
+  const auto same = [](const fs::path& path, const std::string& hash) {
+    return !hash.empty() && file_sha256(path) == hash;
+  };
+  const auto reason = [](const fs::path& path) {
+    return path.string() + (fs::exists(path) ? " was changed after the last build" : " does not exist");
+  };
+  if (has_table(item) && !same(paths.table, known.table)) return {false, false, false, reason(paths.table)};
+  if (!same(paths.fit, known.fit)) return {true, false, false, reason(paths.fit)};
+  if (!same(paths.header, known.header)) return {true, true, false, reason(paths.header)};
+  return {true, true, true, ""};
+}
+
+std::string report_hash(const BuildFolders& folders) {
+  std::set<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folders.fits))
+    if (entry.path().extension() == ".json" && entry.path().filename() != kManifestName)
+      paths.insert(entry.path());
+  std::string text = kVersion;
+  for (const fs::path& path : paths) text += "\n" + path.filename().string() + " " + file_sha256(path);
+  return sha256(text);
+}
+
+bool has_report(const BuildFolders& folders, const Lock& lock) {
+  return lock.report == report_hash(folders) && fs::exists(folders.fits / kReportName) &&
+         fs::exists(folders.fits / kFiguresName);
+}
+
+std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,
+                                        const Lock& lock) {
+  std::set<std::string> ids;
+  for (const ManifestItem& item : manifest.items) ids.insert(item.id);
+  std::vector<std::string> vanished;
+  for (const auto& [id, item] : lock.items)
+    if (!ids.contains(id) && fs::exists(paths_of(folders, id).fit)) vanished.push_back(id);
+  return vanished;
+}
+
+}  // namespace remap

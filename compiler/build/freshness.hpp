@@ -1,0 +1,50 @@
+// Decides which files of a build are up to date.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "build/lock.hpp"
+#include "build/manifest.hpp"
+
+namespace remap {
+
+// The folders of a build.
+struct BuildFolders {
+  std::filesystem::path fits = "fits";  // fits, with tables/ in it; the report is its README.md
+  std::filesystem::path generated = "generated";
+};
+
+struct ItemPaths {
+  std::filesystem::path table, fit, header;
+};
+ItemPaths paths_of(const BuildFolders& folders, const std::string& id);
+
+// Whether items of this kind have a table.
+bool has_table(const ManifestItem& item);
+
+// Returns the SHA-256 of a file; empty for a missing one.
+std::string file_sha256(const std::filesystem::path& path);
+
+// Hashes what an item is made from. `lock` holds the current state of its inputs.
+std::string recipe_hash(const ManifestItem& item, const Lock& lock);
+
+// Which files of an item are those recorded in the lock and still match their inputs.
+struct Freshness {
+  bool table = false, fit = false, header = false;
+  std::string reason;  // why the first of them is not fresh
+};
+Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock);
+
+// Hashes what the report of a folder is made from: its fits.
+std::string report_hash(const BuildFolders& folders);
+
+// Whether the files of the report exist and belong to the fits of the folder.
+bool has_report(const BuildFolders& folders, const Lock& lock);
+
+// Returns the items of `lock` that are no longer in the manifest and whose fits still exist, by id.
+std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,
+                                        const Lock& lock);
+
+}  // namespace remap

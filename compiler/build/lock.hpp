@@ -1,0 +1,31 @@
+// The hashes that a build leaves behind, by which the next build decides what is up to date.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace remap {
+
+inline constexpr const char* kLockName = "manifest.lock";
+
+// The SHA-256 of an item's inputs and results; empty if there are none.
+struct LockedItem {
+  std::string recipe;  // of its recipe, the tool's version and the fits that it is made from
+  std::string table;
+  std::string fit;
+  std::string header;
+  bool operator==(const LockedItem&) const = default;
+};
+
+struct Lock {
+  std::map<std::string, LockedItem> items;  // by id
+  std::string report;                       // of the inputs of the report: every fit of the folder
+  bool operator==(const Lock&) const = default;
+};
+
+// Returns an empty lock, so that all is remade, if the folder has none or one of an unknown version.
+Lock load_lock(const std::filesystem::path& fit_folder);
+void save_lock(const std::filesystem::path& fit_folder, const Lock& lock);
+
+}  // namespace remap

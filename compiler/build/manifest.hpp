@@ -1,0 +1,83 @@
+// Reads the manifest of a folder of fits: what `remapc build` makes, and how.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "lower/any_fit.hpp"
+
+namespace remap {
+
+inline constexpr const char* kManifestName = "manifest.json";
+inline constexpr int kManifestVersion = 1;
+
+// How a group of pairs is swept and fitted.
+struct SweepRecipe {
+  std::string objective = "natural";
+  int resolution = 512;
+  Range alphas{0.01, 1.0};
+  std::size_t roughness_samples = 30;
+  std::size_t specular_samples = 30;
+  std::map<std::string, Range> speculars;  // canonical, by source model; missing: the whole range
+};
+
+// One converter. SweptItem and NetworkItem need a renderer.
+struct SweptItem {  // a pair of models, built-in or of real renderers
+  std::string source, target;
+  SweepRecipe recipe;
+};
+struct InverseItem {  // the inverse of another item's fit
+  std::string of;
+};
+struct FinishedItem {  // a formula from a paper, or a conversion of whole materials
+  AnyFit fit;
+};
+struct ChainItem {  // other items, one after another
+  std::vector<std::string> steps;
+};
+
+// A network from the specular to the metallic workflow, trained on random metallic materials that were
+// matched by a specular model.
+struct NetworkItem {
+  WorkflowFit fit;                      // without the trained part
+  std::string metallic, specular;       // the sampled model and the matched model
+  std::map<std::string, double> fixed;  // parameters of the metallic model, by name
+  std::vector<std::string> varied;      // its parameters without a role that vary
+  std::size_t count = 20000;
+  int resolution = 32;
+  std::vector<std::size_t> hidden;  // units in each hidden layer
+  Activation activation = Activation::kRelu;
+};
+
+struct ManifestItem {
+  std::string id;
+  std::variant<SweptItem, InverseItem, FinishedItem, ChainItem, NetworkItem> kind;
+  std::string recipe;      // the text that defines the item; equal recipes give equal items
+  std::uint64_t seed = 1;  // of its fit and of random materials
+  // Whether its light is accepted as it is (table/light.hpp): the list `accepted_light` of the manifest names
+  // it, with a reason. Not part of the recipe: it decides whether a table is made, not what it holds.
+  bool accept_light = false;
+};
+
+// The items, each after those that it is made from.
+struct Manifest {
+  std::vector<ManifestItem> items;
+};
+
+// Reads the text of a manifest. Throws kInput, opened by `place`, for text that is not a manifest of version
+// kManifestVersion, an id that is defined twice or is not an identifier, and an inverse or chain of an
+// unknown item.
+Manifest manifest_from_json(std::string_view text, const std::string& place);
+
+// Loads the manifest of a folder, whose path is the place. Throws kInput if it has none, too.
+Manifest load_manifest(const std::filesystem::path& fit_folder);
+
+// Returns the ids of the items that an item is made from.
+std::vector<std::string> inputs_of(const ManifestItem& item);
+
+}  // namespace remap

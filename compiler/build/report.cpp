@@ -1,0 +1,182 @@
+#include "build/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "build/trust.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+#include "table/split.hpp"
+
+namespace remap {
+namespace {
+
+constexpr const char* kMark = " **(!)**";
+
+// Pairs with a smaller image error in both directions are listed without their SSIM.
+constexpr double kSmallError = 0.01;
+
+constexpr const char* kFigures = R"(
+*Image error*: the RMS difference between the pictures of the two models at the best parameters, as a share of the source's
+picture. It is a property of the models, so no converter between them can do better. *SSIM*: the mean structural similarity
+of their spheres as a display shows them (1: equal). Outside its domain (CSV: alpha and specular), a converter clamps alpha,
+scales specular in proportion and counts the texels.
+)";
+
+constexpr const char* kWorkflowIntroduction = R"(
+## Between workflows
+
+Metallic cannot represent every specular material; what remains depends on the texel, and texremap reports it.
+
+)";
+
+constexpr const char* kWarpIntroduction = R"(
+## Warps
+
+The reflectance of one texture set for the pattern of another. *Error*: RMS distance from an exact copy of the template's
+texels, as a share of their spread.
+
+)";
+
+std::string percent_text(double value) {
+  if (value < 0.00005) return "< 0.01 %";
+  return fixed(100.0 * value, value < 0.00995 ? 2 : 1) + " %";
+}
+
+std::string link(const std::string& text, const std::string& id) { return "[" + text + "](" + id + ".json)"; }
+
+// The compared converters between two models, both ways.
+struct ModelPair {
+  std::string first, second;  // by name
+  std::vector<const Fit*> there, back;
+};
+
+bool is_small(const ModelPair& pair) {
+  const auto small = [](const Fit* fit) { return image_error(*fit) < kSmallError; };
+  return std::all_of(pair.there.begin(), pair.there.end(), small) &&
+         std::all_of(pair.back.begin(), pair.back.end(), small);
+}
+
+// By the image error of the better direction, the best pair first.
+std::vector<ModelPair> compared_pairs(const std::vector<Fit>& fits) {
+  std::vector<ModelPair> pairs;
+  std::map<std::pair<std::string, std::string>, std::size_t> known;
+  for (const Fit* fit : by_trust(fits)) {
+    if (!fit->image_similarity) continue;
+    const std::pair<std::string, std::string> names = std::minmax(fit->source.model, fit->target.model);
+    const auto [place, is_new] = known.try_emplace(names, pairs.size());
+    if (is_new) pairs.push_back({names.first, names.second, {}, {}});
+    ModelPair& pair = pairs[place->second];
+    (fit->source.model == pair.first ? pair.there : pair.back).push_back(fit);
+  }
+  return pairs;
+}
+
+std::string converters_text(const std::vector<const Fit*>& fits, bool with_similarity) {
+  std::string text;
+  for (const Fit* fit : fits) {
+    text += (text.empty() ? "" : ", ") + link(percent_text(image_error(*fit)), fit->id);
+    if (with_similarity && is_measured(*fit)) text += ", " + fixed(*mean_ssim(*fit), 3);
+    if (!trust_warning(*fit).empty()) text += kMark;
+  }
+  return text;
+}
+
+std::string pair_lines(const std::vector<Fit>& fits) {
+  std::string small, others;
+  for (const ModelPair& pair : compared_pairs(fits)) {
+    const std::string names = pair.first + ", " + pair.second;
+    if (is_small(pair))
+      small += (small.empty() ? "" : "; ") + names + " (" + converters_text(pair.there, false) +
+               (pair.there.empty() || pair.back.empty() ? "" : ", ") + converters_text(pair.back, false) +
+               ")";
+    else
+      others += "| " + names + " | " + converters_text(pair.there, true) + " | " +
+                converters_text(pair.back, true) + " |\n";
+  }
+  std::string text;
+  if (!small.empty())
+    text += "\n## Image error below " + percent(kSmallError) + " both ways\n\n" + small + ".\n";
+  if (!others.empty())
+    text +=
+        "\n## Other pairs of models\n\n"
+        "| A, B | A to B: image error, SSIM | B to A: image error, SSIM |\n|---|---|---|\n" +
+        others;
+  return text;
+}
+
+std::string uncompared_lines(const std::vector<Fit>& fits) {
+  std::string text;
+  for (const Fit& fit : fits)
+    if (!fit.image_similarity)
+      text += (text.empty() ? "" : "; ") + link(fit.source.model + " to " + fit.target.model, fit.id);
+  return text.empty() ? "" : std::string("\n## Never compared") + kMark + "\n\n" + text + ".\n";
+}
+
+std::string mark_text(const FitFolder& folder) {
+  const std::size_t all = folder.fits.size() + folder.analytic.size() + folder.warps.size();
+  const auto marked = std::count_if(folder.fits.begin(), folder.fits.end(),
+                                    [](const Fit& fit) { return !trust_warning(fit).empty(); });
+  return "\n**(!)** marks " + std::to_string(marked) + " of " + std::to_string(all) +
+         " converters: an image error above " + percent(kLargestTrustedError) +
+         ", or pictures that were never compared\n(published formulas, and what is derived from them). "
+         "Compare "
+         "pictures before you use one of them.\n";
+}
+
+// The errors that the table of pairs leaves out.
+std::string small_errors_text(const std::vector<Fit>& fits) {
+  double fit_error = 0.0, bound = 0.0;
+  for (const Fit& fit : fits) {
+    fit_error = std::max(fit_error, fit.alpha_error.rms);
+    if (fit.converter) bound = std::max(bound, fit.converter->lowered.alpha_bound());
+  }
+  if (fit_error == 0.0) return "";
+  return "The other errors are small: converters follow the measured target alpha to " +
+         error_text(fit_error) + " (RMS, unseen rows) or better,\nand headers follow their fit to " +
+         error_text(bound) + " in alpha (proven) or better.\n";
+}
+
+std::string workflow_lines(const std::vector<WorkflowFit>& fits) {
+  std::string text = "| converter | dielectric F0 | diffuse | roughness | formula |\n|---|---|---|---|---|\n";
+  for (const WorkflowFit& fit : fits) {
+    const WorkflowConversion& conversion = fit.conversion;
+    const std::string from = source_parameters(conversion).back().name,
+                      to = target_parameters(conversion).back().name;
+    text += "| " + link(fit.id, fit.id) + " | " + number_text(conversion.metallic.dielectric_f0) + " | " +
+            std::string(diffuse_convention_name(conversion.specular.diffuse)) + " | " +
+            (from == to ? from : from + " to " + to) + " | " + formula_text(conversion.formula) + " |\n";
+  }
+  return text;
+}
+
+std::string warp_lines(const std::vector<WarpMapFit>& fits) {
+  std::string text = "| converter | from | to | dimensions | bytes | error |\n|---|---|---|---|---|---|\n";
+  for (const WarpMapFit& fit : fits)
+    text += "| " + link(fit.id, fit.id) + " | " + fit.source_model + " | " + fit.template_model + " | " +
+            std::to_string(fit.warp.coordinates.dimension) + " | " + std::to_string(byte_count(fit.warp)) +
+            " | " + (fit.copy_rms_error < 0.0 ? "unknown" : percent_text(fit.copy_rms_error)) + " |\n";
+  return text;
+}
+
+std::string page(const FitFolder& folder) {
+  std::string text =
+      std::string("# Converters: which to trust\n\nBest first. All figures of every converter: [") +
+      kFiguresName + "](" + kFiguresName +
+      "); the card of one: `remapc show ID`.\n`remapc build` writes this page.\n";
+  text += mark_text(folder) + kFigures + small_errors_text(folder.fits);
+  text += pair_lines(folder.fits) + uncompared_lines(folder.fits);
+  if (!folder.analytic.empty()) text += kWorkflowIntroduction + workflow_lines(folder.analytic);
+  if (!folder.warps.empty()) text += kWarpIntroduction + warp_lines(folder.warps);
+  return text;
+}
+
+}  // namespace
+
+std::vector<ReportFile> report(const FitFolder& folder) {
+  return {{kReportName, page(folder)}, {kFiguresName, converters_csv(folder)}};
+}
+
+}  // namespace remap

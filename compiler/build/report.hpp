@@ -1,0 +1,29 @@
+// Writes the page that says how far each converter of a folder can be trusted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "build/fit_folder.hpp"
+
+namespace remap {
+
+inline constexpr const char* kReportName = "README.md";
+inline constexpr const char* kFiguresName = "converters.csv";
+
+struct ReportFile {
+  std::string name;  // in the folder of fits
+  std::string text;
+};
+
+// Returns the page in Markdown and the table of all figures.
+// The same fits give the same bytes on every machine.
+std::vector<ReportFile> report(const FitFolder& folder);
+
+// Returns all figures for spreadsheets and scripts, as CSV (RFC 4180): a header row, then one row for each
+// converter. Converters of width and specular come first, by rising image error, then those between
+// workflows, then warps. Errors are shares, lengths of the domain are alpha and specular; unknown figures are
+// empty.
+std::string converters_csv(const FitFolder& folder);
+
+}  // namespace remap

@@ -1,0 +1,251 @@
+#include "lower/chain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/number_text.hpp"
+#include "lower/covered_box.hpp"
+#include "lower/interpreter.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
+
+namespace remap {
+namespace {
+
+constexpr int kAlphas = 401, kSpeculars = 64;  // of the grid on which the domain is found
+constexpr int kCoarse = 25;                    // alphas and speculars on which errors are propagated
+constexpr double kSameEdge = 1e-9;             // of a domain, relative
+
+double at(const Range& range, int i, int count) {
+  return i + 1 == count ? range.max : range.min + (range.max - range.min) * i / (count - 1);
+}
+
+std::string side_text(const ModelSide& side) {
+  return side.model + " (" + std::string(convention_name(side.roughness)) + ", " + side.specular + ")";
+}
+
+std::string range_text(const Range& range) {
+  return number_text(rounded_up(range.min, 4)) + " to " + number_text(rounded_up(range.max, 4));
+}
+
+void require_links(const std::vector<Fit>& steps) {
+  if (steps.size() < 2) throw Error(ErrorKind::kUsage, "chain: only one fit (give at least 2)");
+  std::set<std::string> visited = {steps.front().source.model};
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i > 0 && steps[i - 1].target != steps[i].source)
+      throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " gives " +
+                                         side_text(steps[i - 1].target) + ", but " + steps[i].id + " takes " +
+                                         side_text(steps[i].source));
+    if (!visited.insert(steps[i].target.model).second)
+      throw Error(ErrorKind::kUsage, "chain: " + steps[i].id + " leads to " + steps[i].target.model +
+                                         " a second time (remove a step)");
+  }
+}
+
+// The inputs of every step, then the outputs of the last.
+std::vector<MappedTexel> states(const std::vector<Fit>& steps, MappedTexel texel) {
+  std::vector<MappedTexel> passed = {texel};
+  for (const Fit& step : steps) {
+    texel = evaluate_fit(step, texel.alpha, texel.specular);
+    passed.push_back(texel);
+  }
+  return passed;
+}
+
+bool covers(const Range& range, double value) {
+  return value >= range.min * (1.0 - kSameEdge) && value <= range.max * (1.0 + kSameEdge);
+}
+
+// The first step whose domain a texel leaves, or that follows one whose target is at its limit; steps.size()
+// if it stays inside all. Specular below 0 is left to the domain rule.
+std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
+  const std::vector<MappedTexel> passed = states(steps, texel);
+  for (std::size_t i = 1; i < steps.size(); ++i)
+    if (!is_inside(steps[i - 1], passed[i - 1].alpha, passed[i - 1].specular) ||
+        !covers(steps[i].domain.alpha, passed[i].alpha) ||
+        passed[i].specular > steps[i].domain.specular.max * (1.0 + kSameEdge))
+      return i;
+  return steps.size();
+}
+
+[[noreturn]] void refuse_domains(const std::vector<Fit>& steps) {
+  const Domain& first = steps.front().domain;
+  const double specular = first.specular.max / kSpeculars;
+  const std::size_t left = leaves(steps, {0.5 * (first.alpha.min + first.alpha.max), specular});
+  const std::size_t i = left == steps.size() ? 1 : left;
+  Range reached{INFINITY, -INFINITY};
+  for (int k = 0; k < kCoarse; ++k) {
+    const double alpha = states(steps, {at(first.alpha, k, kCoarse), specular})[i].alpha;
+    reached = {std::min(reached.min, alpha), std::max(reached.max, alpha)};
+  }
+  throw Error(ErrorKind::kInput, "chain: the domains of its steps do not meet: before " + steps[i].id +
+                                     " alpha is " + range_text(reached) + "; it covers alpha " +
+                                     range_text(steps[i].domain.alpha) + ", specular to " +
+                                     number_text(steps[i].domain.specular.max));
+}
+
+Domain chain_domain(const std::vector<Fit>& steps) {
+  const Domain& first = steps.front().domain;
+  std::vector<CoveredColumn> columns;
+  for (int i = 0; i < kAlphas; ++i) {
+    const double alpha = at(first.alpha, i, kAlphas);
+    CoveredColumn column{alpha, alpha, 0.0, false};
+    for (int j = 0; j <= kSpeculars; ++j) {
+      const double specular = first.specular.max * j / kSpeculars;
+      if (leaves(steps, {alpha, specular}) != steps.size()) break;
+      column.reach = specular;
+    }
+    columns.push_back(column);
+  }
+  const auto domain = covered_box(columns);
+  if (!domain || !(domain->alpha.min < domain->alpha.max)) refuse_domains(steps);
+  return *domain;
+}
+
+// Derivatives of the outputs by the inputs of step `first`: [output][input], alpha then specular.
+using Jacobian = std::array<std::array<double, 2>, 2>;
+
+Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const MappedTexel& texel) {
+  const std::vector<Fit> rest(steps.begin() + static_cast<std::ptrdiff_t>(first), steps.end());
+  const auto difference = [&](double alpha_step, double specular_step) {
+    const MappedTexel high = states(rest, {texel.alpha + alpha_step, texel.specular + specular_step}).back();
+    const MappedTexel low = states(rest, {texel.alpha - alpha_step, texel.specular - specular_step}).back();
+    const double length = 2.0 * (alpha_step + specular_step);
+    return std::array{(high.alpha - low.alpha) / length, (high.specular - low.specular) / length};
+  };
+  const auto by_alpha = difference(1e-4 * texel.alpha, 0.0), by_specular = difference(0.0, 1e-5);
+  return {{{by_alpha[0], by_specular[0]}, {by_alpha[1], by_specular[1]}}};
+}
+
+// Error figures of all steps, propagated to the end of the chain. Squares of rms are summed and averaged over
+// the domain; the other figures are summed, and their maximum over the domain is taken.
+struct CarriedErrors {
+  double square = 0.0;
+  ErrorFigures figures;
+  void add(const std::array<double, 2>& row, const ErrorFigures& alpha, const ErrorFigures& specular,
+           ErrorFigures* here) {
+    const double a = std::fabs(row[0]), s = std::fabs(row[1]);
+    square += a * a * alpha.rms * alpha.rms + s * s * specular.rms * specular.rms;
+    here->p99 += a * alpha.p99 + s * specular.p99;
+    here->max += a * alpha.max + s * specular.max;
+  }
+  void take(const ErrorFigures& here) {
+    figures.p99 = std::max(figures.p99, here.p99);
+    figures.max = std::max(figures.max, here.max);
+  }
+};
+
+void carry_errors(const std::vector<Fit>& steps, Fit* chain) {
+  CarriedErrors alpha, specular;
+  for (int i = 0; i < kCoarse; ++i)
+    for (int j = 1; j <= kCoarse; ++j) {
+      const std::vector<MappedTexel> passed =
+          states(steps, {at(chain->domain.alpha, i, kCoarse), chain->domain.specular.max * j / kCoarse});
+      ErrorFigures alpha_here, specular_here;
+      for (std::size_t s = 0; s < steps.size(); ++s) {
+        const Jacobian rest = s + 1 == steps.size() ? Jacobian{{{1.0, 0.0}, {0.0, 1.0}}}
+                                                    : jacobian(steps, s + 1, passed[s + 1]);
+        alpha.add(rest[0], steps[s].alpha_error, steps[s].specular_error, &alpha_here);
+        specular.add(rest[1], steps[s].alpha_error, steps[s].specular_error, &specular_here);
+      }
+      alpha.take(alpha_here);
+      specular.take(specular_here);
+    }
+  const double points = kCoarse * kCoarse;
+  chain->alpha_error = alpha.figures;
+  chain->specular_error = specular.figures;
+  chain->alpha_error.rms = std::sqrt(alpha.square / points);
+  chain->specular_error.rms = std::sqrt(specular.square / points);
+}
+
+std::optional<ImageSimilarity> summed_similarity(const std::vector<Fit>& steps) {
+  ImageSimilarity sum;
+  for (const Fit& step : steps) {
+    if (!step.image_similarity) return std::nullopt;
+    sum.image_error.rms += step.image_similarity->image_error.rms;
+    sum.image_error.p99 += step.image_similarity->image_error.p99;
+    sum.image_error.max += step.image_similarity->image_error.max;
+  }
+  return sum;
+}
+
+std::vector<ChainStep> taken_apart(const std::vector<Fit>& steps) {
+  std::vector<ChainStep> all;
+  for (const Fit& fit : steps) {
+    if (const auto* chain = std::get_if<Chain>(&fit.mapping)) {
+      all.insert(all.end(), chain->steps.begin(), chain->steps.end());
+      continue;
+    }
+    const auto narrowed = [](const auto& kind) -> RegressedKind {
+      if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, Chain>)
+        return Parametric{};  // taken apart above
+      else
+        return kind;
+    };
+    all.push_back({fit.id, std::visit(narrowed, fit.mapping)});
+  }
+  return all;
+}
+
+// One texel through the steps, each with its domain rule, in the models' own parameters.
+struct SteppedTexel {
+  double alpha = 0.0;
+  std::array<double, 3> specular{};
+};
+SteppedTexel step_by_step(const std::vector<Fit>& steps, double alpha, std::array<double, 3> specular) {
+  double own = from_alpha(steps.front().source.roughness, alpha);
+  for (const Fit& step : steps) own = evaluate_texel(step, own, std::array(specular), specular);
+  return {to_alpha(steps.back().target.roughness, own), specular};
+}
+
+}  // namespace
+
+Fit compose(const std::vector<Fit>& steps, const std::string& id) {
+  require_links(steps);
+  Fit chain;
+  chain.source = steps.front().source;
+  chain.target = steps.back().target;
+  chain.id = id.empty() ? converter_id(chain.source.model, chain.target.model) : id;
+  if (!is_valid_id(chain.id))
+    throw Error(ErrorKind::kUsage, "chain: invalid id '" + chain.id + "' (use " + kIdRule + ")");
+  chain.domain = chain_domain(steps);
+  chain.mapping = Chain{taken_apart(steps)};
+  carry_errors(steps, &chain);
+  chain.image_similarity = summed_similarity(steps);
+  chain.tool_version = kVersion;
+  const ChainDifference difference = difference_from_steps(chain, steps);
+  const auto digits = [](double value) { return number_text(rounded_up(value, 2)); };
+  chain.method["against its steps one after another"] =
+      "alpha within " + digits(difference.alpha) + ", specular within " + digits(difference.grey_specular) +
+      " for grey texels, " + digits(difference.color_specular) + " for colored ones; sampled";
+  chain.method["errors"] = "those of the steps, carried on to the end to first order";
+  std::string names;
+  for (const Fit& step : steps) names += (names.empty() ? "" : ", then ") + step.id;
+  chain.remarks.push_back("Composed of " + names + ".");
+  return chain;
+}
+
+ChainDifference difference_from_steps(const Fit& chain, const std::vector<Fit>& steps) {
+  ChainDifference difference;
+  for (int i = 0; i < kCoarse; ++i)
+    for (int j = 0; j <= kCoarse; ++j) {
+      const double alpha = at(chain.domain.alpha, i, kCoarse);
+      const double top = chain.domain.specular.max * j / kCoarse;
+      for (int k = 0; k <= kCoarse; ++k) {
+        const std::array<double, 3> color = {top, top * k / kCoarse, 0.0};
+        const SteppedTexel stepped = step_by_step(steps, alpha, color),
+                           one = step_by_step({chain}, alpha, color);
+        difference.alpha = std::max(difference.alpha, std::fabs(one.alpha - stepped.alpha));
+        for (std::size_t c = 0; c < color.size(); ++c) {
+          const double off = std::fabs(one.specular[c] - stepped.specular[c]);
+          difference.color_specular = std::max(difference.color_specular, off);
+          if (c == 0) difference.grey_specular = std::max(difference.grey_specular, off);
+        }
+      }
+    }
+  return difference;
+}
+
+}  // namespace remap

@@ -1,0 +1,31 @@
+// Composes a sequence of fits into one fit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lower/fit.hpp"
+
+namespace remap {
+
+// The largest sampled differences over the chain's domain between a chain and its steps, each applied with
+// its own domain rule. Grey texels differ where a step maps specular below 0: the step clamps it to 0, the
+// chain does not. Colored texels also differ where alpha depends on specular: a step uses the alpha of the
+// largest channel for all channels, the chain that of each channel.
+struct ChainDifference {
+  double alpha = 0.0;
+  double grey_specular = 0.0;
+  double color_specular = 0.0;
+};
+
+// The fit of kind `chain` that applies `steps` in order; steps that are chains are expanded. `id`: empty for
+// `<source>_to_<target>`. In its domain every step stays in its own domain. Its error figures are those of
+// the steps, propagated to the end to first order; its image error is their sum, because errors of matching
+// are systematic. Throws kUsage for fewer than 2 steps, a cycle or an invalid id; kInput if the parameters of
+// two neighbouring steps differ, or if their domains do not overlap.
+Fit compose(const std::vector<Fit>& steps, const std::string& id = "");
+
+// `chain`: the result of compose(steps).
+ChainDifference difference_from_steps(const Fit& chain, const std::vector<Fit>& steps);
+
+}  // namespace remap

@@ -1,0 +1,25 @@
+// The domain of a fit: a box within the covered region of (alpha, specular), which may be ragged.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "lower/fit.hpp"
+
+namespace remap {
+
+// A strip of the region: alpha from `first` to `last`, covered from specular 0 to `reach`.
+struct CoveredColumn {
+  double first = 0.0, last = 0.0;
+  double reach = 0.0;   // 0: not covered
+  bool is_gap = false;  // without data; the box may span it
+};
+
+// The best box within columns in rising order; none if no column is covered. Outside a domain, specular is
+// extrapolated in proportion, with errors of some tenths of a percent between models that scale, whereas
+// alpha is clamped, which is wrong. So the wider alpha range wins unless specular shrinks by more than the
+// fourth power of the gain.
+std::optional<Domain> covered_box(const std::vector<CoveredColumn>& columns);
+
+}  // namespace remap

@@ -1,0 +1,48 @@
+// Parts of fit files as JSON that several kinds of fits hold, and manifests too. Writers throw kNumeric where
+// a number is not finite, readers kInput.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "converter/converter_fields.hpp"
+#include "core/json_field.hpp"
+#include "lower/any_fit.hpp"
+#include "lower/fit.hpp"
+
+namespace remap {
+
+Json numbers_json(const std::vector<double>& numbers);
+
+Json scaling_json(const Scaling& scaling);
+Json scalings_json(const std::vector<Scaling>& scalings);
+Scaling read_scaling(const Field& field);
+Scaling read_output_scaling(const Field& field);
+
+Json network_json(const Network& network);
+// Refuses another number of outputs, and layers that do not fit each other.
+Network read_network(const Field& field, std::size_t output_count);
+
+Json figures_json(const ErrorFigures& figures);
+ErrorFigures read_figures(const Field& field);
+
+Json split_json(const Split& split);
+Split read_split(const Field& field);
+
+Json table_record_json(const TableRecord& table);
+TableRecord read_table_record(const Field& field);
+
+// One end of a fit between workflows.
+SpecularWorkflow read_specular_workflow(const Field& side);
+MetallicWorkflow read_metallic_workflow(const Field& side);
+
+// The fields `source`, `target` and `mapping` of a fit between workflows. Refuses conversions that
+// require_valid() refuses.
+WorkflowConversion read_conversion(const Field& fit);
+
+// The fit of each kind whose file has this root.
+Fit read_fit(const Field& root);
+WorkflowFit read_workflow_fit(const Field& root);
+
+}  // namespace remap

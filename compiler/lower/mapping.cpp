@@ -1,0 +1,106 @@
+#include "lower/mapping.hpp"
+
+#include <algorithm>
+
+namespace remap {
+namespace {
+
+std::size_t count_of(const Network& network) {
+  std::size_t count = 2 * (network.inputs.size() + network.outputs.size());
+  for (const Layer& layer : network.layers) count += layer.weights.size() + layer.biases.size();
+  return count;
+}
+
+std::size_t count_of(const KernelExpansion& expansion) {
+  return expansion.vectors.size() + expansion.weights.size() + 2 * expansion.inputs.size() + 4;
+}
+
+std::size_t count_of(const TexelSeries& series) {
+  std::size_t count = 0;
+  for (const auto& row : series.coefficients) count += row.size();
+  return count;
+}
+
+// The constants that a curve needs: a term that is absent costs nothing.
+std::size_t count_of(const AlphaCurve& curve) {
+  std::size_t count = 1;
+  if (curve.ramp != 0.0) count += 2;
+  if (curve.bump != 0.0) count += 2;
+  if (curve.pole != 0.0) count += 1;
+  return count;
+}
+
+struct Name {
+  std::string operator()(const Parametric&) const { return "parametric"; }
+  std::string operator()(const Svr&) const { return "svr"; }
+  std::string operator()(const Mlp&) const { return "mlp"; }
+  std::string operator()(const Series&) const { return "series"; }
+  std::string operator()(const Chain&) const { return "chain"; }
+};
+
+struct AlphaDependsOnSpecular {
+  bool operator()(const Parametric& form) const { return form.alpha.size() > 1; }
+  bool operator()(const Svr& svr) const { return svr.alpha.inputs.size() > 1; }
+  bool operator()(const Mlp& mlp) const { return mlp.alpha.inputs.size() > 1; }
+  bool operator()(const Series& series) const { return series.alpha.coefficients.size() > 1; }
+  bool operator()(const Chain& chain) const {
+    return std::any_of(chain.steps.begin(), chain.steps.end(),
+                       [this](const ChainStep& step) { return std::visit(*this, step.mapping); });
+  }
+};
+
+struct IsProportional {
+  bool operator()(const Parametric& form) const {
+    return std::all_of(form.specular.begin(), form.specular.end(),
+                       [](const SpecularTerm& term) { return term.power == 1; });
+  }
+  bool operator()(const Svr&) const { return false; }
+  bool operator()(const Mlp&) const { return false; }
+  bool operator()(const Series&) const { return false; }
+  // A width that depends on specular bends the specular of the next step.
+  bool operator()(const Chain& chain) const {
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+      if (!std::visit(*this, chain.steps[i].mapping)) return false;
+      if (i + 1 < chain.steps.size() && std::visit(AlphaDependsOnSpecular{}, chain.steps[i].mapping))
+        return false;
+    }
+    return true;
+  }
+};
+
+struct NumberCount {
+  std::size_t operator()(const Parametric& form) const {
+    std::size_t count = 0;
+    for (const auto& row : form.alpha) count += row.size();
+    for (const SpecularTerm& term : form.specular) count += count_of(term.factor);
+    return count;
+  }
+  std::size_t operator()(const Svr& svr) const { return count_of(svr.alpha) + count_of(svr.specular); }
+  std::size_t operator()(const Mlp& mlp) const { return count_of(mlp.alpha) + count_of(mlp.specular); }
+  std::size_t operator()(const Series& series) const {
+    return count_of(series.alpha) + count_of(series.specular);
+  }
+  std::size_t operator()(const Chain& chain) const {
+    std::size_t count = 0;
+    for (const ChainStep& step : chain.steps) count += std::visit(*this, step.mapping);
+    return count;
+  }
+};
+
+}  // namespace
+
+MappingKind widened(const RegressedKind& mapping) {
+  return std::visit([](const auto& kind) { return MappingKind(kind); }, mapping);
+}
+
+std::string kind_name(const MappingKind& mapping) { return std::visit(Name{}, mapping); }
+
+bool alpha_depends_on_specular(const MappingKind& mapping) {
+  return std::visit(AlphaDependsOnSpecular{}, mapping);
+}
+
+bool is_proportional(const MappingKind& mapping) { return std::visit(IsProportional{}, mapping); }
+
+std::size_t number_count(const MappingKind& mapping) { return std::visit(NumberCount{}, mapping); }
+
+}  // namespace remap

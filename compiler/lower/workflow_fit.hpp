@@ -1,0 +1,41 @@
+// A conversion of whole materials, in closed form or by a trained network. It is a separate type from a fit
+// of alpha and specular (fit.hpp), because it has other inputs and outputs, and the domain [0, 1].
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lower/fit.hpp"
+#include "remap/workflow.hpp"
+
+namespace remap {
+
+// How a network was trained. Errors are those of the rows that were held out.
+struct NetworkTraining {
+  std::map<std::string, std::string> method;  // shape, optimisers, starts
+  ErrorFigures base_color;                    // over all channels, linear
+  ErrorFigures metallic;
+  Split split;
+  TableRecord table;
+  bool operator==(const NetworkTraining&) const = default;
+};
+
+// Kind `analytic`, or `mlp` if the formula is a network.
+struct WorkflowFit {
+  std::string id;
+  WorkflowConversion conversion;
+  std::optional<NetworkTraining> training;  // of a network
+  std::vector<std::string> remarks;         // lines of the card
+  std::string tool_version;
+  bool operator==(const WorkflowFit&) const = default;
+};
+
+inline constexpr const char* kWorkflowKind = "analytic";
+
+inline const char* material_kind(const WorkflowFit& fit) {
+  return is_learned(fit.conversion.formula) ? "mlp" : kWorkflowKind;
+}
+
+}  // namespace remap

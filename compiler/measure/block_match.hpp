@@ -1,0 +1,45 @@
+// Matches the samples of one source width: the unit of work of a sweep.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "measure/sweep_options.hpp"
+#include "measure/target_bank.hpp"
+#include "measure/target_pictures.hpp"
+#include "table/light.hpp"
+#include "table/table.hpp"
+
+namespace remap {
+
+// Samples of one source width, as indices into SweepOptions::samples.
+struct SampleBlock {
+  double alpha;
+  std::vector<std::size_t> samples;
+};
+
+// Samples are rounded to numbers that a user can type.
+inline constexpr int kSampleDigits = 9;
+
+// What the blocks of one sweep share.
+struct SweepSetup {
+  const SweepOptions& options;
+  const PictureTaker& picture_taker;
+  ProbedModel source;
+  MatchTarget target;
+  double irradiance_scale = 1.0;     // multiplies the source's pictures
+  DiffuseMatch diffuse;              // after that multiplication
+  std::unique_ptr<TargetGrid> grid;  // of a target without a family
+  EffectiveWidths source_widths, target_widths;
+
+  LightMatch light() const { return {irradiance_scale, diffuse.error, options.accept_light}; }
+  TargetLimits limits() const { return {target_widths.effective.max, target.linear_range().max}; }
+};
+
+// Whether rows carry diffuse: if the source has some, or if the target's is matched together with the rest.
+bool has_diffuse(const SweepOptions& options);
+
+// Returns the rows of a block in its order, then those that mark where regimes meet.
+std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& block);
+
+}  // namespace remap

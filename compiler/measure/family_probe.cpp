@@ -1,0 +1,176 @@
+#include "measure/family_probe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "measure/picture_sums.hpp"
+#include "measure/picture_taker.hpp"
+#include "measure/polynomial.hpp"
+#include "measure/probe.hpp"
+
+namespace remap {
+namespace {
+
+using Picture = std::vector<float>;
+using Matrix = std::vector<std::vector<double>>;
+
+// Number of steps of the finest probing. Degrees up to half of it can be checked between their nodes.
+constexpr std::size_t kFinest = 32;
+constexpr std::size_t kLeastChecked = 8;
+
+// A Chebyshev point of the second kind in [-1, 1]; polynomials through these points do not oscillate
+// (Trefethen 2013, chapter 2). Every second point belongs to the set of half the size. The ends and the
+// middle are exact.
+double chebyshev_point(std::size_t index) {
+  const double steps = 2.0 * static_cast<double>(index) - static_cast<double>(kFinest);
+  return std::sin(std::numbers::pi * steps / (2.0 * static_cast<double>(kFinest)));
+}
+
+// One step of Gauss-Jordan elimination on normal equations. Afterwards row `pivot` holds the weights of that
+// picture in the least-squares fits of the other pictures by all pivots so far, and each diagonal entry of
+// the rest is the squared residual of that picture.
+void eliminate(std::size_t pivot, Matrix* gram) {
+  Matrix& g = *gram;
+  const double scale = 1.0 / g[pivot][pivot];
+  for (double& value : g[pivot]) value *= scale;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    const double factor = g[i][pivot];
+    for (std::size_t j = 0; i != pivot && j < g.size(); ++j) g[i][j] -= factor * g[pivot][j];
+  }
+}
+
+// Renders a model at three widths, over one coordinate of specular.
+class FamilyProbe {
+ public:
+  FamilyProbe(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas,
+              SpecularCoordinate coordinate)
+      : picture_taker_(picture_taker),
+        model_(model),
+        axis_{model.parameter(ParameterRole::kSpecular).range, coordinate, {}, {}},
+        // The widest comes first: its highlight covers all angles, so it is the first to fail a check.
+        widths_{{alphas.max, {}}, {std::sqrt(alphas.min * alphas.max), {}}, {alphas.min, {}}} {}
+
+  // Whether polynomials of `degree` through degree + 1 pictures reproduce the pictures between them.
+  bool is_polynomial(std::size_t degree) {
+    Matrix identity(degree + 1, std::vector<double>(degree + 1));
+    std::vector<std::size_t> points;
+    for (std::size_t i = 0; i <= degree; ++i) {
+      identity[i][i] = 1.0;
+      points.push_back(i * kFinest / degree);
+    }
+    return holds(points, family(points, identity), degree);
+  }
+
+  // The fewest of those pictures whose combinations reproduce all others.
+  SpecularFamily smallest(std::size_t degree) {
+    Matrix gram = gram_matrix(degree);
+    std::vector<std::size_t> pivots;
+    for (;;) {
+      std::size_t next = 0;
+      double most = -1.0;
+      for (std::size_t i = 0; i < gram.size(); ++i) {
+        if (std::find(pivots.begin(), pivots.end(), i) != pivots.end() || gram[i][i] <= most) continue;
+        next = i;
+        most = gram[i][i];
+      }
+      eliminate(next, &gram);
+      pivots.push_back(next);
+      std::vector<std::size_t> points;
+      Matrix shares;  // weight of each pivot in each picture
+      for (const std::size_t pivot : pivots) {
+        points.push_back(pivot * kFinest / degree);
+        shares.push_back(gram[pivot]);
+      }
+      const SpecularFamily found = family(points, shares);
+      if (pivots.size() == gram.size() || holds(points, found, degree)) return found;
+    }
+  }
+
+ private:
+  struct Width {
+    double alpha;
+    std::map<std::size_t, Picture> pictures;  // by point
+  };
+
+  const Picture& picture(Width& width, std::size_t point) const {
+    const auto known = width.pictures.find(point);
+    if (known != width.pictures.end()) return known->second;
+    const RoleValues role_values{width.alpha, axis_.specular(chebyshev_point(point)), 0.0};
+    return width.pictures.emplace(point, picture_taker_.take(model_, role_values)).first->second;
+  }
+
+  // The family of the pictures at `points`. The picture at node i of the polynomial is the sum over k of
+  // shares[k][i] times the picture at points[k].
+  SpecularFamily family(const std::vector<std::size_t>& points, const Matrix& shares) const {
+    const std::size_t degree = shares.front().size() - 1;
+    std::vector<double> nodes;
+    for (std::size_t i = 0; i <= degree; ++i) nodes.push_back(chebyshev_point(i * kFinest / degree));
+    SpecularFamily found = axis_;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      found.speculars.push_back(axis_.specular(chebyshev_point(points[k])));
+      found.weights.emplace_back(degree + 1);
+      for (std::size_t i = 0; i <= degree; ++i) {
+        const std::vector<double> basis = lagrange_polynomial(nodes, i);
+        for (std::size_t power = 0; power <= degree; ++power)
+          found.weights.back()[power] += shares[k][i] * basis[power];
+      }
+    }
+    return found;
+  }
+
+  // Whether the family reproduces the pictures at every width, at twice as many points as `degree` has nodes.
+  bool holds(const std::vector<std::size_t>& points, const SpecularFamily& family, std::size_t degree) {
+    const std::size_t stride = kFinest / std::max(kLeastChecked, 2 * degree);
+    return std::all_of(widths_.begin(), widths_.end(), [&](Width& width) {
+      std::vector<Picture> pictures;
+      for (const std::size_t point : points) pictures.push_back(picture(width, point));
+      const Picture& full = picture(width, kFinest);
+      const double allowed = picture_tolerance(model_) * *std::max_element(full.begin(), full.end());
+      for (std::size_t point = 0; point <= kFinest; point += stride) {
+        const Picture expected =
+            combined(pictures, family.weights_at(axis_.specular(chebyshev_point(point))));
+        const Picture& found = picture(width, point);
+        for (std::size_t i = 0; i < found.size(); ++i)
+          if (!(std::fabs(static_cast<double>(expected[i]) - found[i]) <= allowed)) return false;
+      }
+      return true;
+    });
+  }
+
+  // Sums of inner products of the pictures at the nodes of `degree`, over all widths. Pictures are divided by
+  // the brightest pixel of their width, so that all widths count alike.
+  Matrix gram_matrix(std::size_t degree) {
+    Matrix gram(degree + 1, std::vector<double>(degree + 1));
+    for (Width& width : widths_) {
+      const Picture& full = picture(width, kFinest);
+      const double brightest = *std::max_element(full.begin(), full.end());
+      for (std::size_t i = 0; i <= degree; ++i)
+        for (std::size_t j = 0; j <= degree; ++j)
+          gram[i][j] += inner_product(picture(width, i * kFinest / degree).data(),
+                                      picture(width, j * kFinest / degree).data(), full.size()) /
+                        (brightest * brightest);
+    }
+    return gram;
+  }
+
+  const PictureTaker& picture_taker_;
+  const ModelDescription& model_;
+  SpecularFamily axis_;  // range and coordinate only
+  std::vector<Width> widths_;
+};
+
+}  // namespace
+
+std::optional<SpecularFamily> probe_family(const PictureTaker& picture_taker, const ModelDescription& model,
+                                           const Range& alphas) {
+  for (const SpecularCoordinate coordinate : {SpecularCoordinate::kEven, SpecularCoordinate::kRoot}) {
+    FamilyProbe probe(picture_taker, model, alphas, coordinate);
+    for (const std::size_t degree : {2u, 4u, 8u, 16u})
+      if (probe.is_polynomial(degree)) return probe.smallest(degree);
+  }
+  return std::nullopt;
+}
+
+}  // namespace remap

@@ -1,0 +1,271 @@
+#include "measure/joint_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ceres/ceres.h>
+
+#include "measure/picture_sums.hpp"
+#include "remap/error.hpp"
+
+namespace remap {
+namespace {
+
+constexpr double kJointRivalError = 1.01;    // as in match.cpp
+constexpr double kJointRivalDistance = 0.1;  // relative difference of a parameter
+// A search ends at this relative change of the squared error. Rivals are compared with the answer to one
+// percent only, so they need less precision.
+constexpr double kAnswerTolerance = 1e-10;
+constexpr double kRivalTolerance = 1e-7;
+constexpr double kJointSameError = 1e-4;  // smaller errors are rounding errors of pictures
+constexpr double kBoundTolerance = 1e-6;  // share of the range
+
+// A small square matrix.
+class Square {
+ public:
+  explicit Square(std::size_t side) : side_(side), values_(side * side) {}
+  std::size_t side() const { return side_; }
+  double& operator()(std::size_t row, std::size_t column) { return values_[row * side_ + column]; }
+  double operator()(std::size_t row, std::size_t column) const { return values_[row * side_ + column]; }
+
+ private:
+  std::size_t side_;
+  std::vector<double> values_;
+};
+
+// Returns upper R with R^T R = gram; rows of linearly dependent columns are 0.
+Square cholesky(const Square& gram) {
+  Square r(gram.side());
+  for (std::size_t i = 0; i < gram.side(); ++i) {
+    for (std::size_t j = i; j < gram.side(); ++j) {
+      double left = gram(i, j);
+      for (std::size_t k = 0; k < i; ++k) left -= r(k, i) * r(k, j);
+      if (i == j)
+        r(i, i) = left > 1e-14 * gram(i, i) ? std::sqrt(left) : 0.0;
+      else
+        r(i, j) = r(i, i) > 0.0 ? left / r(i, i) : 0.0;
+    }
+  }
+  return r;
+}
+
+ceres::Solver::Options solver_options(double tolerance) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = 100;
+  options.function_tolerance = tolerance;
+  options.gradient_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-8;
+  return options;
+}
+
+ceres::Solver::Summary solve(ceres::Problem* problem, double tolerance) {
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(tolerance), problem, &summary);
+  if (!summary.IsSolutionUsable())
+    throw Error(ErrorKind::kNumeric, "joint match: Ceres failed: " + summary.message);
+  return summary;
+}
+
+double share_of(const Range& range, double share) { return range.min + share * (range.max - range.min); }
+
+bool lies_at(double value, double bound, const Range& range) {
+  return std::fabs(value - bound) <= kBoundTolerance * (range.max - range.min);
+}
+
+double picture_power(const JointChannel& channel) {
+  return weighted_product(channel.weights.data(), channel.picture.data(), channel.picture.data(),
+                          channel.picture.size());
+}
+
+}  // namespace
+
+// Reduces the residuals of a whole picture to a few numbers. A trust-region step depends on J^T J, J^T r and
+// r^T r only, and the triangle R of [J r] = Q R gives the same products. Its columns therefore serve as the
+// Jacobian and the residual.
+class JointMatcher::PictureCost final : public ceres::CostFunction {
+ public:
+  PictureCost(const JointMatcher& matcher, const RoleValues& guess)
+      : matcher_(matcher), guess_(guess), count_(matcher.unknowns_.size()), last_triangle_(count_ + 1) {
+    set_num_residuals(static_cast<int>(count_ + 1));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(count_));
+  }
+
+  bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
+    const Square& r = triangle(values[0]);
+    for (std::size_t row = 0; row <= count_; ++row) {
+      residuals[row] = r(row, count_);
+      if (!std::isfinite(residuals[row])) return false;
+      for (std::size_t column = 0; jacobians != nullptr && jacobians[0] != nullptr && column < count_;
+           ++column)
+        jacobians[0][row * count_ + column] = r(row, column);
+    }
+    return true;
+  }
+
+ private:
+  // Ceres evaluates the residuals when it tries a step, and the Jacobian at the same point when it accepts
+  // it.
+  const Square& triangle(const double* values) const {
+    const bool known = !last_values_.empty() && std::equal(last_values_.begin(), last_values_.end(), values);
+    if (!known) last_triangle_ = cholesky(gram(values));
+    last_values_.assign(values, values + count_);
+    return last_triangle_;
+  }
+
+  // Inner products of the tangents and, in the last row and column, of picture - source. They are summed over
+  // all channels and divided by the power of the source.
+  Square gram(const double* values) const {
+    Square products(count_ + 1);
+    const std::vector<RoleValues> points = matcher_.points_of(values, guess_);
+    for (std::size_t c = 0; c < points.size(); ++c) {
+      const JointChannel& channel = matcher_.channels_[c];
+      PictureTangents tangents = matcher_.target_.at(points[c], matcher_.wanted_);
+      for (std::size_t i = 0; i < channel.picture.size(); ++i) tangents.picture[i] -= channel.picture[i];
+      std::vector<const float*> columns(count_ + 1, nullptr);  // null for the unknowns of other channels
+      for (std::size_t u = 0; u < count_; ++u)
+        if (matcher_.unknowns_[u].concerns(c))
+          columns[u] = tangents.by[matcher_.unknowns_[u].coordinate].data();
+      columns[count_] = tangents.picture.data();
+      for (std::size_t i = 0; i <= count_; ++i)
+        for (std::size_t j = i; j <= count_; ++j)
+          if (columns[i] != nullptr && columns[j] != nullptr)
+            products(i, j) +=
+                weighted_product(channel.weights.data(), columns[i], columns[j], channel.picture.size()) /
+                matcher_.power_;
+    }
+    return products;
+  }
+
+  const JointMatcher& matcher_;
+  const RoleValues& guess_;
+  std::size_t count_;
+  mutable std::vector<double> last_values_;
+  mutable Square last_triangle_;
+};
+
+JointMatcher::JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels,
+                           const JointOptions& options)
+    : target_(target), channels_(std::move(channels)), options_(options), unknowns_(unknowns()) {
+  wanted_.resize(target.coordinates().size());
+  for (const Unknown& unknown : unknowns_) wanted_[unknown.coordinate] = true;
+  for (const JointChannel& channel : channels_) power_ += picture_power(channel);
+}
+
+std::vector<JointMatcher::Unknown> JointMatcher::unknowns() const {
+  std::vector<Unknown> all;
+  for (std::size_t i = 0; i < target_.coordinates().size(); ++i) {
+    const Coordinate& coordinate = target_.coordinates()[i];
+    const bool kept = i == kDiffuseCoordinate && !options_.free_diffuse;
+    if (kept || !(coordinate.range.max > coordinate.range.min)) continue;
+    for (std::size_t c = 0; c < (coordinate.shared ? 1 : channels_.size()); ++c)
+      all.push_back({i, c, coordinate.shared});
+  }
+  return all;
+}
+
+std::vector<RoleValues> JointMatcher::points_of(const double* values, const RoleValues& guess) const {
+  std::vector<RoleValues> points(channels_.size(), guess);
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    for (std::size_t c = 0; c < points.size(); ++c)
+      if (unknowns_[u].concerns(c)) target_.set_value(&points[c], unknowns_[u].coordinate, values[u]);
+  return points;
+}
+
+std::vector<RoleValues> JointMatcher::other_guesses() const {
+  return {point_of({0.05, 0.1, 0.9}), point_of({0.15, 0.9, 0.1}), point_of({0.9, 0.1, 0.1}),
+          point_of({0.3, 0.3, 0.7})};
+}
+
+RoleValues JointMatcher::point_of(const RoleValues& shares) const {
+  RoleValues point;
+  for (std::size_t i = 0; i < target_.coordinates().size(); ++i) {
+    const Coordinate& coordinate = target_.coordinates()[i];
+    const auto named = shares.others.find(coordinate.name);
+    const double share =
+        named == shares.others.end() ? target_.value(shares, i % (kDiffuseCoordinate + 1)) : named->second;
+    target_.set_value(&point, i, share_of(coordinate.range, share));
+  }
+  return point;
+}
+
+double JointMatcher::error_of(std::span<const float> picture) const {
+  JointChannel difference{{picture.begin(), picture.end()}, channels_.front().weights};
+  for (std::size_t i = 0; i < difference.picture.size(); ++i)
+    difference.picture[i] -= channels_.front().picture[i];
+  return std::sqrt(picture_power(difference) / power_);
+}
+
+JointMatch JointMatcher::search(const RoleValues& guess, double tolerance) const {
+  std::vector<double> values;
+  ceres::Problem problem;
+  for (const Unknown& unknown : unknowns_) {
+    const Range& range = target_.coordinates()[unknown.coordinate].range;
+    values.push_back(std::clamp(target_.value(guess, unknown.coordinate), range.min, range.max));
+  }
+  problem.AddResidualBlock(new PictureCost(*this, guess), nullptr, values.data());
+  for (std::size_t u = 0; u < values.size(); ++u) {
+    const Range& range = target_.coordinates()[unknowns_[u].coordinate].range;
+    problem.SetParameterLowerBound(values.data(), static_cast<int>(u), range.min);
+    problem.SetParameterUpperBound(values.data(), static_cast<int>(u), range.max);
+  }
+  ceres::Solver::Summary summary = solve(&problem, tolerance);
+  // Ceres projects steps into the bounds and converges slowly along them. Parameters that have reached a
+  // bound are therefore fixed, and the others are searched once more.
+  std::vector<int> fixed;
+  for (std::size_t u = 0; u < values.size(); ++u) {
+    const Range& range = target_.coordinates()[unknowns_[u].coordinate].range;
+    for (const double bound : {range.min, range.max}) {
+      if (!lies_at(values[u], bound, range)) continue;
+      values[u] = bound;
+      fixed.push_back(static_cast<int>(u));
+    }
+  }
+  if (!fixed.empty() && fixed.size() < values.size()) {
+    problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(values.size()), fixed));
+    summary = solve(&problem, tolerance);
+  }
+  return {points_of(values.data(), guess), std::sqrt(2.0 * summary.final_cost),
+          summary.termination_type == ceres::CONVERGENCE, RowStatus::kOk};
+}
+
+bool JointMatcher::apart(const JointMatch& a, const JointMatch& b) const {
+  return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
+    const double x = target_.value(a.points[unknown.channel], unknown.coordinate);
+    const double y = target_.value(b.points[unknown.channel], unknown.coordinate);
+    const Range& range = target_.coordinates()[unknown.coordinate].range;
+    return std::fabs(x - y) > kJointRivalDistance * std::max({x, y, 0.01 * range.max});
+  });
+}
+
+bool JointMatcher::at_bound(const JointMatch& match) const {
+  return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
+    const double value = target_.value(match.points[unknown.channel], unknown.coordinate);
+    const Range& range = target_.coordinates()[unknown.coordinate].range;
+    const bool may_be_least = unknown.coordinate == kDiffuseCoordinate && !options_.source_has_diffuse;
+    return lies_at(value, range.max, range) || (!may_be_least && lies_at(value, range.min, range));
+  });
+}
+
+RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const {
+  if (!match.converged) return RowStatus::kUnstable;
+  for (const JointMatch& rival : rivals) {
+    const bool better = kJointRivalError * rival.error + kJointSameError < match.error;
+    const bool as_good = rival.error < kJointRivalError * match.error + kJointSameError;
+    if (better || (as_good && apart(rival, match))) return RowStatus::kUnstable;
+  }
+  return at_bound(match) && match.error > kJointSameError ? RowStatus::kClamped : RowStatus::kOk;
+}
+
+JointMatch JointMatcher::match(const std::vector<RoleValues>& guesses,
+                               const std::vector<RoleValues>& rivals) const {
+  std::vector<JointMatch> found;
+  for (const RoleValues& guess : guesses) found.push_back(search(guess, kAnswerTolerance));
+  JointMatch best = *std::ranges::min_element(found, {}, &JointMatch::error);
+  for (const RoleValues& rival : rivals) found.push_back(search(rival, kRivalTolerance));
+  best.status = judge(best, found);
+  return best;
+}
+
+}  // namespace remap

@@ -1,0 +1,88 @@
+// The joint match varies all free parameters of the target at once, by bounded non-linear least squares over
+// the whole picture (Sztrajman et al. 2019, sections 3.1 and 4.1: one and three stages). It also serves
+// targets that are not affine in specular. With several color channels, parameters without color (such as
+// width) are shared and the others are found for each channel. In a sweep, only this file uses Ceres.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "measure/target_pictures.hpp"
+#include "table/table.hpp"
+
+namespace remap {
+
+// The initial guess of a one-stage match, as shares of the target's ranges of alpha, specular and diffuse.
+inline const RoleValues kFixedGuess{0.5, 0.5, 0.5};
+
+struct JointOptions {
+  bool free_diffuse = true;        // false: diffuse keeps the value of the guess
+  bool source_has_diffuse = true;  // false: diffuse 0 is an answer and does not count as a bound that was hit
+};
+
+// One color channel of the source: its picture, and w^2 for each pixel.
+struct JointChannel {
+  std::vector<float> picture, weights;
+  bool is_black() const { return *std::ranges::max_element(picture) <= 0.0f; }
+};
+
+struct JointMatch {
+  std::vector<RoleValues> points;  // canonical, one for each channel
+  double error = 0.0;              // weighted relative RMS of the picture over all channels
+  bool converged = false;
+  RowStatus status = RowStatus::kOk;
+
+  const RoleValues& point() const { return points.front(); }  // for a grey match
+};
+
+class JointMatcher {
+ public:
+  // One channel for a grey match. The channels' pictures must be as long as the target's. `target` must
+  // outlive the matcher.
+  JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, const JointOptions& options);
+
+  // Returns the best match of searches from `guesses` in every channel, by Ceres' bounded
+  // Levenberg-Marquardt. A guess out of bounds is moved into them. The status is kUnstable if the search does
+  // not converge, or if one from another guess or from `rivals` ends with an error lower by more than 1 %, or
+  // within 1 % but with a parameter that differs by more than 10 %. Otherwise it is kClamped if a parameter
+  // is at a bound and the pictures differ. Throws kNumeric if Ceres fails.
+  JointMatch match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
+
+  // Returns the weighted relative RMS of `picture` against the source, for a grey match.
+  double error_of(std::span<const float> picture) const;
+
+  // Converts shares (0 to 1) of the target's ranges to parameters. Parameters without a role that `shares`
+  // does not name take the shares of alpha, specular and diffuse in turn.
+  RoleValues point_of(const RoleValues& shares) const;
+
+  // Four points to judge a match from: narrow and wide, weak and strong, bright and dark.
+  std::vector<RoleValues> other_guesses() const;
+
+ private:
+  // One searched number: a coordinate of one channel, or of all.
+  struct Unknown {
+    std::size_t coordinate;
+    std::size_t channel;
+    bool shared;
+
+    bool concerns(std::size_t c) const { return shared || channel == c; }
+  };
+  class PictureCost;
+
+  std::vector<Unknown> unknowns() const;
+  std::vector<RoleValues> points_of(const double* values, const RoleValues& guess) const;
+  JointMatch search(const RoleValues& guess, double tolerance) const;
+  RowStatus judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const;
+  bool apart(const JointMatch& a, const JointMatch& b) const;
+  bool at_bound(const JointMatch& match) const;
+
+  const TargetPictures& target_;
+  std::vector<JointChannel> channels_;
+  JointOptions options_;
+  std::vector<Unknown> unknowns_;
+  std::vector<bool> wanted_;  // coordinates that are searched
+  double power_ = 0.0;
+};
+
+}  // namespace remap

@@ -1,0 +1,205 @@
+#include "measure/match.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "measure/interpolation.hpp"
+#include "measure/picture_sums.hpp"
+
+namespace remap {
+namespace {
+
+// The search starts on every sixth node of the bank; minima of the loss are far wider than that.
+constexpr std::size_t kCoarseStride = 6;
+// A second minimum makes a match unstable if its error is within 1 % of the best and its width is not that of
+// a neighbouring node.
+constexpr double kRivalError = 1.01;
+// The same for a second specular at one width, if it differs by this share of the range. Errors up to
+// kSameError are rounding errors of pictures.
+constexpr double kRivalDistance = 0.02;
+constexpr double kSameError = 1e-4;
+
+// The losses at neighbouring nodes, interpolated coefficient by coefficient.
+struct LossWindow {
+  std::array<std::vector<double>, kInterpolationNodes> losses;
+  LagrangeBasis::Values logs{};  // log(alpha)
+
+  std::vector<double> sum(const LagrangeBasis::Values& weights) const {
+    std::vector<double> total(losses.front().size());
+    for (std::size_t i = 0; i < kInterpolationNodes; ++i)
+      for (std::size_t k = 0; k < total.size(); ++k) total[k] += weights[i] * losses[i][k];
+    return total;
+  }
+};
+
+}  // namespace
+
+Matcher::Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis,
+                 std::vector<float> squared_weights)
+    : bank_(bank), basis_(std::move(basis)), weights_(std::move(squared_weights)) {
+  for (const auto& picture : basis_) {
+    std::vector<float> weighted(picture.size());
+    for (std::size_t i = 0; i < picture.size(); ++i) weighted[i] = picture[i] * weights_[i];
+    weighted_basis_.push_back(std::move(weighted));
+  }
+  for (const auto& weighted : weighted_basis_) {
+    power_.emplace_back();
+    for (const auto& picture : basis_)
+      power_.back().push_back(inner_product(weighted.data(), picture.data(), picture.size()));
+  }
+}
+
+const Matcher::Products& Matcher::products(std::size_t node) {
+  const auto known = products_.find(node);
+  if (known != products_.end()) return known->second;
+  const std::vector<std::vector<float>>& pictures = bank_.pictures(node);
+  const std::vector<Polynomial>& weights = bank_.family().weights;
+  Products p;
+  const auto add = [](double factor, const Polynomial& polynomial, Polynomial* sum) {
+    sum->resize(std::max(sum->size(), polynomial.size()));
+    for (std::size_t i = 0; i < polynomial.size(); ++i) (*sum)[i] += factor * polynomial[i];
+  };
+  for (std::size_t j = 0; j < pictures.size(); ++j)
+    for (std::size_t k = j; k < pictures.size(); ++k) {
+      const double product =
+          weighted_product(weights_.data(), pictures[j].data(), pictures[k].data(), weights_.size());
+      add(j == k ? product : 2.0 * product, polynomial_product(weights[j], weights[k]), &p.power);
+    }
+  for (const auto& source : weighted_basis_) {
+    p.cross.emplace_back();
+    for (std::size_t k = 0; k < pictures.size(); ++k)
+      add(inner_product(source.data(), pictures[k].data(), weights_.size()), weights[k], &p.cross.back());
+  }
+  return products_.emplace(node, std::move(p)).first->second;
+}
+
+double Matcher::source_power(const std::vector<double>& coefficients) const {
+  double power = 0.0;
+  for (std::size_t i = 0; i < basis_.size(); ++i)
+    for (std::size_t j = 0; j < basis_.size(); ++j) power += coefficients[i] * coefficients[j] * power_[i][j];
+  return power;
+}
+
+// |I - T|^2 = II - 2 IT + TT, all weighted. II does not depend on the target and is left out, so that
+// refine() can differentiate the rest without cancellation.
+Matcher::Polynomial Matcher::loss(const Products& products, const std::vector<double>& coefficients) const {
+  Polynomial result = products.power;
+  Polynomial cross(products.cross.front().size());
+  for (std::size_t b = 0; b < coefficients.size(); ++b)
+    for (std::size_t i = 0; i < cross.size(); ++i) cross[i] += coefficients[b] * products.cross[b][i];
+  for (std::size_t i = 0; i < cross.size(); ++i) result[i] -= 2.0 * cross[i];
+  return result;
+}
+
+PolynomialMinimum Matcher::least(const Polynomial& loss) const {
+  return polynomial_minima(loss, bank_.family().coordinate_range()).front();
+}
+
+double Matcher::loss_at_node(std::size_t node, const std::vector<double>& coefficients) {
+  return least(loss(products(node), coefficients)).value;
+}
+
+std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coefficients) {
+  double lowest = loss_at_node(node, coefficients);
+  for (;;) {
+    std::size_t next = node;
+    for (const std::size_t neighbour : {node - 1, node + 1}) {  // node - 1 wraps at 0 and fails the check
+      if (neighbour >= bank_.size()) continue;
+      const double candidate = loss_at_node(neighbour, coefficients);
+      if (candidate < lowest) {
+        lowest = candidate;
+        next = neighbour;
+      }
+    }
+    if (next == node) return node;
+    node = next;
+  }
+}
+
+Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients) {
+  const std::size_t first =
+      std::min(node - std::min(node, kInterpolationNodes / 2 - 1), bank_.size() - kInterpolationNodes);
+  std::array<std::size_t, kInterpolationNodes> nodes{};
+  std::iota(nodes.begin(), nodes.end(), first);
+  bank_.prepare(nodes);
+  LossWindow window;
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
+    window.losses[i] = loss(products(first + i), coefficients);
+    window.logs[i] = std::log(bank_.alpha(first + i));
+  }
+  // The derivative of the loss by log(alpha) at the best specular. The derivative by specular is 0 there, so
+  // the change of the specular does not contribute.
+  const auto derivative = [&](double x) {
+    const LagrangeBasis basis(window.logs, x);
+    return polynomial_value(window.sum(basis.derivative), least(window.sum(basis.value)).at);
+  };
+
+  const bool at_edge = node == 0 || node + 1 == bank_.size();
+  double low = std::log(bank_.alpha(node == 0 ? node : node - 1));
+  double high = std::log(bank_.alpha(node + 1 == bank_.size() ? node : node + 1));
+  double x = std::log(bank_.alpha(node));
+  const bool bracketed = derivative(low) <= 0.0 && derivative(high) >= 0.0;
+  // Bisects to the resolution of doubles; one step costs a few hundred operations.
+  for (int step = 0; bracketed && step < 52; ++step) {
+    x = 0.5 * (low + high);
+    (derivative(x) < 0.0 ? low : high) = x;
+  }
+  Match match = match_at(x, window.sum(LagrangeBasis(window.logs, x).value), source_power(coefficients));
+  if (at_edge && !bracketed && match.status == RowStatus::kOk) match.status = RowStatus::kClamped;
+  return match;
+}
+
+// Returns the match at log(alpha) = `x` from the loss at that width.
+Match Matcher::match_at(double x, const Polynomial& loss, double power) const {
+  const SpecularFamily& family = bank_.family();
+  const Range range = family.coordinate_range();
+  const auto error = [&](const PolynomialMinimum& minimum) {
+    return std::sqrt(std::max(0.0, power + minimum.value) / power);
+  };
+  const std::vector<PolynomialMinimum> minima = polynomial_minima(loss, range);
+  const PolynomialMinimum& best = minima.front();
+  Match match{std::exp(x), family.specular(best.at), error(best), RowStatus::kOk};
+  if (best.at <= range.min || best.at >= range.max) match.status = RowStatus::kClamped;
+  for (std::size_t i = 1; i < minima.size(); ++i) {
+    const bool apart = std::fabs(minima[i].at - best.at) > kRivalDistance * (range.max - range.min);
+    if (apart && error(minima[i]) < kRivalError * match.error + kSameError)
+      match.status = RowStatus::kUnstable;
+  }
+  return match;
+}
+
+// Returns the minima of the loss on every sixth node.
+std::vector<std::size_t> Matcher::coarse_minima(const std::vector<double>& coefficients) {
+  std::vector<std::size_t> coarse;
+  for (std::size_t node = 0; node < bank_.size(); node += kCoarseStride) coarse.push_back(node);
+  if (coarse.back() + 1 != bank_.size()) coarse.push_back(bank_.size() - 1);
+  bank_.prepare(coarse);
+  std::vector<std::size_t> minima;
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    const double loss = loss_at_node(coarse[i], coefficients);
+    const bool left = i == 0 || loss <= loss_at_node(coarse[i - 1], coefficients);
+    const bool right = i + 1 == coarse.size() || loss <= loss_at_node(coarse[i + 1], coefficients);
+    if (left && right) minima.push_back(coarse[i]);
+  }
+  return minima;
+}
+
+Match Matcher::match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima) {
+  if (minima->empty()) *minima = coarse_minima(coefficients);
+  for (std::size_t& node : *minima) node = descend(node, coefficients);
+  std::sort(minima->begin(), minima->end());
+  minima->erase(std::unique(minima->begin(), minima->end()), minima->end());
+
+  std::vector<Match> candidates;
+  for (const std::size_t node : *minima) candidates.push_back(refine(node, coefficients));
+  Match match = *std::ranges::min_element(candidates, {}, &Match::error);
+  for (const Match& rival : candidates) {
+    const bool apart = std::fabs(std::log(rival.alpha / match.alpha)) > 2.0 * bank_.log_step();
+    if (apart && rival.error < kRivalError * match.error) match.status = RowStatus::kUnstable;
+  }
+  return match;
+}
+
+}  // namespace remap

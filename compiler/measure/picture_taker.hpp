@@ -1,0 +1,102 @@
+// Renders the pictures that a match compares: under every light of the objective, only the pixels that show
+// the sphere, one picture after the other in one row of floats.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "measure/objective.hpp"
+#include "measure/specular_response.hpp"
+#include "renderer/renderer.hpp"
+
+namespace remap {
+
+// Values for the roles of a model's parameters: a grey material.
+struct RoleValues {
+  double alpha = 0.0;
+  double specular = 0.0;
+  double diffuse = 0.0;
+  std::map<std::string, double> others;  // kOther parameters by name; missing ones keep their standard values
+
+  RoleValues() = default;
+  RoleValues(double alpha_value, double specular_value, double diffuse_value,
+             std::map<std::string, double> other_values = {})
+      : alpha(alpha_value),
+        specular(specular_value),
+        diffuse(diffuse_value),
+        others(std::move(other_values)) {}
+};
+
+// A model together with what its pictures revealed: the law of its specular parameter, and the factor by
+// which its pictures are multiplied.
+struct ProbedModel {
+  ModelDescription model;
+  SpecularResponse response;
+  double exposure = 1.0;
+  // For a model without a law, if probe_family found a family.
+  std::optional<SpecularFamily> curve = std::nullopt;
+
+  // How pictures depend on specular: by the law, else by the curve. Empty if every picture must be rendered.
+  std::optional<SpecularFamily> family() const;
+
+  // The canonical speculars that the model accepts, and those in which its picture is linear (up to the
+  // knee).
+  Range specular_range() const;
+  Range linear_range() const;
+  Range diffuse_range() const;  // 0 to 0 for models without diffuse
+};
+
+class PictureTaker {
+ public:
+  PictureTaker(const Renderer& renderer, const Objective& objective, int resolution, int samples_per_axis);
+
+  // Renders `model` under each light in turn, pixel_count() floats each. `specular` is the model's own
+  // parameter. Throws kInput for a picture of another size and for values that are not finite.
+  std::vector<float> take(const ModelDescription& model, const RoleValues& role_values) const;
+
+  // The same for canonical specular, clamped to the model's range; the result is multiplied by the exposure.
+  std::vector<float> take(const ProbedModel& probed_model, const RoleValues& role_values) const;
+
+  // The same for a grey material.
+  std::vector<float> take(const Material& material) const;
+
+  // The same for each channel of a material: one row if all its parameters are grey, else three.
+  std::vector<std::vector<float>> take_channels(const Material& material) const;
+
+  // Returns squared_weights() of the objective for pictures that this object took.
+  std::vector<float> weights(const std::vector<float>& source) const;
+
+  // Returns the picture under the first light as a square, row 0 at the top, 0 outside the sphere.
+  std::vector<float> square_picture(const std::vector<float>& row) const;
+
+  // The number of pixels of one picture that show the sphere, and the view cosine of each.
+  std::size_t pixel_count() const { return cosines_.size(); }
+  const std::vector<float>& view_cosines() const { return cosines_; }
+  const Objective& objective() const { return objective_; }
+
+ private:
+  const Renderer& renderer_;
+  Objective objective_;
+  int resolution_;
+  int samples_per_axis_;
+  std::vector<std::size_t> pixels_;
+  std::vector<float> cosines_;
+};
+
+// Pictures, at one width, of a model that is affine in canonical specular: base + specular * slope. `full` is
+// the picture at the largest specular of the linear range. The base of a proportional model is black and not
+// rendered, since real renderers are slow.
+struct AffinePictures {
+  std::vector<float> base, slope, full;
+};
+AffinePictures take_affine(const PictureTaker& picture_taker, const ProbedModel& probed_model, double alpha);
+
+// Returns the pictures of the model's family at one width; the model must have one. Of an affine family these
+// are base and slope, or slope alone.
+std::vector<std::vector<float>> take_family(const PictureTaker& picture_taker,
+                                            const ProbedModel& probed_model, double alpha);
+
+}  // namespace remap

@@ -1,0 +1,30 @@
+// Polynomials in one variable, as coefficients in ascending powers. The loss of a match is one in specular.
+#pragma once
+
+#include <vector>
+
+#include "lower/fit.hpp"
+
+namespace remap {
+
+// Returns the value at `x` (Horner's rule); 0 for no coefficients.
+double polynomial_value(const std::vector<double>& coefficients, double x);
+
+std::vector<double> polynomial_derivative(const std::vector<double>& coefficients);
+
+std::vector<double> polynomial_product(const std::vector<double>& a, const std::vector<double>& b);
+
+// Returns the Lagrange basis polynomial on `nodes` that is 1 at node `k` and 0 at the others.
+std::vector<double> lagrange_polynomial(const std::vector<double>& nodes, std::size_t k);
+
+// A local minimum of a polynomial within a range.
+struct PolynomialMinimum {
+  double at = 0.0;
+  double value = 0.0;
+};
+
+// Returns all local minima over `range`, ends included, the smallest value first; at least one. The vertex of
+// a parabola is moved into the range.
+std::vector<PolynomialMinimum> polynomial_minima(const std::vector<double>& coefficients, const Range& range);
+
+}  // namespace remap

@@ -1,0 +1,104 @@
+#include "measure/provenance.hpp"
+
+#include "core/number_text.hpp"
+
+namespace remap {
+namespace {
+
+constexpr int kWidthDigits = 4;
+constexpr int kLimitDigits = 10;  // those of a row
+
+std::string yes_no(bool value) { return value ? "yes" : "no"; }
+
+std::string pictures_text(std::size_t count) {
+  return count == 1 ? "1 picture" : std::to_string(count) + " pictures";
+}
+
+std::string lights_text(const std::vector<Light>& lights) {
+  std::string text;
+  for (const Light& light : lights) text += (text.empty() ? "" : ",") + light_name(light);
+  return text;
+}
+
+std::string versions_text(const Renderer& renderer, const PairOptions& options) {
+  const std::string source = renderer.version_of(options.source),
+                    target = renderer.version_of(options.target);
+  return source == target ? source : source + "; " + target;
+}
+
+}  // namespace
+
+void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments) {
+  const ModelSide side = model_side(probed_model.model);
+  const SpecularResponse& response = probed_model.response;
+  comments->emplace_back(role, side.model);
+  comments->emplace_back(role + "_roughness", std::string(convention_name(side.roughness)));
+  if (const std::string own = probed_model.model.parameter(ParameterRole::kRoughness).name;
+      own != convention_name(side.roughness))
+    comments->emplace_back(role + "_roughness_parameter", own);
+  comments->emplace_back(role + "_specular", side.specular);
+  if (const std::string fixed = fixed_text(probed_model.model); !fixed.empty())
+    comments->emplace_back(role + "_fixed", fixed);
+  comments->emplace_back(role + "_specular_proportional", yes_no(response.proportional()));
+  comments->emplace_back(role + "_specular_law", std::string(law_name(response.law)));
+  if (response.law == SpecularLaw::kIor) comments->emplace_back(role + "_specular_column", "f0");
+  if (probed_model.curve)
+    comments->emplace_back(role + "_specular_interpolated",
+                           pictures_text(probed_model.curve->picture_count()) + " a width");
+  if (response.law == SpecularLaw::kClamped)
+    comments->emplace_back(role + "_specular_knee", number_text(response.knee));
+}
+
+void add_limits(const TargetLimits& limits, Comments* comments) {
+  comments->emplace_back(kAlphaLimitComment, number_text(rounded(limits.alpha, kLimitDigits)));
+  comments->emplace_back(kSpecularLimitComment, number_text(rounded(*limits.specular, kLimitDigits)));
+}
+
+void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments) {
+  if (widths.whole()) return;
+  comments->emplace_back(role + "_effective_alpha",
+                         number_text(rounded(widths.effective.min, kWidthDigits)) + " to " +
+                             number_text(rounded(widths.effective.max, kWidthDigits)));
+}
+
+void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,
+               Comments* comments) {
+  if (!renderer.measured(model)) return;
+  const Noise& noise = renderer.noise(model);
+  comments->emplace_back(role + "_noise", number_text(rounded_up(noise.level, 2)));
+  if (noise.pictures > 1)
+    comments->emplace_back(role + "_averaged",
+                           pictures_text(static_cast<std::size_t>(noise.pictures)) + " each");
+}
+
+void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments) {
+  comments->emplace_back("renderer", versions_text(renderer, options));
+  comments->emplace_back("objective", options.objective_name);
+  comments->emplace_back("lights", lights_text(options.objective.lights));
+  comments->emplace_back("weighting", std::string(name_of(kWeightings, options.objective.weighting)));
+  if (options.objective.weighting == Weighting::kRelative)
+    comments->emplace_back("weighting_floor", number_text(options.objective.floor));
+}
+
+void add_light_scale(const LightMatch& match, Comments* comments) {
+  comments->emplace_back(kLightScaleComment, number_text(match.scale));
+  const auto unaccepted = light_remark({match.scale, match.diffuse_error, false});
+  if (match.accepted && unaccepted && unaccepted->is_error)
+    comments->emplace_back(kLightAcceptedComment, "yes");
+}
+
+void add_resolution(const PairOptions& options, Comments* comments) {
+  comments->emplace_back("resolution", std::to_string(options.resolution));
+  comments->emplace_back("pixel_samples", std::to_string(options.samples_per_axis) + "x" +
+                                              std::to_string(options.samples_per_axis));
+  comments->emplace_back("subpixel_alpha",
+                         number_text(subpixel_alpha(options.resolution, options.samples_per_axis)));
+}
+
+double subpixel_alpha(int resolution, int samples_per_axis) {
+  // The sphere's radius is resolution / 2 pixels. At a camera distance of 3, the half vector turns by 1.5
+  // times the angle of the normal near the middle of the picture.
+  return 1.5 / (0.5 * resolution * samples_per_axis);
+}
+
+}  // namespace remap

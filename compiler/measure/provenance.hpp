@@ -1,0 +1,41 @@
+// Writes the comments of a table that record how it was made, so that the command can be repeated from them.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "measure/picture_taker.hpp"
+#include "measure/sweep_options.hpp"
+#include "renderer/steady_renderer.hpp"
+#include "table/light.hpp"
+#include "table/table.hpp"
+
+namespace remap {
+
+// Adds one side: the model, its parameters and the law of its specular.
+void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments);
+
+// Adds the limits of the target, which must be known.
+void add_limits(const TargetLimits& limits, Comments* comments);
+
+// Adds the widths of one side that change its pictures, if some do not.
+void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);
+
+// Adds the noise of one side and how many pictures are averaged, if the noise was measured.
+void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,
+               Comments* comments);
+
+// Adds the renderer's version and how pictures were compared.
+void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments);
+
+// The factor between the lights, and that it was accepted where that was needed.
+void add_light_scale(const LightMatch& match, Comments* comments);
+
+void add_resolution(const PairOptions& options, Comments* comments);
+
+// Returns the alpha below which the highlight of a headlight has a radius of less than one pixel sample, so
+// that the picture no longer resolves it.
+double subpixel_alpha(int resolution, int samples_per_axis);
+
+}  // namespace remap

@@ -1,0 +1,74 @@
+// The law by which the pictures of a model depend on its specular parameter.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "lower/fit.hpp"
+
+namespace remap {
+
+// How pictures depend on a model's specular parameter. All laws but kOther have a canonical coordinate in
+// which the picture is base + specular * slope.
+enum class SpecularLaw {
+  kProportional,  // specular * slope
+  kAffine,        // base + specular * slope: F0 with Schlick's Fresnel
+  kIor,           // affine in F0 = ((ior - 1) / (ior + 1))^2 (Sztrajman et al. 2019, equation 1)
+  kClamped,       // base + specular * slope up to a knee, constant beyond
+  kOther,         // none of these; the canonical coordinate is the parameter itself
+};
+
+// `proportional`, `affine`, `ior`, `clamped`, `other`.
+std::string_view law_name(SpecularLaw law);
+
+struct SpecularResponse {
+  SpecularLaw law = SpecularLaw::kOther;
+  bool black_base = false;  // the picture is black where the canonical specular is 0
+  double knee = 0.0;        // for kClamped, in the parameter's own unit
+  double residual =
+      0.0;  // largest deviation from the law (kOther: from affine), relative to the brightest pixel
+
+  bool affine() const { return law != SpecularLaw::kOther; }
+  bool proportional() const { return affine() && black_base; }
+
+  // Converts the parameter to the canonical coordinate and back: F0 for kIor, else the parameter itself.
+  double canonical(double own) const;
+  double own(double canonical) const;
+};
+
+// How the pictures of a model at one width depend on specular, whatever the law: as combinations of a few
+// pictures whose weights are polynomials. A match therefore handles polynomials only.
+
+// The variable of the weight polynomials.
+enum class SpecularCoordinate {
+  kSpecular,  // canonical specular
+  kEven,      // the range of canonical specular, mapped to -1 to 1
+  kRoot,      // the root of the share of the range, mapped to -1 to 1; fits exact Fresnel
+};
+
+// Picture(specular) = sum over k of weights[k](coordinate(specular)) * picture k, at every width.
+struct SpecularFamily {
+  Range range;  // canonical speculars for which it holds
+  SpecularCoordinate coordinate_kind = SpecularCoordinate::kSpecular;
+  std::vector<double> speculars;  // one for each picture; take_family chooses those of an affine family
+  std::vector<std::vector<double>> weights;  // one polynomial for each picture, ascending powers
+
+  std::size_t picture_count() const { return weights.size(); }
+  double coordinate(double specular) const;
+  double specular(double coordinate) const;  // canonical, clamped to the range
+  Range coordinate_range() const;
+
+  // Returns the weights of the pictures at canonical `specular`, or their derivatives by it. At the lower end
+  // of the range a root has no derivative; that of a point close by is returned.
+  std::vector<double> weights_at(double specular) const;
+  std::vector<double> slopes_at(double specular) const;
+};
+
+// Makes the family base + specular * slope, or specular * slope for a black base.
+SpecularFamily affine_family(const Range& range, bool black_base);
+
+// Returns the sum of `pictures` times `weights`, in double precision to keep each pixel's relative precision.
+std::vector<float> combined(const std::vector<std::vector<float>>& pictures,
+                            const std::vector<double>& weights);
+
+}  // namespace remap

@@ -1,0 +1,49 @@
+// The options of a sweep: what it computes, and how it runs.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measure/objective.hpp"
+#include "measure/parameter_roles.hpp"
+#include "measure/probe.hpp"
+#include "renderer/renderer.hpp"
+
+namespace remap {
+
+struct SamplePoint {
+  double alpha = 0.0;
+  double specular = 0.0;  // canonical (probe.hpp)
+};
+
+// Two models, and how their pictures are compared.
+struct PairOptions {
+  std::string source;
+  std::string target;
+  ParameterRoles source_roles, target_roles;
+  Objective objective;
+  std::string objective_name;  // the preset, or `custom` if parts of it were changed
+  int resolution = 512;
+  int samples_per_axis = 1;
+  bool match_irradiance = true;
+  bool accept_light = false;  // go on where require_light() (table/light.hpp) refuses
+};
+
+// What a sweep computes. Every field is recorded in the table's comments.
+struct SweepOptions : PairOptions {
+  std::string sampling;              // how the samples were chosen, in words
+  std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
+  int stages = 2;                    // 1, 2 or 3 (section 3.1)
+  double diffuse = 0.0;              // of the source, in every sample
+};
+
+// How a sweep runs. None of this changes the table.
+struct SweepExecution {
+  unsigned jobs = 0;                                                // 0: one for each core
+  std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
+  const std::atomic<bool>* cancelled = nullptr;  // checked between rows; throws kInterrupted
+};
+
+}  // namespace remap

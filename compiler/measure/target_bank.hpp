@@ -1,0 +1,80 @@
+// The bank of target pictures. For widths on a geometric grid it holds the few pictures whose combinations
+// give all others of that width (SpecularFamily). Each is rendered when a search first needs it.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "measure/picture_taker.hpp"
+
+namespace remap {
+
+// The largest ratio of neighbouring widths. Interpolating the loss over twelve such widths leaves an error of
+// 1e-7 in alpha.
+inline constexpr double kBankRatio = 1.05;
+
+// Returns the widths of `target` to search for sources whose narrowest width is `narrowest`. They start at a
+// quarter of it; no pair of the hub differs by more than a factor of 2.
+Range searched_widths(const ModelDescription& target, double narrowest);
+
+class TargetBank {
+ public:
+  // Makes a bank for widths in `alphas`, clamped to the model's range. Neighbours are at most `ratio` apart,
+  // the last two 1.5 times that; they are closer at the upper end, where interpolation has nodes on one side
+  // only. `target` must have a family (ProbedModel::family).
+  TargetBank(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas, double ratio);
+
+  std::size_t size() const { return alphas_.size(); }
+  double alpha(std::size_t node) const { return alphas_[node]; }
+  double log_step() const { return log_step_; }  // the largest step in log(alpha)
+  const SpecularFamily& family() const { return family_; }
+
+  // Returns the pictures of a node (take_family). The first call renders and keeps them. Thread-safe.
+  const std::vector<std::vector<float>>& pictures(std::size_t node) const;
+
+  // Renders those `nodes` that no other thread has started, so that threads that need the same nodes share
+  // the work instead of waiting for each other at each one.
+  void prepare(std::span<const std::size_t> nodes) const;
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    std::atomic<bool> begun{false};
+    std::vector<std::vector<float>> pictures;
+  };
+  const PictureTaker& picture_taker_;
+  ProbedModel target_;
+  SpecularFamily family_;
+  double log_step_;
+  std::vector<double> alphas_;
+  mutable std::deque<Slot> slots_;
+};
+
+// Pictures of a target on a coarse grid of widths and speculars. They give a search its starting points if
+// the target has no family (ProbedModel::family).
+class TargetGrid {
+ public:
+  // Samples widths in `alphas`, evenly in log(alpha), and canonical speculars, evenly; without diffuse.
+  TargetGrid(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas);
+
+  // Returns at most three grid points, best first, at which the weighted squared difference from `source` is
+  // no larger than at their neighbours. The first call renders the pictures. Thread-safe.
+  std::vector<RoleValues> minima(const std::vector<float>& source, const std::vector<float>& weights) const;
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    std::vector<float> picture;
+  };
+  const std::vector<float>& picture(std::size_t point) const;
+
+  const PictureTaker& picture_taker_;
+  ProbedModel target_;
+  std::vector<RoleValues> points_;  // grouped by width
+  mutable std::deque<Slot> slots_;
+};
+
+}  // namespace remap

@@ -1,0 +1,165 @@
+#include "measure/target_pictures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "measure/family_probe.hpp"
+#include "measure/interpolation.hpp"
+#include "measure/probe.hpp"
+
+namespace remap {
+namespace {
+
+// Step of central differences, as a share of alpha or of the range. The truncation error is its square, the
+// rounding error that of floats divided by it.
+constexpr double kDifferenceStep = 1e-3;
+// Pixels that are interpolated together: their sums fit into the first-level cache.
+constexpr std::size_t kBlockPixels = 512;
+
+// The nodes of the bank around `alpha` and their Lagrange basis in log(alpha).
+struct Window {
+  std::size_t first;
+  LagrangeBasis basis;
+
+  static Window around(const TargetBank& bank, double alpha) {
+    std::size_t above = 0;
+    while (above + 1 < bank.size() && bank.alpha(above) < alpha) ++above;
+    const std::size_t first =
+        std::min(above - std::min(above, kInterpolationNodes / 2), bank.size() - kInterpolationNodes);
+    LagrangeBasis::Values logs{};
+    for (std::size_t i = 0; i < kInterpolationNodes; ++i) logs[i] = std::log(bank.alpha(first + i));
+    return {first, LagrangeBasis(logs, std::log(alpha))};
+  }
+};
+
+using Block = std::array<double, kBlockPixels>;
+
+void add_scaled(double factor, const float* values, std::size_t count, Block* sums) {
+  for (std::size_t i = 0; i < count; ++i) (*sums)[i] += factor * static_cast<double>(values[i]);
+}
+
+}  // namespace
+
+TargetPictures::TargetPictures(const ProbedModel& target, const Range& alphas,
+                               const std::vector<std::string>& others) {
+  const ModelDescription& model = target.model;
+  const bool grey_diffuse =
+      model.has(ParameterRole::kDiffuse) && model.parameter(ParameterRole::kDiffuse).grey;
+  coordinates_ = {{"", alphas, true},
+                  {"", target.linear_range(), model.parameter(ParameterRole::kSpecular).grey},
+                  {"", target.diffuse_range(), grey_diffuse}};
+  for (const std::string& name : others)
+    coordinates_.push_back({name, model.parameter(name).range, model.parameter(name).grey});
+}
+
+double TargetPictures::value(const RoleValues& point, std::size_t coordinate) const {
+  if (coordinate == kAlphaCoordinate) return point.alpha;
+  if (coordinate == kSpecularCoordinate) return point.specular;
+  if (coordinate == kDiffuseCoordinate) return point.diffuse;
+  return point.others.at(coordinates_[coordinate].name);
+}
+
+void TargetPictures::set_value(RoleValues* point, std::size_t coordinate, double value) const {
+  if (coordinate == kAlphaCoordinate) point->alpha = value;
+  if (coordinate == kSpecularCoordinate) point->specular = value;
+  if (coordinate == kDiffuseCoordinate) point->diffuse = value;
+  if (coordinate > kDiffuseCoordinate) point->others[coordinates_[coordinate].name] = value;
+}
+
+BankPictures::BankPictures(const PictureTaker& picture_taker, const ProbedModel& target,
+                           const TargetBank& bank)
+    : TargetPictures(target, {bank.alpha(0), bank.alpha(bank.size() - 1)}, {}), bank_(bank) {
+  const Range diffuses = target.diffuse_range();
+  if (!(diffuses.max > diffuses.min)) {
+    diffuse_.resize(bank.pictures(bank.size() - 1).front().size());
+    return;
+  }
+  const RoleValues lit{bank.alpha(bank.size() - 1), target.linear_range().min, diffuses.max};
+  RoleValues unlit = lit;
+  unlit.diffuse = diffuses.min;
+  diffuse_ = picture_taker.take(target, lit);
+  const std::vector<float> dark = picture_taker.take(target, unlit);
+  const double scale = 1.0 / (diffuses.max - diffuses.min);
+  for (std::size_t i = 0; i < dark.size(); ++i)
+    diffuse_[i] = static_cast<float>((static_cast<double>(diffuse_[i]) - dark[i]) * scale);
+}
+
+PictureTangents BankPictures::at(const RoleValues& point, const std::vector<bool>& wanted) const {
+  const Window window = Window::around(bank_, point.alpha);
+  const std::vector<double> weights = bank_.family().weights_at(point.specular);
+  const std::vector<double> slopes = bank_.family().slopes_at(point.specular);
+  const std::size_t pixels = diffuse_.size();
+  PictureTangents result{std::vector<float>(pixels),
+                         {std::vector<float>(pixels), std::vector<float>(pixels),
+                          wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}};
+  std::vector<float>&by_alpha = result.by[kAlphaCoordinate], &by_specular = result.by[kSpecularCoordinate];
+  std::array<const std::vector<std::vector<float>>*, kInterpolationNodes> nodes{};
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i) nodes[i] = &bank_.pictures(window.first + i);
+  for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
+    const std::size_t count = std::min(kBlockPixels, pixels - start);
+    Block picture{}, slope{}, rise{};
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      Block interpolated{}, interpolated_rise{};
+      for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
+        const float* values = &(*nodes[i])[k][start];
+        add_scaled(window.basis.value[i], values, count, &interpolated);
+        add_scaled(window.basis.derivative[i], values, count, &interpolated_rise);
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        picture[i] += weights[k] * interpolated[i];
+        slope[i] += slopes[k] * interpolated[i];
+        rise[i] += weights[k] * interpolated_rise[i];
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      result.picture[start + i] = static_cast<float>(picture[i] + point.diffuse * diffuse_[start + i]);
+      by_specular[start + i] = static_cast<float>(slope[i]);
+      by_alpha[start + i] = static_cast<float>(rise[i] / point.alpha);
+    }
+  }
+  return result;
+}
+
+RenderedPictures::RenderedPictures(const PictureTaker& picture_taker, const ProbedModel& target,
+                                   const Range& alphas, const std::vector<std::string>& others)
+    : TargetPictures(target, alphas, others), picture_taker_(picture_taker), target_(target) {}
+
+PictureTangents RenderedPictures::at(const RoleValues& point, const std::vector<bool>& wanted) const {
+  PictureTangents result{picture_taker_.take(target_, point), {}};
+  for (std::size_t c = 0; c < coordinates().size(); ++c) {
+    result.by.emplace_back();
+    if (!wanted[c]) continue;
+    const Range& range = coordinates()[c].range;
+    const double at = value(point, c);
+    const double step = kDifferenceStep * (c == kAlphaCoordinate ? at : range.max - range.min);
+    const double low = std::max(range.min, at - step), high = std::min(range.max, at + step);
+    RoleValues moved = point;
+    set_value(&moved, c, low);
+    const std::vector<float> from = picture_taker_.take(target_, moved);
+    set_value(&moved, c, high);
+    std::vector<float>& rise = result.by.back();
+    rise = picture_taker_.take(target_, moved);
+    for (std::size_t i = 0; i < rise.size(); ++i)
+      rise[i] = static_cast<float>((static_cast<double>(rise[i]) - from[i]) / (high - low));
+  }
+  return result;
+}
+
+MatchTarget match_target(const PictureTaker& picture_taker, const ProbedModel& target, const Range& searched,
+                         const Range& probed, bool with_diffuse, const std::vector<std::string>& others) {
+  MatchTarget result{target, nullptr, nullptr};
+  const ModelDescription& model = target.model;
+  if (!target.response.affine() && others.empty()) result.curve = probe_family(picture_taker, model, probed);
+  if (result.family() && others.empty())
+    result.bank = std::make_unique<TargetBank>(picture_taker, result, searched, kBankRatio);
+  const bool adds = result.bank && with_diffuse &&
+                    (!model.has(ParameterRole::kDiffuse) || probe_diffuse(picture_taker, model, probed));
+  if (adds)
+    result.pictures = std::make_unique<BankPictures>(picture_taker, result, *result.bank);
+  else if (!result.bank || with_diffuse)
+    result.pictures = std::make_unique<RenderedPictures>(picture_taker, result, searched, others);
+  return result;
+}
+
+}  // namespace remap

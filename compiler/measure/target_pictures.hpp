@@ -1,0 +1,87 @@
+// The target's picture and its derivatives by each parameter, at any point, for a non-linear match. They come
+// from the bank if the target has one, else from renders.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "measure/target_bank.hpp"
+
+namespace remap {
+
+// One parameter that a match varies: alpha, canonical specular, diffuse, then others by name.
+struct Coordinate {
+  std::string name;     // set for others only
+  Range range;          // a single value if the target has no such parameter
+  bool shared = false;  // one value for all color channels
+};
+
+inline constexpr std::size_t kAlphaCoordinate = 0, kSpecularCoordinate = 1, kDiffuseCoordinate = 2;
+
+// A picture and its derivatives by each coordinate; floats as from PictureTaker::take.
+struct PictureTangents {
+  std::vector<float> picture;
+  std::vector<std::vector<float>> by;  // empty where not wanted
+};
+
+class TargetPictures {
+ public:
+  virtual ~TargetPictures() = default;
+
+  const std::vector<Coordinate>& coordinates() const { return coordinates_; }
+  double value(const RoleValues& point, std::size_t coordinate) const;
+  void set_value(RoleValues* point, std::size_t coordinate, double value) const;
+
+  // `wanted`: the coordinates by which the picture is differentiated. Thread-safe.
+  virtual PictureTangents at(const RoleValues& point, const std::vector<bool>& wanted) const = 0;
+
+ protected:
+  // The coordinates are width, specular and diffuse of `target`, and its parameters named in `others`.
+  TargetPictures(const ProbedModel& target, const Range& alphas, const std::vector<std::string>& others);
+
+ private:
+  std::vector<Coordinate> coordinates_;
+};
+
+// Pictures of a target whose diffuse adds to its specular (probe_diffuse), interpolated between the nodes of
+// the bank. Besides the bank they need two renders, for the diffuse picture.
+class BankPictures final : public TargetPictures {
+ public:
+  BankPictures(const PictureTaker& picture_taker, const ProbedModel& target, const TargetBank& bank);
+
+  PictureTangents at(const RoleValues& point, const std::vector<bool>& wanted) const override;
+
+ private:
+  const TargetBank& bank_;
+  std::vector<float> diffuse_;  // added by diffuse 1
+};
+
+// Rendered pictures of any target, with derivatives by central differences (one-sided at the ends of a
+// range): two renders for each coordinate and one for the point. `others` names the parameters without a role
+// that the match varies.
+class RenderedPictures final : public TargetPictures {
+ public:
+  RenderedPictures(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas,
+                   const std::vector<std::string>& others = {});
+
+  PictureTangents at(const RoleValues& point, const std::vector<bool>& wanted) const override;
+
+ private:
+  const PictureTaker& picture_taker_;
+  ProbedModel target_;
+};
+
+// A target with the pictures that matches use.
+struct MatchTarget : ProbedModel {
+  std::unique_ptr<TargetBank> bank;          // if it has a family
+  std::unique_ptr<TargetPictures> pictures;  // for non-linear matches; else null
+};
+
+// Finds how the pictures of `target` follow from its parameters, by renders at the widths `probed`. Pictures
+// for non-linear matches are made if it has no family, or for matches `with_diffuse`. `searched`: the widths
+// of the match. `others`: as in RenderedPictures; with some of them there is no bank.
+MatchTarget match_target(const PictureTaker& picture_taker, const ProbedModel& target, const Range& searched,
+                         const Range& probed, bool with_diffuse, const std::vector<std::string>& others = {});
+
+}  // namespace remap

@@ -1,0 +1,100 @@
+// `remap-study environments`: compares pictures of source and converted spheres under environment maps.
+#include <algorithm>
+
+#include "build/fit_folder.hpp"
+#include "remap/error.hpp"
+#include "study/environments_report.hpp"
+#include "study/studies.hpp"
+#include "study/study_options.hpp"
+
+namespace remap {
+namespace {
+
+struct EnvironmentsCommand {
+  std::vector<std::string> pairs;  // SOURCE:TARGET; empty: the six of default_pairs()
+  bool plain = false;
+  EnvironmentsOptions study;
+  EnvironmentOptions environments;
+  std::filesystem::path fit_folder;  // empty: `fits` if that folder exists
+  OutputOptions output;
+};
+
+StudyPair parse_pair(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
+    throw Error(ErrorKind::kUsage, "--pair: '" + text + "' is not a pair (use SOURCE:TARGET)");
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+// The variant of a microfacet model with constant reflectance in place of Fresnel. Ward has no Fresnel term.
+std::string plain_model(const std::string& name) {
+  return name.find("ward") == std::string::npos ? name + "-plain" : name;
+}
+
+std::vector<StudyPair> chosen_pairs(const EnvironmentsCommand& command) {
+  std::vector<StudyPair> pairs;
+  for (const std::string& text : command.pairs) pairs.push_back(parse_pair(text));
+  if (!pairs.empty()) return pairs;
+  pairs = default_pairs();
+  if (command.plain)
+    for (StudyPair& pair : pairs) pair = {plain_model(pair.source), plain_model(pair.target)};
+  return pairs;
+}
+
+EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
+  EnvironmentsOptions options = command.study;
+  options.pairs = chosen_pairs(command);
+  std::sort(options.alphas.begin(), options.alphas.end());
+  options.alphas.erase(std::unique(options.alphas.begin(), options.alphas.end()), options.alphas.end());
+  options.environments = read_environments(command.environments);
+  if (const auto folder = fit_folder_of(command.fit_folder); !folder.empty())
+    options.fits = load_fits(folder);
+  require_folder_for_pictures(command.output);
+  if (command.output.pictures && !options.alphas.empty())
+    options.sheet_alpha = options.alphas[options.alphas.size() / 2];
+  return options;
+}
+
+void run(const EnvironmentsCommand& command) {
+  EnvironmentsOptions options = study_options(command);
+  const EnvironmentsResult result = run_study("environments", options, command.output, study_environments);
+  show_report(command.output, environments_report(options, result));
+}
+
+void add_options(Command& app, EnvironmentsCommand& command) {
+  EnvironmentsOptions& study = command.study;
+  study.alphas = default_alphas();
+  app.add_option("--pair", command.pairs, "SOURCE:TARGET, repeatable; default: six pairs of Mitsuba models")
+      ->allow_extra_args(false);
+  app.add_flag("--plain", command.plain, "Use the default pairs without Fresnel (constant reflectance)");
+  app.add_option("--alphas", study.alphas, "Source alphas, comma-separated")->delimiter(',');
+  app.add_option("--specular", study.specular, "Specular reflectance of the source, linear");
+  add_environment_options(app, command.environments);
+  app.add_flag("--least-error", study.least_error,
+               "Also search for the parameters of least mean RMSE under these environments (`best`)");
+  add_sampling_options(app, study);
+  app.add_option("--fits", command.fit_folder,
+                 "Folder of the fits for the method `shipped`; default: fits, if it exists");
+  add_output_options(
+      app, command.output, study.jobs,
+      {"Write environments.csv, environments_summary.csv and environments.svg (needs gnuplot) to this folder",
+       "Also write spheres_<environment>.png at the middle alpha: one row for each pair; columns source, "
+       "copy, paper, natural, shipped, best",
+       "Results do not depend on it", "Print the means as JSON"});
+}
+
+}  // namespace
+
+void add_environments_study(Command& study) {
+  Command* command = study.add_subcommand(
+      "environments",
+      "Compare pictures of source and converted spheres under environment maps, for copied parameters, for "
+      "matches by both objectives and for the shipped fits");
+  EnvironmentsCommand& options = set_work<EnvironmentsCommand>(*command, run);
+  add_options(*command, options);
+  command->footer(
+      "Example:\n  remap-study environments --environment forest.exr --environment studio.exr \\\n    -o "
+      "study");
+}
+
+}  // namespace remap

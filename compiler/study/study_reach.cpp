@@ -1,0 +1,70 @@
+// `remap-study reach`: how much nearer the target could come than converters bring it.
+#include <algorithm>
+#include <memory>
+
+#include "build/fit_folder.hpp"
+#include "core/errors.hpp"
+#include "study/reach_report.hpp"
+#include "study/studies.hpp"
+#include "study/study_options.hpp"
+
+namespace remap {
+namespace {
+
+struct ReachCommand {
+  std::vector<std::string> ids;
+  std::filesystem::path fit_folder;
+  ReachOptions study;
+  OutputOptions output;
+};
+
+bool is_builtin(const std::string& model) { return model.rfind("mitsuba/", 0) == 0; }
+
+// The fits that were asked for, else all between models of the built-in renderer that were matched by
+// pictures.
+std::vector<Fit> chosen_fits(const ReachCommand& command) {
+  const std::filesystem::path folder = fit_folder_of(command.fit_folder);
+  if (folder.empty()) throw usage_error("--fits: there is no folder `fits` here (name one)");
+  std::vector<Fit> chosen;
+  for (Fit& fit : load_fits(folder)) {
+    const bool is_asked_for = std::ranges::find(command.ids, fit.id) != command.ids.end();
+    const bool is_compared =
+        is_builtin(fit.source.model) && is_builtin(fit.target.model) && fit.image_similarity.has_value();
+    if (command.ids.empty() ? is_compared : is_asked_for) chosen.push_back(std::move(fit));
+  }
+  if (chosen.empty() || chosen.size() < command.ids.size())
+    throw usage_error("reach: " + folder.string() + " does not hold all of these fits");
+  return chosen;
+}
+
+void run(const ReachCommand& command) {
+  ReachOptions options = command.study;
+  options.fits = chosen_fits(command);
+  const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
+  const std::vector<FitReach> result =
+      run_study("reach", options, command.output,
+                [&](const ReachOptions& study) { return study_reach(*renderer, study); });
+  show_report(command.output, reach_report(options, result));
+}
+
+}  // namespace
+
+void add_reach_study(Command& app) {
+  Command* command = app.add_subcommand(
+      "reach",
+      "Compare converted materials with the best that the target can do, over the whole range of the source");
+  ReachCommand& options = set_work<ReachCommand>(*command, run);
+  command->add_option("ID", options.ids, "Fits between Mitsuba models; default: all of the folder");
+  command->add_option("--fits", options.fit_folder, "Folder of the fits; default: fits, if it exists");
+  command->add_option("--materials", options.study.materials, "Source alphas, and speculars of each")
+      ->range(2, 256);
+  command->add_option("--resolution", options.study.resolution, "Width and height of the pictures in pixels")
+      ->range(16, 1024);
+  add_output_options(*command, options.output, options.study.jobs,
+                     {"Write reach.csv, a row for each material, to this folder", "",
+                      "Number of threads; 0: one per core. Results do not depend on it",
+                      "Print the figures of each fit as JSON"});
+  command->footer("Example:\n  remap-study reach mitsuba_as_to_mitsuba_ward --materials 16");
+}
+
+}  // namespace remap

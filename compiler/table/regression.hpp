@@ -1,0 +1,46 @@
+// The result of every regression: a mapping and how it was found.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lower/fit.hpp"
+#include "table/table.hpp"
+
+namespace remap {
+
+struct Regression {
+  MappingKind mapping;
+  std::map<std::string, std::string> method;  // recorded in the fit: hyper-parameters, search, starts
+  // Fits other rows with the same form, hyper-parameters and layers, by one thread and without a search. Does
+  // not check whether curves are sound. Thread-safe.
+  std::function<MappingKind(const std::vector<TableRow>&)> again;
+};
+
+// Called repeatedly with the share of the work done, 0 to 1, from any thread. An exception from it ends the
+// regression. May be empty.
+using FitProgress = std::function<void(double share)>;
+
+// The progress of a part of the work, from the share `begin` to the share `end`. Refers to `progress`; empty
+// if that is.
+FitProgress part_of(const FitProgress& progress, double begin, double end);
+
+// By which an error of an output counts where fits are compared: 1 / value, but at most 50. Pictures show
+// errors relative to the value; below a fiftieth they show nothing.
+double error_weight(double value);
+
+// Throws kInput for fewer than 10 rows, or if alpha1 or specular1 is constant. The message starts with
+// `kind`.
+void require_variety(const std::vector<TableRow>& rows, const std::string& kind);
+
+// Whether target alpha varies with specular at fixed source alpha by more than its scatter: compares the
+// variation of alpha2 that straight lines over specular explain, one for each alpha1, with their residuals.
+// If not, target alpha is fitted from source alpha alone.
+bool alpha_needs_specular(const std::vector<TableRow>& rows);
+
+// Returns `id`, or the id of a converter between the models if it is empty. Throws kUsage for an invalid id.
+std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model);
+
+}  // namespace remap

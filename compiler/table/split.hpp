@@ -1,0 +1,48 @@
+// The split into training rows and held-out rows, and the error figures over rows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lower/fit.hpp"
+#include "table/table.hpp"
+
+namespace remap {
+
+// A random permutation of `count` indices that depends only on `seed`, not on the machine. The first ones are
+// held out.
+std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed);
+
+// The record of a split of `rows` rows, of which `fraction` (rounded) are held out. Throws kUsage for a
+// fraction outside [0, 0.9].
+Split split_record(std::uint64_t seed, double fraction, std::size_t rows);
+
+struct RowSplit {
+  std::vector<TableRow> training;
+  std::vector<TableRow> held_out;
+  Split record;
+};
+
+// Splits the rows in `domain` that have an answer; `held_out_fraction` of them
+// (rounded), drawn by `seed`, are held out. Other rows are counted by their status, or as `beyond the
+// domain`. The split does not depend on the machine. Throws kUsage for a fraction outside [0, 0.9].
+RowSplit split_rows(const Table& table, const Domain& domain, std::uint64_t seed, double held_out_fraction);
+
+// Errors of target alpha and target specular, one per row. `map`: gives the target's alpha and specular for
+// those of the source.
+struct Residuals {
+  std::vector<double> alpha, specular;
+};
+Residuals residuals_of(const std::vector<TableRow>& rows,
+                       const std::function<MappedTexel(double alpha, double specular)>& map);
+Residuals residuals_of(const std::vector<TableRow>& rows, const MappingKind& mapping);
+
+// RMS, 99th percentile (nearest rank) and maximum of absolute values. Zeros for an empty list.
+ErrorFigures error_figures(std::vector<double> errors);
+
+// Formats an error with two significant digits, rounded away from 0: `7.2e-04`; `0` for 0.
+std::string error_text(double error);
+
+}  // namespace remap

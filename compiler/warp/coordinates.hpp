@@ -1,0 +1,58 @@
+// Appearance spaces: principal coordinates of each material (An et al. 2011, section 3). Distances are
+// Euclidean in features, so multidimensional scaling reduces to a principal component analysis without
+// landmarks, and coordinates are closed forms of the parameters.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "remap/warp.hpp"
+#include "warp/features.hpp"
+
+namespace remap {
+
+// Positions of points: one row per point, one column per dimension.
+using Points = Eigen::MatrixXd;
+
+struct AppearanceSpace {
+  Eigen::VectorXd mean;            // of the features
+  Eigen::MatrixXd axes;            // features x 3, orthonormal, in order of decreasing variance
+  double radius = 0.0;             // spread: RMS distance of texels from the mean, the unit of coordinates
+  std::array<double, 3> stress{};  // RMS error of distances over RMS distance, in 1, 2 and 3 dimensions
+};
+
+// Computes the space from at most 16384 texels, or 4096 for features by samples. Throws kInput if all texels
+// look the same (radius below 1e-3 of the length of the mean).
+AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFeatures& features);
+
+// Projects features, one column per texel, to positions.
+Points projected(const AppearanceSpace& space, const Eigen::MatrixXd& columns, int dimension);
+
+// The smallest number of dimensions, at most 3, whose stress is below 3 %.
+int dimension_of(const AppearanceSpace& space);
+
+AppearanceCoordinates closed_form(const AppearanceSpace& space, const SeparableFeatures& features,
+                                  int dimension);
+
+// Positions of all texels; NaN for texels that are not finite.
+Points positions_of(const AppearanceCoordinates& coordinates, const std::vector<WarpTexel>& texels);
+
+// The coordinates of a material's texels.
+struct Placement {
+  // For parameters a closed or fitted form; for tables the position of every entry.
+  std::variant<AppearanceCoordinates, Points> coordinates;
+  // RMS distance of fitted coordinates from the projected features, over at most 4096 texels; 0 for a closed
+  // form and for tables.
+  double fit_error = 0.0;
+};
+
+Placement placement_of(const MaterialRef& material, const AppearanceFeatures& features,
+                       const AppearanceSpace& space, int dimension);
+
+// Positions of all texels, or of `texels`; NaN for texels that are not finite or not in the table.
+Points positions_of(const Placement& placement, const MaterialRef& material);
+Points positions_of(const Placement& placement, const MaterialRef& material,
+                    const std::vector<std::uint32_t>& texels);
+
+}  // namespace remap

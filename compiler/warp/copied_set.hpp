@@ -1,0 +1,29 @@
+// Writes the exact copy of a warp to files: each texel of the source is copied from one template texel.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "warp/material.hpp"
+
+namespace remap {
+
+// The template and its table.
+struct CopiedTemplate {
+  MaterialRef material;
+  MapFrame frame;
+  std::filesystem::path table;  // of a tabulated material: profiles.exr, profiles.csv or brdfs.txt
+};
+
+// Writes float32 EXR files of the source's size to `folder`, with NaN in skipped texels:
+//   parameters         diffuse.exr, specular.exr, alpha.exr
+//   a list             index.exr and the list (profiles.csv, or brdfs.txt with adapted paths)
+//   profiles.exr       profiles.exr
+//   all kinds          template_texel.exr: channels X and Y, the position in the template from 0 at the top
+//                      left, by which other maps can be copied
+// `texels`: the result of copy_exactly(). Returns the files. Throws kOutput.
+std::vector<std::filesystem::path> write_copied_set(const std::filesystem::path& folder,
+                                                    const std::vector<std::uint32_t>& texels,
+                                                    const MapFrame& source, const CopiedTemplate& goal);
+
+}  // namespace remap

@@ -1,0 +1,66 @@
+// Reads measured BRDFs of the MERL database (Matusik et al. 2003): three 32-bit counts (90 half angles, 90
+// difference angles, 180 azimuths), then as many 64-bit values of red, of green and of blue, all
+// little-endian.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <numbers>
+
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "warp/quadrature.hpp"
+#include "warp/tabulated_set.hpp"
+
+namespace remap {
+namespace {
+
+using std::numbers::pi;
+
+static_assert(std::endian::native == std::endian::little, "the file format is little-endian");
+
+constexpr std::array<std::int32_t, 3> kCounts = {90, 90, 180};
+constexpr std::size_t kCells = 90 * 90 * 180;
+constexpr std::size_t kFileBytes = sizeof kCounts + 3 * kCells * sizeof(double);
+constexpr std::array<double, 3> kScales = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
+
+std::size_t cell(double share, std::int32_t count) {
+  return static_cast<std::size_t>(std::clamp(static_cast<std::int32_t>(share * count), 0, count - 1));
+}
+
+// The grid of half angles is uniform in their square root.
+std::size_t cell_of(const QuadratureDirection& direction) {
+  const std::size_t half = cell(std::sqrt(direction.half_angle / (pi / 2.0)), kCounts[0]),
+                    difference = cell(direction.difference_angle / (pi / 2.0), kCounts[1]),
+                    azimuth = cell(direction.azimuth / pi, kCounts[2]);
+  return (half * 90 + difference) * 180 + azimuth;
+}
+
+}  // namespace
+
+std::vector<float> read_merl(const std::filesystem::path& file) {
+  require_regular_file(file);
+  const bool is_whole = std::filesystem::file_size(file) == kFileBytes;
+  std::ifstream stream(file, std::ios::binary);
+  std::array<std::int32_t, 3> counts{};
+  stream.read(reinterpret_cast<char*>(counts.data()), sizeof counts);
+  const bool is_merl = is_whole && stream && counts == kCounts;
+  std::vector<double> values(is_merl ? 3 * kCells : 0);
+  if (is_merl)
+    stream.read(reinterpret_cast<char*>(values.data()),
+                static_cast<std::streamsize>(values.size() * sizeof(double)));
+  if (!is_merl || !stream)
+    throw input_error(file.string() +
+                      ": is not a BRDF of the MERL database (90 x 90 x 180 cells of three channels)");
+  std::vector<float> samples;
+  for (std::size_t c = 0; c < kScales.size(); ++c)
+    for (const QuadratureDirection& direction : half_vector_quadrature()) {
+      const double value = kScales[c] * values[c * kCells + cell_of(direction)];
+      samples.push_back(value > 0.0 && std::isfinite(value) ? static_cast<float>(value) : 0.0f);
+    }
+  return samples;
+}
+
+}  // namespace remap

@@ -1,0 +1,50 @@
+// Occupancy: represents all texels of a material by a few hundred points, so that a rare appearance counts as
+// much as a frequent one (An et al. 2011, section 3.2).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "warp/coordinates.hpp"
+
+namespace remap {
+
+// The least and the largest coordinate along an axis, ignoring NaN.
+struct Extent {
+  double low = 0.0, high = 0.0;
+};
+Extent extent_of(const Points& positions, Eigen::Index axis);
+
+// The mean position of `texels`, ignoring those that are not finite; the origin if there are none.
+Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels);
+
+struct Occupancy {
+  Points points;                          // centroids of the bins with four texels or more
+  Eigen::VectorXd texel_count;            // of each point
+  std::vector<std::vector<int>> strokes;  // for each stroke, the points with one of its texels; at least one
+  double spacing = 0.0;                   // width of a bin
+};
+
+// Searches the width of the bins so that about 350 of them contain at least four texels. Any number from
+// 300 to 1200 points gives results within one percentage point of error. `positions`: of texels, NaN is
+// ignored. `strokes`: indices of texels. A stroke whose texels are all in sparse bins gets the point nearest
+// to its centre.
+Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
+
+// The grid of `occupancy_of`: finds the bin of a position.
+class BinGrid {
+ public:
+  BinGrid(const Points& positions, double spacing);
+  std::size_t size() const noexcept { return size_; }
+  // The index of the bin, or -1 for NaN.
+  long bin_of(const Points& positions, Eigen::Index i) const noexcept;
+
+ private:
+  Eigen::Index dimension_ = 0;
+  double spacing_ = 1.0;
+  std::array<double, 3> low_{};
+  std::array<long, 3> cells_{1, 1, 1};
+  std::size_t size_ = 1;
+};
+
+}  // namespace remap

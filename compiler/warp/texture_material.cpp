@@ -1,0 +1,156 @@
+#include "warp/texture_material.hpp"
+
+#include "core/errors.hpp"
+#include "remap/convert_maps.hpp"
+#include "remap/workflow.hpp"
+#include "sets/discovery.hpp"
+#include "texture/texture_set.hpp"
+#include "warp/image_texels.hpp"
+
+namespace remap {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_diffuse(Role role) { return role == Role::kDiffuse; }
+bool is_base_color(Role role) { return role == Role::kBaseColor; }
+bool is_specular(Role role) { return role == Role::kSpecular; }
+bool is_metallic(Role role) { return role == Role::kMetallic; }
+
+// Whether a set has a color of the diffuse lobe and no map of the specular lobe.
+bool is_albedo(const FoundSet& set) {
+  const auto has = [&](bool (*wanted)(Role)) { return !uses(set, wanted).empty(); };
+  return (has(is_diffuse) || has(is_base_color)) && !has(is_specular) && !has(is_metallic) &&
+         !has(tells_width);
+}
+
+FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
+  DiscoveryOptions options;
+  options.recursive = false;
+  Discovery found = find_sets(folder, options);
+  std::erase_if(found.sets, [&](const FoundSet& set) {
+    return set.state == SetState::kSkipped && (albedo == AlbedoAlone::kRefuse || !is_albedo(set));
+  });
+  if (found.sets.size() != 1)
+    throw input_error(folder.string() + ": found " + std::to_string(found.sets.size()) +
+                      " texture sets by their names, but one is required (name its maps "
+                      "diffuse, specular and roughness)");
+  if (found.sets[0].state == SetState::kFaulty)
+    throw input_error(found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
+                                                    : found.sets[0].remarks[0]);
+  return found.sets[0];
+}
+
+// Adds the first map of a wanted role to the request. Returns false if the set has none.
+bool add_map(const FoundSet& set, const fs::path& root, Parameter parameter, bool (*wanted)(Role),
+             TextureSetRequest& request) {
+  const std::vector<MapUse> found = uses(set, wanted);
+  if (found.empty()) return false;
+  const MapUse& use = found.front();
+  request.parameters[parameter].source = MapName{root / set.maps[use.map].path, channel_names(use.channels)};
+  if (parameter == Parameter::kWidth)
+    request.convention = convention_of(use.role).value_or(RoughnessConvention::kRoughness);
+  return true;
+}
+
+struct MaterialRequest {
+  TextureSetRequest maps;
+  bool from_metallic = false, is_albedo = false;
+};
+
+// Requests the maps of the specular workflow, else of the metallic workflow, else of the diffuse lobe.
+MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
+  const FoundSet set = only_set(folder, albedo);
+  MaterialRequest result;
+  TextureSetRequest& request = result.maps;
+  const auto add = [&](Parameter parameter, bool (*wanted)(Role)) {
+    return add_map(set, folder, parameter, wanted, request);
+  };
+  if (is_albedo(set)) {
+    result.is_albedo = true;
+    if (!add(Parameter::kDiffuse, is_diffuse)) add(Parameter::kDiffuse, is_base_color);
+    request.parameters[Parameter::kSpecular].source = ConstantValues{0.0f};
+    request.parameters[Parameter::kWidth].source = ConstantValues{1.0f};
+    request.convention = RoughnessConvention::kAlpha;
+    return result;
+  }
+  if (!add(Parameter::kWidth, tells_width))
+    throw input_error(folder.string() + ": contains no roughness map");
+  if (add(Parameter::kSpecular, is_specular)) {
+    if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return result;
+    throw input_error(folder.string() + ": contains a specular map but no diffuse map");
+  }
+  result.from_metallic =
+      add(Parameter::kMetallic, is_metallic) &&
+      (add(Parameter::kBaseColor, is_base_color) || add(Parameter::kBaseColor, is_diffuse));
+  if (!result.from_metallic)
+    throw input_error(folder.string() +
+                      ": requires diffuse and specular maps, or base color and metallic maps");
+  return result;
+}
+
+SourceParameter source_of(const SetParameter& parameter, const TextureSet& set,
+                          const std::vector<std::vector<std::byte>>& texels) {
+  SourceParameter source;
+  source.constants = parameter.constants;
+  source.factors = parameter.factors;
+  source.transfer = parameter.transfer;
+  source.grey_tolerance = 1.0f;
+  for (const ChannelPlace& place : parameter.channels) {
+    const ImageLayout& layout = set.maps[place.map].layout();
+    const Channel& channel = layout.channels[place.channel];
+    source.name = set.maps[place.map].path().string();
+    source.channel_names.push_back(channel.name);
+    source.channels.push_back({texels[place.map].data() + channel.offset, channel.type,
+                               static_cast<std::ptrdiff_t>(layout.texel_bytes),
+                               static_cast<std::ptrdiff_t>(layout.row_bytes())});
+  }
+  return source;
+}
+
+}  // namespace
+
+TextureMaterial read_texture_material(const fs::path& folder, const std::string& model, AlbedoAlone albedo) {
+  TextureMaterial result;
+  result.material.name = folder.string();
+  const MapModel map_model = builtin_map_model(model);
+  result.material.model = map_model.lobe;
+  result.material.is_dielectric = map_model.is_dielectric;
+  const MaterialRequest request = request_of(folder, albedo);
+  result.is_albedo = request.is_albedo;
+  TextureSet set = open_texture_set(request.maps);
+  WorkflowStages stages;
+  stages.target = SpecularWorkflow{};
+  if (request.from_metallic)
+    stages.source = MetallicWorkflow{};
+  else
+    stages.source = SpecularWorkflow{};
+  const auto converter = make_workflow_converter(stages);
+
+  std::vector<std::vector<std::byte>> texels;
+  for (ImageReader& map : set.maps) texels.push_back(texels_of(map));
+  const ImageLayout& layout = set.maps[set.first_map()].layout();
+  result.width = static_cast<std::size_t>(layout.width);
+  result.height = static_cast<std::size_t>(layout.height);
+  result.material.texels.resize(result.width * result.height);
+  float* first = result.material.texels.data()->data();
+  MapConversion conversion;
+  conversion.width = result.width;
+  conversion.height = result.height;
+  conversion.source_convention = set.convention;
+  conversion.target_convention = RoughnessConvention::kAlpha;
+  for (const auto& [parameter, found] : set.parameters)
+    conversion.sources[parameter] = source_of(found, set, texels);
+  const auto want = [&](Parameter parameter, std::size_t from, std::size_t count) {
+    for (std::size_t c = 0; c < count; ++c)
+      conversion.targets[parameter].channels.push_back(
+          float_channel(first + from + c, result.width, kWarpParameters));
+  };
+  want(Parameter::kDiffuse, 0, 3);
+  want(Parameter::kSpecular, 3, 3);
+  want(Parameter::kWidth, 6, 1);
+  convert_maps(*converter, conversion);
+  return result;
+}
+
+}  // namespace remap

@@ -1,3 +1,0 @@
-// The kernels for every processor; runtime/CMakeLists.txt has their flags.
-#define REMAP_KERNELS baseline_kernels
-#include "convert/kernels.inc"

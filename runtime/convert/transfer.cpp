@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "convert/linear_values.hpp"
+#include "remap/pixels.hpp"
+
+namespace remap {
+namespace {
+
+// The curve of sRGB without the powers of the C library, which take most of the time of a conversion and
+// differ between libraries. Only sums, products, quotients and comparisons of doubles follow, so that results
+// are the same everywhere; there is no branch and no call, so that compilers vectorise the loops below.
+
+constexpr std::uint64_t kOne = 0x3ff0000000000000;  // bits of 1.0
+constexpr int kMantissaBits = 52;
+
+// Sums c[i] x^i.
+template <std::size_t Count>
+constexpr double polynomial(const std::array<double, Count>& c, double x) noexcept {
+  double sum = c[Count - 1];
+  for (std::size_t i = Count - 1; i-- > 0;) sum = sum * x + c[i];
+  return sum;
+}
+
+// Within 3e-14 for normal values above 0: the exponent, and a polynomial in ((m - 1) / (m + 1))^2 for a
+// mantissa m between the square roots of 1/2 and 2, interpolated at Chebyshev's nodes.
+constexpr double log2_of(double value) noexcept {
+  constexpr std::uint64_t kRootOfHalf = 0x3fe6a09e667f3bcd;
+  constexpr std::uint64_t kBitsOf2To52 = 0x4330000000000000;
+  constexpr std::array kFactors = {2.885390081777851,   0.9617966941122649,  0.5770779426603044,
+                                   0.41220922406110433, 0.31990680380701336, 0.28288502340748234};
+  const auto bits = __builtin_bit_cast(std::uint64_t, value);
+  const std::uint64_t biased = (bits - kRootOfHalf + kOne) >> kMantissaBits;  // the exponent and 1023
+  const double exponent = __builtin_bit_cast(double, biased | kBitsOf2To52) - (0x1p52 + 1023.0);
+  const auto mantissa = __builtin_bit_cast(double, bits - (biased << kMantissaBits) + kOne);
+  const double t = (mantissa - 1.0) / (mantissa + 1.0);
+  return exponent + t * polynomial(kFactors, t * t);
+}
+
+// 2^x within 2e-14 of its value, for x between -1000 and 1000: the power of the nearest whole number, and a
+// polynomial for the rest, interpolated at Chebyshev's nodes.
+constexpr double exp2_of(double x) noexcept {
+  constexpr double kWhole = 0x1.8p52;  // a sum with it is rounded to a whole number, which is its last bits
+  constexpr std::array kFactors = {1.0000000000000135,    0.6931471805599462,     0.2402265069564034,
+                                   0.05550410866465167,   0.009618129193934313,   0.0013333558200794592,
+                                   0.0001540343375125101, 1.5252672924850737e-05, 1.325964524488711e-06,
+                                   1.0205905413765595e-07};
+  const double shifted = x + kWhole;
+  const auto power =
+      __builtin_bit_cast(double, (__builtin_bit_cast(std::uint64_t, shifted) << kMantissaBits) + kOne);
+  return power * polynomial(kFactors, x - (shifted - kWhole));
+}
+
+// Of finite values of at least 0. Products with reciprocals are quicker than quotients.
+constexpr double magnitude_to_linear(double stored) noexcept {
+  const double power = exp2_of(2.4 * log2_of((stored + 0.055) * (1.0 / 1.055)));
+  const double line = stored * (1.0 / 12.92);
+  return stored <= 0.04045 ? line : power;
+}
+
+constexpr double magnitude_to_srgb(double linear) noexcept {
+  const double power = 1.055 * exp2_of(log2_of(linear) * (1.0 / 2.4)) - 0.055;
+  const double line = linear * 12.92;
+  return linear <= 0.0031308 ? line : power;
+}
+
+// The odd function that `change` gives for finite magnitudes. Infinity and NaN stay.
+template <typename Change>
+void change_all(std::span<float> values, Change change) noexcept {
+  for (float& value : values) {
+    const float magnitude = std::fabs(value);
+    const auto changed = static_cast<float>(change(static_cast<double>(magnitude)));
+    const float result = magnitude <= std::numeric_limits<float>::max() ? changed : magnitude;
+    value = std::copysign(result, value);
+  }
+}
+
+// The curve for 8 bits.
+constexpr std::size_t kLevels = 256;
+
+constexpr std::array<float, kLevels> linear_levels() {
+  std::array<float, kLevels> values{};
+  for (std::size_t i = 0; i < kLevels; ++i)
+    values[i] = static_cast<float>(magnitude_to_linear(static_cast<double>(static_cast<float>(i) / 255.0f)));
+  return values;
+}
+
+// The least float of each next level: element i is the first one that is nearer to level i + 1.
+constexpr std::array<float, kLevels> next_levels() {
+  std::array<float, kLevels> least{};
+  for (std::size_t i = 0; i + 1 < kLevels; ++i) {
+    const double exact = magnitude_to_linear((static_cast<double>(i) + 0.5) / 255.0);
+    const auto rounded = static_cast<float>(exact);
+    const bool is_below = static_cast<double>(rounded) < exact;
+    least[i] = __builtin_bit_cast(float, __builtin_bit_cast(std::uint32_t, rounded) + is_below);
+  }
+  least.back() = std::numeric_limits<float>::infinity();
+  return least;
+}
+
+// Floats between 2^-13, which is below level 1, and 1, by the upper half of their bits. No element has floats
+// of more than two levels.
+constexpr int kHalfBits = 16;
+constexpr std::uint32_t kFirstHalf = __builtin_bit_cast(std::uint32_t, 0x1p-13f) >> kHalfBits;
+constexpr std::uint32_t kLastHalf = __builtin_bit_cast(std::uint32_t, 1.0f) >> kHalfBits;
+
+constexpr auto kLinearLevels = linear_levels();
+constexpr auto kNextLevels = next_levels();
+
+// The level of the least float of each element.
+constexpr std::array<std::uint8_t, kLastHalf - kFirstHalf + 1> first_levels() {
+  std::array<std::uint8_t, kLastHalf - kFirstHalf + 1> levels{};
+  std::uint8_t level = 0;
+  for (std::uint32_t i = 0; i < levels.size(); ++i) {
+    while (__builtin_bit_cast(float, (kFirstHalf + i) << kHalfBits) >= kNextLevels[level]) ++level;
+    levels[i] = level;
+  }
+  return levels;
+}
+constexpr auto kFirstLevels = first_levels();
+
+std::size_t store_srgb8(const float* values, std::size_t count, std::byte* first,
+                        std::size_t stride) noexcept {
+  std::size_t clipped = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float value = values[i];
+    const float low = value > 0.0f ? value : 0.0f;
+    const float within = low < 1.0f ? low : 1.0f;
+    clipped += within != value;
+    const std::uint32_t half = std::max(__builtin_bit_cast(std::uint32_t, within) >> kHalfBits, kFirstHalf);
+    const std::uint8_t level = kFirstLevels[half - kFirstHalf];
+    first[i * stride] = std::byte(level + (within >= kNextLevels[level]));
+  }
+  return clipped;
+}
+
+void load_srgb8(const std::byte* first, std::size_t stride, std::size_t count, float* values) noexcept {
+  for (std::size_t i = 0; i < count; ++i)
+    values[i] = kLinearLevels[std::to_integer<std::size_t>(first[i * stride])];
+}
+
+}  // namespace
+
+void to_linear(Transfer transfer, std::span<float> values) noexcept {
+  if (transfer == Transfer::kSrgb) change_all(values, magnitude_to_linear);
+}
+
+void from_linear(Transfer transfer, std::span<float> values) noexcept {
+  if (transfer == Transfer::kSrgb) change_all(values, magnitude_to_srgb);
+}
+
+void load_linear(Transfer transfer, PixelType type, const std::byte* first, std::size_t stride,
+                 std::size_t count, float* values) noexcept {
+  if (transfer == Transfer::kSrgb && type == PixelType::kUint8)
+    return load_srgb8(first, stride, count, values);
+  load_values(type, first, stride, count, values);
+  to_linear(transfer, {values, count});
+}
+
+std::size_t store_linear(Transfer transfer, PixelType type, const float* values, std::size_t count,
+                         std::byte* first, std::size_t stride) noexcept {
+  if (transfer == Transfer::kLinear) return store_values(type, values, count, first, stride);
+  if (type == PixelType::kUint8) return store_srgb8(values, count, first, stride);
+  std::array<float, 512> block;
+  std::size_t clipped = 0;
+  for (std::size_t begin = 0; begin < count; begin += block.size()) {
+    const std::size_t size = std::min(block.size(), count - begin);
+    std::copy_n(values + begin, size, block.begin());
+    from_linear(transfer, {block.data(), size});
+    clipped += store_values(type, block.data(), size, first + begin * stride, stride);
+  }
+  return clipped;
+}
+
+void change_convention(RoughnessConvention from, RoughnessConvention to, std::span<float> widths) noexcept {
+  if (from == to) return;
+  const float highest = from == RoughnessConvention::kExponent ? INFINITY : 1.0f;
+  for (float& width : widths) {
+    if (std::isnan(width)) continue;
+    const double held = static_cast<double>(std::clamp(width, 0.0f, highest));
+    width = static_cast<float>(from_alpha(to, to_alpha(from, held)));
+  }
+}
+
+}  // namespace remap

@@ -1,0 +1,222 @@
+#include "core/files.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <mutex>
+#include <set>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/open_file.hpp"
+#include "core/process_mark.hpp"
+#include "remap/error.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kUnfinished = ".unfinished-";
+
+[[noreturn]] void fail_to_read(const fs::path& path, const std::string& reason) {
+  throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + reason);
+}
+
+[[noreturn]] void fail_to_write(const fs::path& path, const std::string& reason) {
+  throw Error(ErrorKind::kOutput, path.string() + ": cannot be written: " + reason);
+}
+
+// What is not a regular file, in words.
+std::string kind_text(mode_t mode) {
+  if (S_ISDIR(mode)) return "is a folder, not a file";
+  if (S_ISFIFO(mode)) return "is a named pipe, not a file (write its content to a file)";
+  if (S_ISSOCK(mode)) return "is a socket, not a file (write its content to a file)";
+  return "is a device, not a file (give a regular file)";
+}
+
+// Whether the shell of the caller has opened what this name leads to.
+bool is_handed_down(const fs::path& path) {
+  const std::string name = path.lexically_normal().string();
+  return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
+}
+
+void require_readable(const fs::path& path, const struct stat& found) {
+  if (S_ISREG(found.st_mode) || (S_ISFIFO(found.st_mode) && is_handed_down(path))) return;
+  throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(found.st_mode));
+}
+
+[[noreturn]] void fail_of_size(const fs::path& path, std::uintmax_t largest) {
+  const bool megabytes = largest >= 1 << 20;
+  throw Error(ErrorKind::kInput,
+              path.string() + ": has more than " + std::to_string(megabytes ? largest >> 20 : largest) +
+                  (megabytes ? " MB" : " bytes") + ", the most that is read of such a file");
+}
+
+// Reads to the end. A signal does not end the reading; the second one of interruption.hpp ends the process.
+std::string content_of(const OpenFile& file, const fs::path& path, std::uintmax_t largest) {
+  std::string content;
+  std::array<char, 1 << 16> part;
+  for (;;) {
+    const ssize_t count = ::read(file.get(), part.data(), part.size());
+    if (count == 0) return content;
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0)
+      throw Error(ErrorKind::kInput, path.string() + ": reading failed: " + std::strerror(errno));
+    content.append(part.data(), static_cast<std::size_t>(count));
+    if (content.size() > largest) fail_of_size(path, largest);
+  }
+}
+
+// The mark in the name of an unfinished file; empty for another name.
+std::string_view mark_in(std::string_view name) {
+  const std::size_t found = name.rfind(kUnfinished);
+  if (!name.starts_with('.') || found == std::string_view::npos) return {};
+  const std::string_view mark = name.substr(found + kUnfinished.size());
+  return mark.substr(0, mark.find('.'));
+}
+
+void remove_abandoned(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (is_mark_of_the_dead(mark_in(name)) && entry.is_regular_file(ignored))
+      fs::remove(entry.path(), ignored);
+  }
+}
+
+// Once a folder, since a run writes thousands of files.
+void remove_abandoned_once(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> done;
+  const std::lock_guard lock(mutex);
+  if (done.insert(folder).second) remove_abandoned(folder);
+}
+
+// Waits until the disk has the content of a file or the names of a folder. Some file systems cannot; what
+// cannot be opened was read-only when it was made.
+bool is_on_disk(const fs::path& path) {
+  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  return !file.is_open() || ::fsync(file.get()) == 0 || errno == EINVAL || errno == EROFS;
+}
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
+
+// Why `path` cannot be replaced by `unfinished`; empty after it has been.
+std::string replace(const fs::path& unfinished, const fs::path& path, Flush flush) {
+  std::error_code failure;
+  const fs::file_status found = fs::status(path, failure);
+  if (fs::exists(found) && fs::is_other(found)) return "is a device or a pipe, which a file must not replace";
+  if (flush == Flush::kYes && !is_on_disk(unfinished)) return std::strerror(errno);
+  fs::rename(unfinished, path, failure);
+  if (failure) return failure.message();
+  if (flush == Flush::kYes) is_on_disk(folder_of(path));  // the file is there, whatever the answer
+  return "";
+}
+
+}  // namespace
+
+void require_regular_file(const fs::path& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) fail_to_read(path, std::strerror(errno));
+  if (!S_ISREG(found.st_mode))
+    throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(found.st_mode));
+}
+
+std::string read_file(const fs::path& path, std::uintmax_t largest) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) fail_to_read(path, std::strerror(errno));
+  require_readable(path, found);
+  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
+  // Looked at again, since the name may lead elsewhere by now.
+  if (!file.is_open() || ::fstat(file.get(), &found) != 0) fail_to_read(path, std::strerror(errno));
+  require_readable(path, found);
+  if (S_ISREG(found.st_mode) && static_cast<std::uintmax_t>(found.st_size) > largest)
+    fail_of_size(path, largest);
+  ::fcntl(file.get(), F_SETFL, 0);  // reads wait for the writer again
+  return content_of(file, path, largest);
+}
+
+fs::path unfinished_name(const fs::path& path) {
+  remove_abandoned_once(folder_of(path));
+  const std::string name =
+      "." + path.stem().string() + std::string(kUnfinished) + process_mark() + path.extension().string();
+  return path.parent_path() / name;
+}
+
+std::string with_final_name(std::string message, const fs::path& unfinished, const fs::path& path) {
+  const std::string name = unfinished.filename().string(), final_name = path.filename().string();
+  for (std::size_t at = message.find(name); at != std::string::npos;
+       at = message.find(name, at + final_name.size()))
+    message.replace(at, name.size(), final_name);
+  return message;
+}
+
+void commit_file(const fs::path& unfinished, const fs::path& path, Flush flush) {
+  const std::string reason = replace(unfinished, path, flush);
+  if (reason.empty()) return;
+  std::error_code ignored;
+  fs::remove(unfinished, ignored);
+  fail_to_write(path, reason);
+}
+
+void create_parent(const fs::path& path) {
+  const fs::path parent = path.parent_path();
+  if (parent.empty()) return;
+  std::error_code failure;
+  fs::create_directories(parent, failure);
+  if (failure || !fs::is_directory(parent)) {
+    const std::string reason = failure ? failure.message() : "not a folder";
+    throw Error(ErrorKind::kOutput, parent.string() + ": folder cannot be created: " + reason);
+  }
+}
+
+void write_file(const fs::path& path, std::string_view content, Flush flush) {
+  create_parent(path);
+  const fs::path unfinished = unfinished_name(path);
+  std::FILE* file = std::fopen(unfinished.c_str(), "wb");
+  if (file == nullptr) fail_to_write(path, std::strerror(errno));
+  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
+  const int write_failure = errno;
+  const bool closed = std::fclose(file) == 0;
+  if (!written || !closed) {
+    const int failure = written ? errno : write_failure;
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    fail_to_write(path, std::strerror(failure));
+  }
+  commit_file(unfinished, path, flush);
+}
+
+void flush_to_disk(const fs::path& path, const fs::path& shown) {
+  if (!is_on_disk(path)) fail_to_write(shown, std::strerror(errno));
+}
+
+fs::path copy_unfinished(const fs::path& from, const fs::path& to) {
+  std::error_code failure;
+  if (!fs::is_regular_file(from, failure))
+    throw Error(ErrorKind::kInput,
+                from.string() + ": cannot be copied: " + (failure ? failure.message() : "not a file"));
+  const fs::path unfinished = unfinished_name(to);
+  fs::copy_file(from, unfinished, fs::copy_options::overwrite_existing, failure);
+  if (failure) {
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    throw Error(ErrorKind::kOutput,
+                to.string() + ": cannot be copied from " + from.string() + ": " + failure.message());
+  }
+  return unfinished;
+}
+
+void copy_whole_file(const fs::path& from, const fs::path& to) { commit_file(copy_unfinished(from, to), to); }
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  if (a == b || std::filesystem::equivalent(a, b, ignored)) return true;
+  const std::filesystem::path canonical_a = std::filesystem::weakly_canonical(a, ignored),
+                              canonical_b = std::filesystem::weakly_canonical(b, ignored);
+  return !canonical_a.empty() && canonical_a == canonical_b;
+}
+
+}  // namespace remap

@@ -1,0 +1,88 @@
+// Reads JSON files strictly: every value of the wrong kind is an error that names its place in the file.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/json.hpp"
+#include "remap/model.hpp"
+
+namespace remap {
+
+// Values within values. Files of this project nest six deep; printing and destroying a value takes stack for
+// each level, of which 65,000 are too many.
+inline constexpr std::size_t kDeepestJson = 100;
+// A megabyte of text becomes up to 20 of memory. The largest fit that ships, a warp, has 0.3.
+inline constexpr std::size_t kLongestJson = std::size_t{64} << 20;
+// Entries of a list: more numbers than any limit of a fit allows.
+inline constexpr std::size_t kMostEntries = 100'000;
+// Remarks, methods and comments are read by people, and become comments of headers.
+inline constexpr std::size_t kMostLines = 1000, kLongestLine = 10'000;
+// Whether brackets nest deeper than kDeepestJson. `text` need not be valid.
+bool is_nested_too_deep(std::string_view text);
+
+// Every JSON text that this project reads is read here. Throws kInput, beginning with `place`, if `text` is
+// not valid JSON, and for text beyond the limits above.
+Json parse_json(std::string_view text, const std::string& place);
+
+// A JSON value and its place, such as `fit.json.domain.alpha`, which every error begins with.
+class Field {
+ public:
+  Field(const Json& value, std::string place) : value_(value), place_(std::move(place)) {}
+
+  Field operator[](const std::string& key) const;
+  bool contains(std::string_view key) const { return value_.contains(key); }
+  Field at(std::size_t index, std::size_t count) const;
+  // Reads every entry of a list of at least `fewest` and at most `most` entries.
+  template <typename Read>
+  auto list(std::size_t fewest, Read read, std::size_t most = kMostEntries) const {
+    const std::size_t count = entry_count(fewest, most);
+    std::vector<decltype(read(*this))> entries;
+    for (std::size_t i = 0; i < count; ++i) entries.push_back(read(at(i, count)));
+    return entries;
+  }
+  std::vector<double> numbers(std::size_t fewest) const;
+  // A few lines for people.
+  std::vector<std::string> texts() const;
+  // A text that is short.
+  std::string line() const;
+  const Json& json() const { return value_; }
+  const std::string& place() const { return place_; }
+  std::string text() const;
+  // A text of any characters: a name of a file, or what plain() makes fit to be shown.
+  const std::string& any_text() const;
+  // The value of the enumeration that the text names; `expected` lists the names.
+  template <typename Value, std::size_t Count>
+  Value named(const NamedValues<Value, Count>& table, const std::string& expected) const {
+    const auto value = value_named(table, text());
+    require(value.has_value(), expected);
+    return *value;
+  }
+  double number() const;
+  // Of a field that may be missing, which is false.
+  bool flag(const std::string& key) const;
+  bool is_null() const { return value_.is_null(); }
+  std::int64_t count() const;
+  template <typename Value, typename Read>
+  std::map<std::string, Value> dictionary(Read read) const {
+    std::map<std::string, Value> entries;
+    for (const auto& [key, value] : entry_fields()) entries[key] = read(Field(value, place_ + "." + key));
+    return entries;
+  }
+  std::map<std::string, std::string> text_dictionary() const;
+  // Throws `place: expected EXPECTED, found VALUE`.
+  void require(bool condition, const std::string& expected) const;
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  std::size_t entry_count(std::size_t fewest, std::size_t most) const;
+  const Json::Object& entry_fields() const;
+
+  const Json& value_;
+  std::string place_;
+};
+
+}  // namespace remap

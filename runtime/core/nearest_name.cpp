@@ -1,0 +1,58 @@
+#include "core/nearest_name.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace remap {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> distance(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) distance[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) distance[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+      std::size_t best =
+          std::min({distance[i - 1][j] + 1, distance[i][j - 1] + 1, distance[i - 1][j - 1] + change});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) best = std::min(best, distance[i - 2][j - 2] + 1);
+      distance[i][j] = best;
+    }
+  }
+  return distance[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
+  std::string nearest;
+  std::size_t smallest = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (2 * distance > std::max(name.size(), candidate.size())) continue;
+    if (nearest.empty() || distance < smallest) {
+      nearest = candidate;
+      smallest = distance;
+    }
+  }
+  return nearest;
+}
+
+std::string closest_name(std::string_view name, std::span<const std::string> candidates) {
+  const auto nearer = [name](const std::string& a, const std::string& b) {
+    return edit_distance(name, a) < edit_distance(name, b);
+  };
+  return *std::min_element(candidates.begin(), candidates.end(), nearer);
+}
+
+std::string suggestion(std::string_view name, std::span<const std::string> candidates) {
+  if (const std::string nearest = nearest_name(name, candidates); !nearest.empty())
+    return " (did you mean " + nearest + "?)";
+  if (candidates.empty()) return "";
+  std::string text = " (choose ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) text += (i == 0 ? "" : ", ") + candidates[i];
+  return text + ")";
+}
+
+}  // namespace remap

@@ -1,0 +1,118 @@
+#include "core/number_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+#include "remap/error.hpp"
+
+namespace remap {
+namespace {
+
+#if defined(__cpp_lib_to_chars)
+
+// The shortest decimal number that is read back as `value`.
+template <typename Float>
+std::string shortest(Float value) {
+  std::array<char, 64> buffer;
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+}
+
+std::string scientific(double value, int digits) {
+  std::array<char, 40> buffer;
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                       std::chars_format::scientific, digits - 1)
+                             .ptr};
+}
+
+// The number at the start of `text`, and the length of its text; 0 if there is none.
+std::size_t read(std::string_view text, double* value) {
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), *value);
+  return failure == std::errc() ? static_cast<std::size_t>(end - text.data()) : 0;
+}
+
+#else  // libc++ before 20: by the C library, in the locale "C", which none of the programs changes
+
+std::string printed(const char* format, int digits, double value) {
+  std::array<char, 400> buffer;
+  std::snprintf(buffer.data(), buffer.size(), format, digits, value);
+  return buffer.data();
+}
+
+// As to_chars: of the texts with the fewest digits the shortest, with an exponent only where that is shorter.
+template <typename Float>
+std::string shortest(Float value) {
+  const double number = static_cast<double>(value);
+  if (!std::isfinite(value)) return printed("%.*f", 0, number);
+  int digits = 1;
+  const auto is_read_back = [&](const std::string& text) {
+    return static_cast<Float>(std::strtod(text.c_str(), nullptr)) == value;
+  };
+  while (!is_read_back(printed("%.*e", digits - 1, number))) ++digits;
+  const std::string exponent = printed("%.*e", digits - 1, number);
+  const int power = std::atoi(exponent.c_str() + exponent.find('e') + 1);
+  const std::string plain = printed("%.*f", std::max(0, digits - 1 - power), number);
+  return plain.size() <= exponent.size() ? plain : exponent;
+}
+
+std::string scientific(double value, int digits) { return printed("%.*e", digits - 1, value); }
+
+std::size_t read(std::string_view text, double* value) {
+  // strtod takes what from_chars does not: spaces and a sign before the number, and hexadecimal numbers.
+  if (text.find_first_of(" \t\n\v\f\r+") == 0 || text.find_first_of("xX") != std::string_view::npos) return 0;
+  const std::string ended(text);
+  char* end = nullptr;
+  errno = 0;
+  *value = std::strtod(ended.c_str(), &end);
+  const bool is_out_of_range = errno == ERANGE && (*value == 0.0 || !std::isfinite(*value));
+  return is_out_of_range ? 0 : static_cast<std::size_t>(end - ended.c_str());
+}
+
+#endif
+
+}  // namespace
+
+std::string number_text(double value) { return shortest(value); }
+
+double rounded_up(double value, int digits) {
+  if (value == 0.0 || !std::isfinite(value)) return value;
+  const double magnitude = std::floor(std::log10(std::fabs(value)));
+  const double scale = std::pow(10.0, digits - 1 - magnitude);
+  // The margin absorbs rounding errors of the scaling: 0.07 becomes 7.000000000000001 hundredths.
+  const double scaled = std::ceil(std::fabs(value) * scale * (1.0 - 1e-14));
+  return std::copysign(scale >= 1.0 ? scaled / scale : scaled * std::pow(10.0, magnitude - digits + 1),
+                       value);
+}
+
+double rounded(double value, int digits) { return parse_number(scientific(value, digits)).value_or(value); }
+
+// The float lies in memory: gcc 12 at -O3 drops the rounding of two neighbours that it converts as a vector.
+double rounded_to_float(double value) {
+  const volatile float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded);
+}
+
+double decimal_value(float value) {
+  return parse_number(shortest(value)).value_or(static_cast<double>(value));
+}
+
+std::string float_literal(float value) {
+  if (!std::isfinite(value)) throw Error(ErrorKind::kNumeric, "emit: a coefficient is not finite");
+  std::string text = shortest(value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text + "f";
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0.0;
+  if (text.empty() || read(text, &value) != text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace remap

@@ -1,0 +1,88 @@
+#include "core/plain_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+namespace remap {
+namespace {
+
+// A character of UTF-8, or a byte that is part of none.
+struct Character {
+  std::size_t bytes = 1;
+  bool is_valid = false;
+  std::uint32_t code = 0;
+};
+
+// The least codes of characters of one to four bytes: a longer form of a code is no UTF-8.
+constexpr std::array<std::uint32_t, 4> kLeastCodes = {0, 0x80, 0x800, 0x10000};
+
+std::size_t byte_count(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first < 0xe0) return 2;
+  if (first >= 0xe0 && first < 0xf0) return 3;
+  return first >= 0xf0 && first < 0xf5 ? 4 : 0;
+}
+
+Character first_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t count = byte_count(byte(0));
+  if (count == 0 || count > text.size()) return {1, false, byte(0)};
+  std::uint32_t code = count == 1 ? byte(0) : byte(0) & (0x7fu >> count);
+  for (std::size_t i = 1; i < count; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return {1, false, byte(0)};
+    code = code << 6 | (byte(i) & 0x3fu);
+  }
+  const bool is_surrogate = code >= 0xd800 && code < 0xe000;
+  if (code < kLeastCodes[count - 1] || code > 0x10ffff || is_surrogate) return {1, false, byte(0)};
+  return {count, true, code};
+}
+
+bool is_plain(const Character& character) {
+  using Codes = std::pair<std::uint32_t, std::uint32_t>;
+  // Control characters; marks of direction (Unicode, Bidi_Control); breaks of lines and paragraphs; the mark
+  // of byte order.
+  constexpr std::array<Codes, 7> kRefused = {Codes{0x00, 0x1f}, {0x7f, 0x9f},     {0x061c, 0x061c},
+                                             {0x200e, 0x200f},  {0x2028, 0x202e}, {0x2066, 0x2069},
+                                             {0xfeff, 0xfeff}};
+  const std::uint32_t code = character.code;
+  return character.is_valid && std::none_of(kRefused.begin(), kRefused.end(), [code](const Codes& codes) {
+           return code >= codes.first && code <= codes.second;
+         });
+}
+
+std::string escape_of(const Character& character) {
+  std::string digits;
+  for (std::uint32_t code = character.code; code != 0 || digits.size() < 2; code >>= 4)
+    digits.insert(digits.begin(), "0123456789abcdef"[code & 15u]);
+  const bool is_byte = !character.is_valid || character.code < 0x80;
+  return (is_byte ? "\\x" : "\\u") + std::string(is_byte || digits.size() >= 4 ? 0 : 4 - digits.size(), '0') +
+         digits;
+}
+
+}  // namespace
+
+bool is_plain_text(std::string_view text) {
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    if (!is_plain(character)) return false;
+    text.remove_prefix(character.bytes);
+  }
+  return true;
+}
+
+std::string plain(std::string_view text, std::size_t longest) {
+  std::string result;
+  std::size_t whole = 0;  // bytes of `result` that leave room for the dots
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    result += is_plain(character) ? std::string(text.substr(0, character.bytes)) : escape_of(character);
+    if (result.size() > longest) return result.substr(0, whole) + "...";
+    if (result.size() + 3 <= longest) whole = result.size();
+    text.remove_prefix(character.bytes);
+  }
+  return result;
+}
+
+}  // namespace remap

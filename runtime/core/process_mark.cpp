@@ -1,0 +1,52 @@
+#include "core/process_mark.hpp"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <unistd.h>
+
+namespace remap {
+namespace {
+
+constexpr std::size_t kTagDigits = 8;
+
+// The machine, and the space in which the numbers of its processes are unique.
+std::string place_of_processes() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  std::error_code ignored;
+  return host.data() + std::string("/") +
+         std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
+}
+
+// FNV-1a, 32 bits (Fowler, Noll, Vo 1991), in hexadecimal digits.
+std::string tag_of(const std::string& text) {
+  std::uint32_t hash = 0x811c9dc5u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;
+  std::string tag(kTagDigits, '0');
+  for (std::size_t i = kTagDigits; i-- > 0; hash >>= 4) tag[i] = "0123456789abcdef"[hash & 15u];
+  return tag;
+}
+
+const std::string& own_tag() {
+  static const std::string tag = tag_of(place_of_processes()) + "-";
+  return tag;
+}
+
+}  // namespace
+
+std::string process_mark() { return own_tag() + std::to_string(::getpid()); }
+
+bool is_mark_of_the_dead(std::string_view mark) {
+  if (!mark.starts_with(own_tag())) return false;
+  mark.remove_prefix(own_tag().size());
+  pid_t process = 0;
+  const auto [end, failure] = std::from_chars(mark.data(), mark.data() + mark.size(), process);
+  if (failure != std::errc() || end != mark.data() + mark.size() || process <= 0) return false;
+  return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+}  // namespace remap

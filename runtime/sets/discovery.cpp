@@ -1,0 +1,187 @@
+#include "sets/discovery.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// A map of a folder, with the ways to read its name.
+struct NamedMap {
+  TileGroup files;
+  std::vector<NameReading> readings;
+  std::size_t chosen = 0;  // index of the chosen reading
+  bool numbered = false;   // the number before the word belongs to the name of the set
+
+  const NameReading& reading() const { return readings[chosen]; }
+  const std::string& stem() const { return numbered ? reading().numbered_stem : reading().stem; }
+};
+
+// The name without extension and tile, for Naming::read().
+std::string readable_name(const TileGroup& files) {
+  const auto without_extension = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
+  if (!files.pattern) return without_extension(files.name);
+  const std::string after = without_extension(files.pattern->after);
+  const bool doubled = !files.pattern->before.empty() && !after.empty();  // the separators around the tile
+  return files.pattern->before + (doubled ? after.substr(1) : after);
+}
+
+// Prefers a shorter word if only its stem belongs to another map: in dark_metallic_roughness the longer word
+// may have taken the end of the set's name. Doubtful readings are dropped unless another map has their stem.
+void choose_readings(std::vector<NamedMap>& maps) {
+  std::map<std::string, int> map_counts;
+  for (const NamedMap& map : maps) ++map_counts[map.readings.front().stem];
+  for (NamedMap& map : maps) {
+    if (map_counts[map.readings.front().stem] > 1) continue;
+    for (std::size_t i = 1; i < map.readings.size() && map.chosen == 0; ++i)
+      if (map_counts.contains(map.readings[i].stem)) map.chosen = i;
+    if (map.chosen == 0)
+      std::erase_if(map.readings, [](const NameReading& reading) { return reading.doubtful; });
+  }
+}
+
+// In wood_512_rough and wood_1024_rough the numbers distinguish sets, so they are not resolutions.
+void choose_stems(std::vector<NamedMap>& maps) {
+  std::map<std::pair<std::string, std::vector<ChannelMeaning>>, std::set<std::string>> numbered_stems;
+  std::set<std::string> numbered;
+  for (const NamedMap& map : maps) {
+    std::set<std::string>& stems = numbered_stems[{map.stem(), map.reading().meaning}];
+    stems.insert(map.reading().numbered_stem);
+    if (stems.size() > 1) numbered.insert(map.stem());
+  }
+  for (NamedMap& map : maps) map.numbered = numbered.contains(map.stem());
+}
+
+FoundMap found_map(const fs::path& folder, const NamedMap& map) {
+  const fs::path path = folder / map.files.name;
+  FoundMap found{path, map.files.pattern, {}, map.reading().habit, map.reading().meaning, false};
+  for (const int number : map.files.numbers)
+    found.tiles.push_back({number, folder / tile_name(*map.files.pattern, number)});
+  found.is_converted = std::any_of(
+      found.meaning.begin(), found.meaning.end(),
+      [](const ChannelMeaning& entry) { return tells_width(entry.role) || entry.role == Role::kSpecular; });
+  return found;
+}
+
+std::string place_of(const FoundSet& set) { return shown(set.folder / set.name); }
+
+// The only candidate for a role. Several candidates make the set faulty.
+std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std::string& what) {
+  const std::vector<MapUse> candidates = uses(set, wanted);
+  if (candidates.size() == 1) return candidates.front();
+  if (candidates.size() > 1) {
+    set.state = SetState::kFaulty;
+    set.remarks.push_back(place_of(set) + ": " + too_many_text(set, candidates, what));
+  }
+  return std::nullopt;
+}
+
+void judge(FoundSet& set) {
+  set.width = single_use(set, tells_width, "roughness");
+  set.specular = single_use(set, is<Role::kSpecular>, "specular");
+  if (set.state == SetState::kFaulty || set.width) return;
+  set.state = SetState::kSkipped;
+  std::string squared;
+  for (const MapUse& use : uses(set, is<Role::kGlossinessSquared>))
+    squared = " (" + shown(set.maps[use.map].path.filename()) +
+              " holds the square of glossiness, which is not converted; take its root, or export glossiness)";
+  set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found" + squared);
+}
+
+// Adds the sets of one folder.
+void add_sets(const ImageFolder& folder, const std::string& folder_name, const Naming& naming,
+              Discovery& discovery) {
+  std::vector<NamedMap> maps;
+  for (TileGroup& files : group_tiles(folder.images)) {
+    std::vector<NameReading> readings = naming.read(readable_name(files));
+    if (readings.empty())
+      discovery.unrecognised.push_back(folder.path / files.name);
+    else
+      maps.push_back({std::move(files), std::move(readings)});
+  }
+  choose_readings(maps);
+  std::erase_if(maps, [&](const NamedMap& map) {
+    if (map.readings.empty()) discovery.unrecognised.push_back(folder.path / map.files.name);
+    return map.readings.empty();
+  });
+  choose_stems(maps);
+
+  std::map<std::string, FoundSet> sets;
+  for (const NamedMap& map : maps) {
+    FoundSet& set = sets[map.stem()];
+    set.name = map.stem().empty() ? folder_name : map.stem();
+    set.folder = folder.path;
+    set.maps.push_back(found_map(folder.path, map));
+  }
+  for (auto& [stem, set] : sets) {
+    std::stable_partition(set.maps.begin(), set.maps.end(),
+                          [](const FoundMap& map) { return map.is_converted; });
+    judge(set);
+    discovery.sets.push_back(std::move(set));
+  }
+}
+
+// The last name of a path, after `.` and `..` are resolved.
+std::string last_name(const fs::path& path) {
+  std::error_code failure;
+  const fs::path whole = fs::weakly_canonical(path, failure);
+  const fs::path& named = failure ? path : whole;
+  return named.filename().empty() ? named.parent_path().filename().string() : named.filename().string();
+}
+
+}  // namespace
+
+std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role)) {
+  std::vector<MapUse> found;
+  for (std::size_t i = 0; i < set.maps.size(); ++i)
+    for (const ChannelMeaning& entry : set.maps[i].meaning)
+      if (wanted(entry.role)) found.push_back({i, entry.channels, entry.role});
+  return found;
+}
+
+std::vector<std::string> channel_names(Channels channels) {
+  if (channels == Channels::kWhole) return {};
+  if (channels == Channels::kRgb) return {"R", "G", "B"};
+  return {std::string(name_of(kChannels, channels))};
+}
+
+std::optional<RoughnessConvention> convention_of(Role role) {
+  if (role == Role::kGlossiness) return RoughnessConvention::kGlossiness;
+  if (role == Role::kAlphaWidth) return RoughnessConvention::kAlpha;
+  return std::nullopt;
+}
+
+std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what) {
+  std::string text;
+  for (const MapUse& use : found) {
+    text += (text.empty() ? "" : ", ") + shown(set.maps[use.map].path.filename()) + " (";
+    text += role_name(use.role);
+    if (use.channels != Channels::kWhole) text += " in " + std::string(name_of(kChannels, use.channels));
+    text += ")";
+  }
+  return std::to_string(found.size()) + " " + what + " maps found: " + text + "; keep one";
+}
+
+Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
+  const Naming& naming = options.naming != nullptr ? *options.naming : built_in_naming();
+  Walk walk = walk_images(root, options);
+  Discovery discovery;
+  discovery.problems = std::move(walk.problems);
+  for (const ImageFolder& folder : walk.folders)
+    add_sets(folder, folder.path.empty() ? last_name(root) : folder.path.filename().string(), naming,
+             discovery);
+
+  const auto key = [](const FoundSet& set) { return (set.folder / set.name).string(); };
+  std::stable_sort(discovery.sets.begin(), discovery.sets.end(),
+                   [&](const FoundSet& a, const FoundSet& b) { return key(a) < key(b); });
+  const auto bytes = [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); };
+  std::sort(discovery.unrecognised.begin(), discovery.unrecognised.end(), bytes);
+  std::sort(discovery.problems.begin(), discovery.problems.end(),
+            [&](const WalkProblem& a, const WalkProblem& b) { return bytes(a.path, b.path); });
+  return discovery;
+}
+
+}  // namespace remap

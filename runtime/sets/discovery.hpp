@@ -1,0 +1,76 @@
+// Finds the texture sets of a folder or tree by the names of their maps.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "remap/model.hpp"
+#include "sets/folder_walk.hpp"
+#include "sets/naming.hpp"
+#include "sets/tiles.hpp"
+
+namespace remap {
+
+// One map of a set: a file, or the tiles of a pattern.
+struct FoundMap {
+  std::filesystem::path path;          // relative to the root; `<UDIM>` in the name stands for tiles
+  std::optional<TilePattern> pattern;  // of the file name
+  std::vector<Tile> tiles;             // by number, paths relative to the root; empty for a single file
+  std::string habit;
+  std::vector<ChannelMeaning> meaning;
+  bool is_converted = false;  // has roughness or specular; a conversion of these alone reads no other maps
+};
+
+// The map and channels that hold a role.
+struct MapUse {
+  std::size_t map = 0;  // index into FoundSet::maps
+  Channels channels = Channels::kWhole;
+  Role role = Role::kRoughness;
+};
+
+enum class SetState {
+  kReady,    // one roughness map and at most one specular map
+  kSkipped,  // nothing to convert; `remarks` has the reason
+  kFaulty,   // ambiguous; `remarks` lists the candidates
+};
+
+struct FoundSet {
+  std::string name;              // the stem of the files, or the folder's name if they have no stem
+  std::filesystem::path folder;  // relative to the root; empty for the root itself
+  SetState state = SetState::kReady;
+  std::vector<FoundMap> maps;        // maps that are converted, then the others, each by path
+  std::optional<MapUse> width;       // roughness, glossiness or alpha; set where ready
+  std::optional<MapUse> specular;    // none if the set has no specular map
+  std::vector<std::string> remarks;  // messages of one line about a skipped or faulty set
+};
+
+// All places in the maps of a set with a role that `wanted` accepts.
+std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
+// The channel names that a request uses; empty for the whole image.
+std::vector<std::string> channel_names(Channels channels);
+// The encoding of a map of this role; none for the roughness as the model defines it.
+std::optional<RoughnessConvention> convention_of(Role role);
+// `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep one`.
+std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
+
+struct DiscoveryOptions : WalkOptions {
+  const Naming* naming = nullptr;  // null for the built-in habits
+};
+
+struct Discovery {
+  std::vector<FoundSet> sets;                       // by folder and name, by bytes
+  std::vector<std::filesystem::path> unrecognised;  // images that no habit matches; tiles as one pattern
+  std::vector<WalkProblem> problems;                // folders and files that could not be read
+};
+
+// Finds the sets of a folder. The maps of a set lie in one folder and share a stem: the name without the word
+// of the map, resolution and tile. If a name can be read in two ways (dark_metallic_roughness), the longer
+// word wins, unless only the shorter one leaves the stem of another map. The result does not depend on the
+// order in which the system lists files. Throws kInput if the root cannot be read; all other problems are
+// part of the result.
+Discovery find_sets(const std::filesystem::path& root, const DiscoveryOptions& options);
+
+}  // namespace remap

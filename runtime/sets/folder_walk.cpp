@@ -1,0 +1,136 @@
+#include "sets/folder_walk.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <set>
+#include <string_view>
+#include <sys/stat.h>
+#include <system_error>
+
+#include "remap/error.hpp"
+#include "sets/name_pieces.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<std::string_view, 10> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
+                                                          "jpeg", "tga", "bmp",  "hdr", "tx"};
+
+bool is_image_name(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot == 0) return false;
+  const std::string extension = lower(name.substr(dot + 1));
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+using FolderIdentity = std::pair<dev_t, ino_t>;
+
+class Walker {
+ public:
+  Walker(const fs::path& root, const WalkOptions& options) : root_(root), recursive_(options.recursive) {
+    for (const fs::path& folder : options.excluded) {
+      struct stat status {};
+      if (::stat(folder.c_str(), &status) == 0) visited_.insert({status.st_dev, status.st_ino});
+    }
+    // The root is searched even if results go there, too.
+    struct stat status {};
+    if (::stat(root.c_str(), &status) == 0) visited_.erase({status.st_dev, status.st_ino});
+  }
+
+  Walk run() {
+    visit(fs::path());
+    if (!walk_.problems.empty() && !root_was_read_)
+      throw Error(ErrorKind::kInput, walk_.problems.front().message);
+    // Links come last, so that a folder below the root is found under its own name.
+    while (!folders_.empty() || !links_.empty()) {
+      std::set<std::string>& next = folders_.empty() ? links_ : folders_;
+      const fs::path folder = *next.begin();
+      next.erase(next.begin());
+      visit(folder);
+    }
+    return std::move(walk_);
+  }
+
+ private:
+  void visit(const fs::path& relative) {
+    const fs::path folder = relative.empty() ? root_ : root_ / relative;
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) != 0) {
+      add_problem(relative, std::generic_category().message(errno));
+      return;
+    }
+    if (!S_ISDIR(status.st_mode)) {
+      add_problem(relative, "not a folder");
+      return;
+    }
+    if (!visited_.insert({status.st_dev, status.st_ino}).second) return;
+
+    ImageFolder images{relative, {}};
+    std::error_code failure;
+    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
+         entry.increment(failure))
+      add_entry(*entry, images);
+    if (failure)
+      add_problem(relative, failure.message());
+    else
+      root_was_read_ = true;
+    if (images.images.empty()) return;
+    std::sort(images.images.begin(), images.images.end());
+    walk_.folders.push_back(std::move(images));
+  }
+
+  void add_entry(const fs::directory_entry& entry, ImageFolder& folder) {
+    const std::string name = entry.path().filename().string();
+    if (name.front() == '.') return;
+    const fs::path relative = folder.path / name;
+    std::error_code failure;
+    const bool link = entry.is_symlink(failure);
+    const fs::file_status status = entry.status(failure);
+    if (fs::is_directory(status)) {
+      if (recursive_) (link ? links_ : folders_).insert(relative.string());
+    } else if (is_image_name(name)) {
+      if (fs::is_regular_file(status))
+        folder.images.push_back(name);
+      else if (failure || !fs::exists(status))
+        add_problem(relative, failure ? failure.message() : "the link has no target");
+      else
+        add_problem(relative, "not a file");
+    }
+  }
+
+  void add_problem(const fs::path& relative, const std::string& reason) {
+    const fs::path place = relative.empty() ? root_ : root_ / relative;
+    walk_.problems.push_back({relative, shown(place) + ": cannot be read: " + reason});
+  }
+
+  fs::path root_;
+  bool recursive_ = true;
+  bool root_was_read_ = false;
+  std::set<FolderIdentity> visited_;
+  std::set<std::string> folders_;  // not yet visited
+  std::set<std::string> links_;
+  Walk walk_;
+};
+
+}  // namespace
+
+std::string shown(const std::filesystem::path& path) {
+  constexpr std::string_view kHexDigits = "0123456789abcdef";
+  std::string text;
+  for (const char c : path.string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n')
+      text += "\\n";
+    else if (byte < 0x20 || byte == 0x7f)
+      text += {'\\', 'x', kHexDigits[byte >> 4], kHexDigits[byte & 15u]};
+    else
+      text += c;
+  }
+  return text;
+}
+
+Walk walk_images(const fs::path& root, const WalkOptions& options) { return Walker(root, options).run(); }
+
+}  // namespace remap

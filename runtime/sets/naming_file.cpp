@@ -1,0 +1,139 @@
+// Reads naming habits from JSON: the built-in table and files that extend it.
+#include <algorithm>
+#include <set>
+
+#include "core/files.hpp"
+#include "core/json_field.hpp"
+#include "core/nearest_name.hpp"
+#include "sets/naming.hpp"
+
+namespace remap {
+
+// The text of naming.json, compiled in so that no file is needed at run time (naming_text.cpp.in).
+extern const std::string_view kNamingText;
+
+namespace {
+
+// Otherwise a mistyped optional field would go unnoticed.
+void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
+  field.require(field.json().fields() != nullptr, "an object");
+  for (const auto& [key, value] : *field.json().fields())
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      field.fail("unknown field '" + key + "'" + suggestion(key, known));
+}
+
+// The value of the enumeration that the text names; `noun` says what it is.
+template <typename Value, std::size_t Count>
+Value read_named(const Field& field, const NamedValues<Value, Count>& table, const std::string& noun) {
+  const std::string text = field.text();
+  if (const auto value = value_named(table, text)) return *value;
+  field.fail("unknown " + noun + " '" + text + "'" + suggestion(text, names_of(table)));
+}
+
+Role read_role(const Field& field) { return read_named(field, kRoles, "role"); }
+
+// A converter reads roughness and specular from one map each, so no rule may name one twice.
+void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meaning) {
+  const auto width = [](const ChannelMeaning& entry) { return tells_width(entry.role); };
+  const auto specular = [](const ChannelMeaning& entry) { return entry.role == Role::kSpecular; };
+  field.require(std::count_if(meaning.begin(), meaning.end(), width) <= 1,
+                "at most one of roughness, glossiness and alpha_width");
+  field.require(std::count_if(meaning.begin(), meaning.end(), specular) <= 1, "specular at most once");
+}
+
+std::vector<ChannelMeaning> read_channels(const Field& field) {
+  field.require(field.json().fields() != nullptr && !field.json().empty(),
+                "an object of channels and their roles");
+  std::vector<std::string> known = names_of(kChannels);
+  known.erase(known.begin());  // the whole map
+  refuse_unknown_fields(field, known);
+  const bool color = field.contains("RGB");
+  field.require(!color || (!field.contains("R") && !field.contains("G") && !field.contains("B")),
+                "RGB or its channels one by one");
+  std::vector<ChannelMeaning> meaning;
+  for (const auto& [channels, name] : kChannels)
+    if (const std::string key(name); field.contains(key))
+      meaning.push_back({channels, read_role(field[key])});
+  refuse_doubles(field, meaning);
+  return meaning;
+}
+
+std::string read_word(const Field& field) {
+  const std::string word = field.text();
+  field.require(!word_key(word).empty(), "a word");
+  field.require(!is_resolution(word) && !is_format_word(word),
+                "a word that is neither a resolution nor a format, which are skipped in every name");
+  return word;
+}
+
+NamingRule read_rule(const Field& field) {
+  refuse_unknown_fields(field, {"words", "ordinary", "role", "channels"});
+  field.require(field.contains("role") != field.contains("channels"), "either \"role\" or \"channels\"");
+  NamingRule rule;
+  rule.words = field["words"].list(1, read_word);
+  rule.ordinary = field.flag("ordinary");
+  if (field.contains("role"))
+    rule.meaning = {{Channels::kWhole, read_role(field["role"])}};
+  else
+    rule.meaning = read_channels(field["channels"]);
+  return rule;
+}
+
+Habit read_habit(const Field& field) {
+  refuse_unknown_fields(field, {"name", "camel_case", "resolution", "rules"});
+  Habit habit;
+  habit.name = field["name"].text();
+  field["name"].require(!habit.name.empty(), "a name");
+  habit.camel_case = field.flag("camel_case");
+  if (field.contains("resolution"))
+    habit.resolution = read_named(field["resolution"], kResolutionPlaces, "place of a resolution");
+  habit.rules = field["rules"].list(1, read_rule);
+
+  std::set<std::string> earlier;
+  for (const NamingRule& rule : habit.rules) {
+    std::set<std::string> own;
+    for (const std::string& word : rule.words) own.insert(word_key(word));
+    for (const std::string& key : own)
+      if (!earlier.insert(key).second) field.fail("two rules for the word '" + key + "' (keep one)");
+  }
+  return habit;
+}
+
+struct NamingTables {
+  std::vector<Habit> habits;
+  std::vector<std::string> ignored_words;
+};
+
+NamingTables read_tables(std::string_view text, const std::string& place) {
+  const Json json = parse_json(text, place);
+  const Field field(json, place);
+  refuse_unknown_fields(field, {"habits", "ignored_words"});
+  NamingTables tables;
+  tables.habits = field["habits"].list(1, read_habit);
+  if (field.contains("ignored_words")) tables.ignored_words = field["ignored_words"].list(0, read_word);
+  return tables;
+}
+
+}  // namespace
+
+const Naming& built_in_naming() {
+  static const Naming naming = [] {
+    NamingTables tables = read_tables(kNamingText, "naming.json");
+    for (Habit& habit : tables.habits) habit.built_in = true;
+    return Naming(std::move(tables.habits), std::move(tables.ignored_words));
+  }();
+  return naming;
+}
+
+Naming parse_naming(std::string_view text, const std::string& place) {
+  NamingTables tables = read_tables(text, place);
+  const Naming& built_in = built_in_naming();
+  tables.habits.insert(tables.habits.end(), built_in.habits().begin(), built_in.habits().end());
+  tables.ignored_words.insert(tables.ignored_words.end(), built_in.ignored_words().begin(),
+                              built_in.ignored_words().end());
+  return Naming(std::move(tables.habits), std::move(tables.ignored_words));
+}
+
+Naming read_naming(const std::filesystem::path& file) { return parse_naming(read_file(file), file.string()); }
+
+}  // namespace remap

@@ -1,0 +1,32 @@
+// The pass of a compiled warp over rows of texels.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#if defined(__clang__)  // silences the warning about loops that cannot be vectorised
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wpass-failed"
+#endif
+
+namespace remap::warp_code {
+// Each depends on those before it.
+// clang-format off
+#include "stages/code/floats.inc"
+#include "stages/code/rows.inc"
+#include "stages/code/appearance.inc"
+#include "stages/code/separable.inc"
+#include "stages/code/quadratic.inc"
+#include "stages/code/blended.inc"
+#include "stages/code/copied.inc"
+#include "stages/code/warp_block.inc"
+// clang-format on
+}  // namespace remap::warp_code
+
+#if defined(__clang__)
+#pragma clang diagnostic pop
+#endif

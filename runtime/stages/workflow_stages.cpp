@@ -1,0 +1,241 @@
+#include "stages/workflow_stages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "remap/error.hpp"
+#include "remap/workflow.hpp"
+
+namespace remap {
+namespace {
+
+using Colors = std::array<const float*, 3>;
+
+float held(float value) { return std::clamp(value, 0.0f, 1.0f); }
+
+class ToSpecular final : public Stage {
+ public:
+  ToSpecular(const WorkflowConversion& conversion, InstructionSet set)
+      : use_(conventions_of(conversion)), kernel_(kernels(set).to_specular) {}
+
+  std::size_t run(Block& block, std::uint8_t*) const override {
+    const Colors base = block.color(Parameter::kBaseColor);
+    const auto diffuse = block.make_color(Parameter::kDiffuse);
+    const auto specular = block.make_color(Parameter::kSpecular);
+    kernel_(use_, block.size(),
+            {base[0], base[1], base[2], block.row(Parameter::kMetallic), block.row(Parameter::kWidth)},
+            {diffuse[0], diffuse[1], diffuse[2], specular[0], specular[1], specular[2], block.make_unused()});
+    return 0;
+  }
+
+ private:
+  workflow_code::Conventions use_;
+  decltype(Kernels::to_specular) kernel_;
+};
+
+// Diffuse that counts what specular leaves to reflectance, or back. Where all light is reflected: black.
+class ScaleDiffuse final : public Stage {
+ public:
+  explicit ScaleDiffuse(DiffuseConvention to) : to_(to) {}
+
+  std::size_t run(Block& block, std::uint8_t*) const override {
+    const Colors specular = block.color(Parameter::kSpecular), diffuse = block.color(Parameter::kDiffuse);
+    const auto out = block.make_color(Parameter::kDiffuse);
+    std::array<float, kBlockTexels> left;
+    for (std::size_t i = 0; i < block.size(); ++i)
+      left[i] = 1.0f - held(std::max({specular[0][i], specular[1][i], specular[2][i]}));
+    for (std::size_t c = 3; c-- > 0;)  // red last: grey is its row, which may be the first of `out`
+      for (std::size_t i = 0; i < block.size(); ++i)
+        out[c][i] = to_ == DiffuseConvention::kScaled && left[i] > 0.0f ? diffuse[c][i] / left[i]
+                                                                        : diffuse[c][i] * left[i];
+    return 0;
+  }
+
+ private:
+  DiffuseConvention to_;
+};
+
+// The BRDF's stages between two metallic workflows. The dielectric of one is the dielectric of the other,
+// whose F0 is fixed: only the metal's share of specular follows the BRDF. Without this, a dielectric whose F0
+// the BRDF maps to another would become a little metallic. Where the law of specular is affine, metallic
+// comes out as it was.
+class KeepDielectrics final : public Stage {
+ public:
+  KeepDielectrics(const StageList& brdf, double source_f0, double target_f0)
+      : brdf_(brdf), source_f0_(static_cast<float>(source_f0)), target_f0_(static_cast<float>(target_f0)) {}
+
+  bool has_domain() const noexcept override { return true; }
+
+  std::size_t run(Block& block, std::uint8_t* outside) const override {
+    std::array<float, kBlockTexels> dielectric;
+    dielectric.fill(source_f0_);
+    MaterialRows<const float> in;
+    in[Parameter::kWidth] = {{block.row(Parameter::kWidth)}, 1};
+    in[Parameter::kSpecular] = {{dielectric.data()}, 1};
+    const MaterialRows<float> no_target;
+    Block mapped(in, no_target);
+    mapped.begin(0, block.size());
+    run_stages(brdf_, mapped, nullptr);
+    const float* const f0 = mapped.row(Parameter::kSpecular);
+
+    const std::size_t count = run_stages(brdf_, block, outside);
+    const float* const metallic = block.row(Parameter::kMetallic);
+    const Colors specular = block.color(Parameter::kSpecular);
+    const auto out = block.make_color(Parameter::kSpecular);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < block.size(); ++i)
+        out[c][i] = std::max(specular[c][i] - (1.0f - held(metallic[i])) * (f0[i] - target_f0_), 0.0f);
+    return count;
+  }
+
+  bool self_test() const override { return remap::self_test(brdf_); }
+
+ private:
+  StageList brdf_;
+  float source_f0_, target_f0_;
+};
+
+// To metallic by the projection, with what is asked for of its diagnosis.
+class Project final : public Stage {
+ public:
+  // `conversion`: by projection. `width`: the parameter that the block has; `conversion` has the same or, if
+  // its workflows do not know it, alpha.
+  Project(const WorkflowConversion& conversion, RoughnessConvention width, InstructionSet set)
+      : use_(conventions_of(conversion)),
+        prior_(static_cast<float>(std::get<Projection>(conversion.formula).prior)),
+        width_(width),
+        reads_alpha_(conversion.specular.width != width),
+        kernels_(kernels(set)) {}
+
+  std::size_t run(Block& block, std::uint8_t*) const override {
+    const Colors diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
+    const float* width = block.row(Parameter::kWidth);
+    std::array<float, kBlockTexels> alpha;
+    if (reads_alpha_) {
+      for (std::size_t i = 0; i < block.size(); ++i)
+        alpha[i] = static_cast<float>(to_alpha(width_, static_cast<double>(width[i])));
+      width = alpha.data();
+    }
+    const SpecularRows<const float> from = {diffuse[0],  diffuse[1],  diffuse[2], specular[0],
+                                            specular[1], specular[2], width};
+    const auto base = block.make_color(Parameter::kBaseColor);
+    const MetallicRows<float> to = {base[0], base[1], base[2], block.make(Parameter::kMetallic),
+                                    block.make_unused()};
+    kernels_.project(use_, prior_, block.size(), from, to);
+    if (block.has(Parameter::kMetalMask))
+      kernels_.follow(use_, block.size(), from, block.row(Parameter::kMetalMask), to);
+    if (block.is_wanted(Parameter::kResidual) || block.is_wanted(Parameter::kMetallicWidth) ||
+        block.is_wanted(Parameter::kDoubts))
+      kernels_.diagnose(use_, block.size(), from, {to[0], to[1], to[2], to[3], to[4]},
+                        {block.make(Parameter::kResidual), block.make(Parameter::kMetallicWidth),
+                         block.make(Parameter::kDoubts)});
+    return 0;
+  }
+
+ private:
+  workflow_code::Conventions use_;
+  float prior_;
+  RoughnessConvention width_;
+  bool reads_alpha_;
+  const Kernels& kernels_;
+};
+
+std::vector<Parameter> targets_of(const WorkflowEnd& end) {
+  std::vector<Parameter> targets = parameters_of(end);
+  if (kind_of(end) == WorkflowKind::kMetallic)
+    targets.insert(targets.end(), {Parameter::kResidual, Parameter::kMetallicWidth, Parameter::kDoubts});
+  return targets;
+}
+
+// `gltf-specgloss` as part of an id.
+std::string id_part(std::string model) {
+  std::replace_if(
+      model.begin(), model.end(), [](char c) { return c == '-' || c == '/' || c == '.'; }, '_');
+  return model;
+}
+
+ConverterInfo info_of(const WorkflowStages& stages, InstructionSet set) {
+  ConverterInfo info;
+  if (stages.brdf != nullptr) {
+    info = stages.brdf->info();
+    if (info.steps.empty()) info.steps = {info.id};
+  } else {
+    info.source.roughness = info.target.roughness = stages.width;
+    info.roughness = info.specular = {0.0, 1.0};
+    info.instructions = set;
+  }
+  info.id = id_part(model_of(stages.source)) + "_to_" + id_part(model_of(stages.target));
+  info.source.model = model_of(stages.source);
+  info.target.model = model_of(stages.target);
+  info.source.specular = kind_of(stages.source) == WorkflowKind::kSpecular ? "specular" : "base_color";
+  info.target.specular = kind_of(stages.target) == WorkflowKind::kSpecular ? "specular" : "base_color";
+  return info;
+}
+
+bool tells_alpha(RoughnessConvention width) {
+  return width == RoughnessConvention::kAlpha || width == RoughnessConvention::kRoughness ||
+         width == RoughnessConvention::kGlossiness;
+}
+
+// A metallic workflow and the specular one between the stages; both have the width of the block.
+WorkflowConversion conversion_of(const MetallicWorkflow& metallic, DiffuseConvention diffuse,
+                                 RoughnessConvention width, const WorkflowFormula& formula,
+                                 const std::string& place) {
+  WorkflowConversion made{{}, metallic, formula};
+  made.specular.diffuse = diffuse;
+  made.specular.width = made.metallic.width = width;
+  require_valid(made, place);
+  return made;
+}
+
+// Of diffuse between the stages: that of the specular end, so that a conversion without BRDF is the one of a
+// header, bit for bit; plain where specular changes on the way.
+DiffuseConvention diffuse_between(const WorkflowStages& stages) {
+  const bool is_one_way = kind_of(stages.source) != kind_of(stages.target);
+  if (stages.brdf != nullptr || !is_one_way) return DiffuseConvention::kPlain;
+  return diffuse_of(kind_of(stages.source) == WorkflowKind::kSpecular ? stages.source : stages.target);
+}
+
+}  // namespace
+
+std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
+  if (kind_of(end) == WorkflowKind::kSpecular)
+    return {Parameter::kWidth, Parameter::kSpecular, Parameter::kDiffuse};
+  return {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
+}
+
+std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
+                                            RoughnessConvention width, InstructionSet set,
+                                            const std::string& place) {
+  return std::make_shared<ToSpecular>(conversion_of(source, diffuse, width, Equation2{}, place), set);
+}
+
+std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages, InstructionSet set) {
+  ConverterInfo info = info_of(stages, set);
+  const RoughnessConvention target_width = info.target.roughness;
+  const RoughnessConvention width = tells_alpha(target_width) ? target_width : RoughnessConvention::kAlpha;
+  const DiffuseConvention between = diffuse_between(stages);
+  const auto* source = std::get_if<MetallicWorkflow>(&stages.source);
+  const auto* target = std::get_if<MetallicWorkflow>(&stages.target);
+  StageList list;
+  if (source != nullptr)
+    list.push_back(specular_stage(*source, between, width, set, info.id));
+  else if (diffuse_of(stages.source) != between)
+    list.push_back(std::make_shared<ScaleDiffuse>(between));
+  const StageList brdf = stages.brdf == nullptr ? StageList{} : stages.brdf->stages();
+  if (!brdf.empty() && source != nullptr && target != nullptr)
+    list.push_back(std::make_shared<KeepDielectrics>(brdf, source->dielectric_f0, target->dielectric_f0));
+  else
+    list.insert(list.end(), brdf.begin(), brdf.end());
+  if (target != nullptr)
+    list.push_back(std::make_shared<Project>(
+        conversion_of(*target, between, width, Projection{stages.prior}, info.id), target_width, set));
+  else if (diffuse_of(stages.target) != between)
+    list.push_back(std::make_shared<ScaleDiffuse>(diffuse_of(stages.target)));
+  return std::make_unique<Converter>(std::move(info), parameters_of(stages.source), targets_of(stages.target),
+                                     std::move(list));
+}
+
+}  // namespace remap

@@ -1,0 +1,42 @@
+// What a program gets from the module.
+#include "remap/version.hpp"
+#include "texture/openimageio/openimageio.hpp"
+
+namespace remap {
+namespace {
+
+class OpenImageIo : public ImageLibrary {
+ public:
+  void set_thread_count(int count) const override {
+    OIIO::attribute("threads", count);
+    // With -1 OpenEXR works in the calling thread; with 1 it would start a thread while the caller waits.
+    OIIO::attribute("exr_threads", count == 1 ? -1 : count);
+  }
+  std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const override {
+    return open_image(path, part);
+  }
+  std::unique_ptr<NewImage> create(const std::filesystem::path& path,
+                                   const std::vector<NewPart>& parts) const override {
+    return create_image(path, parts);
+  }
+  Picture read_picture(const std::filesystem::path& path) const override { return read_picture(path); }
+  void write_exr(const std::filesystem::path& path, const Picture& picture,
+                 const std::map<std::string, std::string>& attributes) const override {
+    write_exr_picture(path, picture, attributes);
+  }
+  void write_png(const std::filesystem::path& path, const Picture& picture) const override {
+    write_png_picture(path, picture);
+  }
+  std::string png_bytes(const Picture& picture) const override { return png_picture_bytes(picture); }
+};
+
+}  // namespace
+
+// The only symbol that the module shows.
+extern "C" __attribute__((visibility("default"))) const ImageLibrary* remap_image_library(
+    const char* version) {
+  static const OpenImageIo library;
+  return std::string(version) == kVersion ? &library : nullptr;
+}
+
+}  // namespace remap

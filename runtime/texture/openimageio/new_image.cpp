@@ -1,0 +1,235 @@
+// Writes images.
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <OpenImageIO/filesystem.h>
+
+#include "core/files.hpp"
+#include "remap/error.hpp"
+#include "texture/openimageio/openimageio.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// A file that remembers its first write failure, because some encoders ignore failures (libpng) or end the
+// process (libjpeg). It reports success to the encoder; the writer checks for a failure after every band.
+class CheckedFile : public OIIO::Filesystem::IOProxy {
+ public:
+  explicit CheckedFile(const fs::path& path)
+      : IOProxy(path.string(), Write), file_(std::fopen(path.c_str(), "wb")) {
+    if (file_ == nullptr) note_failure();
+  }
+  ~CheckedFile() override { close_file(); }
+  CheckedFile(const CheckedFile&) = delete;
+  CheckedFile& operator=(const CheckedFile&) = delete;
+
+  const char* proxytype() const override { return "checked"; }
+  bool opened() const override { return file_ != nullptr; }
+  std::int64_t tell() override { return static_cast<std::int64_t>(::ftello(file_)); }
+  bool seek(std::int64_t offset) override {
+    if (::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0) note_failure();
+    return true;
+  }
+  std::size_t write(const void* buffer, std::size_t size) override {
+    if (size > 0 && std::fwrite(buffer, 1, size, file_) != size) note_failure();
+    end_ = std::max(end_, tell());
+    return size;
+  }
+  std::size_t size() const override { return static_cast<std::size_t>(end_); }  // footers are written here
+  void flush() const override { std::fflush(file_); }
+
+  void close_file() {
+    if (file_ != nullptr && std::fclose(file_) != 0) note_failure();
+    file_ = nullptr;
+  }
+  // The reason of the first failure; empty without a failure.
+  const std::string& failure() const noexcept { return failure_; }
+
+ private:
+  void note_failure() {
+    if (failure_.empty()) failure_ = std::strerror(errno);
+  }
+  std::FILE* file_;
+  std::int64_t end_ = 0;
+  std::string failure_;
+};
+
+bool same_storage(const ImageLayout& a, const ImageLayout& b) {
+  return a.width == b.width && a.height == b.height && same_pixel_types(a, b);
+}
+
+class OpenedNewImage : public NewImage {
+ public:
+  OpenedNewImage(const fs::path& path, const std::vector<NewPart>& parts) : path_(path) { plan(parts); }
+  ~OpenedNewImage() override {
+    output_.reset();
+    file_.reset();
+    std::error_code ignored;
+    if (!is_committed_ && !unfinished_.empty()) fs::remove(unfinished_, ignored);
+  }
+  OpenedNewImage(const OpenedNewImage&) = delete;
+  OpenedNewImage& operator=(const OpenedNewImage&) = delete;
+
+  const fs::path& path() const noexcept override { return path_; }
+  const ImageLayout& layout() const noexcept override { return layout_; }
+  int level_count(int part) const noexcept override {
+    return static_cast<int>(specs_[static_cast<std::size_t>(part)].size());
+  }
+  ImageLayout layout(int part) const override {
+    return layout_of(specs_[static_cast<std::size_t>(part)].front(), format_, path_);
+  }
+  void select(int part, int level) override;
+  void write_rows(int first_row, int row_count, const std::byte* texels) override;
+  void finish() override;
+  const fs::path& finished_file() const noexcept override { return unfinished_; }
+  void commit(Flush flush) override {
+    commit_file(unfinished_, path_, flush);
+    is_committed_ = true;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorKind::kOutput, path_.string() + ": " + what);
+  }
+  const OIIO::ImageSpec& spec() const {
+    return specs_[static_cast<std::size_t>(part_)][static_cast<std::size_t>(level_)];
+  }
+  void plan(const std::vector<NewPart>& parts);
+  void open();
+  void open_plane();
+  void check(bool done) const;
+  void check_finished() const;
+
+  fs::path path_;
+  fs::path unfinished_;
+  std::unique_ptr<CheckedFile> file_;
+  std::unique_ptr<OIIO::ImageOutput> output_;  // declared after `file_`, which it uses until its destructor
+  std::vector<std::vector<OIIO::ImageSpec>> specs_;  // of every level of every part
+  int part_ = 0;
+  int level_ = 0;
+  std::string format_;  // name in OpenImageIO
+  ImageLayout layout_;  // of the selected plane
+  bool is_open_ = false;
+  bool plane_is_open_ = false;
+  bool is_committed_ = false;
+};
+
+// Prepares everything without opening the encoder: libpng prints errors if it is opened and gets no texels.
+void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
+  output_ = OIIO::ImageOutput::create(path_.string());
+  if (!output_) {
+    (void)OIIO::geterror();
+    fail("unknown image format (use .exr, .tif, .png, ...)");
+  }
+  if (parts.size() > 1 && !output_->supports("multiimage"))
+    fail(std::string("format ") + output_->format_name() + " cannot hold " + std::to_string(parts.size()) +
+         " parts (use exr or tif)");
+  const std::string model_format = parts.front().model->layout().format;
+  for (const NewPart& part : parts) {
+    std::vector<OIIO::ImageSpec>& levels = specs_.emplace_back();
+    for (const OIIO::ImageSpec& model : followed_levels(*part.model)) {
+      levels.push_back(output_spec(model, model_format, *output_, part.changes, path_));
+      // TIFF has no mip levels. Textures store them as parts, which readers of textures treat as levels.
+      const bool has_levels =
+          output_->supports("mipmap") ||
+          (model_format == output_->format_name() && output_->supports("multiimage") && parts.size() == 1);
+      if (levels.back().tile_width == 0 || !has_levels) break;
+    }
+  }
+  format_ = output_->format_name();
+  layout_ = layout_of(spec(), format_, path_);
+  unfinished_ = unfinished_name(path_);
+  file_ = std::make_unique<CheckedFile>(unfinished_);
+  if (!file_->failure().empty()) fail("cannot be written: " + file_->failure());
+}
+
+void OpenedNewImage::open() {
+  // With a proxy, the TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data. Without
+  // one it reports write failures itself, except for the last bytes, which `check_finished` checks.
+  if (layout_.format == "tiff")
+    file_->close_file();
+  else
+    output_->set_ioproxy(file_.get());
+  if (specs_.size() > 1 && layout_.format == "openexr") {  // needs all parts at once
+    std::vector<OIIO::ImageSpec> firsts;
+    for (const auto& levels : specs_) firsts.push_back(levels.front());
+    check(output_->open(unfinished_.string(), static_cast<int>(firsts.size()), firsts.data()));
+  } else {
+    check(output_->open(unfinished_.string(), spec()));
+  }
+  is_open_ = true;
+}
+
+void OpenedNewImage::open_plane() {
+  if (!is_open_)
+    open();
+  else
+    check(output_->open(unfinished_.string(), spec(),
+                        level_ > 0 && output_->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel
+                                                                  : OIIO::ImageOutput::AppendSubimage));
+  if (!same_storage(layout_of(output_->spec(), output_->format_name(), path_), layout_))
+    fail("cannot be written: format " + layout_.format + " would change the pixel type");
+  plane_is_open_ = true;
+}
+
+// Throws if the system refused bytes or OpenImageIO failed.
+void OpenedNewImage::check(bool done) const {
+  const std::string message = output_ ? output_->geterror() : "";
+  if (!file_->failure().empty()) fail("cannot be written: " + file_->failure());
+  if (!done)
+    fail("cannot be written: " + with_final_name(first_line(message, "unknown reason"), unfinished_, path_));
+}
+
+// Reads the header of the closed file and, for TIFF, its last rows.
+void OpenedNewImage::check_finished() const {
+  try {
+    const auto image = open_image(unfinished_, part_);
+    image->select_level(level_);
+    if (!same_storage(image->layout(), layout_)) fail("was written, but reads back as a different image");
+    if (layout_.format != "tiff") return;
+    const int unit = std::max(layout_.tile_height, 1), first = (layout_.height - 1) / unit * unit;
+    const int row_count = layout_.height - first;
+    std::vector<std::byte> rows(static_cast<std::size_t>(row_count) * layout_.row_bytes());
+    image->read_rows(first, row_count, rows.data());
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kOutput) throw;
+    const std::string reason = std::string(error.what()).substr(unfinished_.string().size());
+    fail("cannot be written completely" + with_final_name(reason, unfinished_, path_));
+  }
+}
+
+void OpenedNewImage::select(int part, int level) {
+  part_ = part;
+  level_ = level;
+  plane_is_open_ = false;
+  layout_ = layout_of(spec(), format_, path_);
+}
+
+void OpenedNewImage::write_rows(int first_row, int row_count, const std::byte* texels) {
+  if (!plane_is_open_) open_plane();
+  const OIIO::ImageSpec& plane = spec();
+  const int begin = plane.y + first_row, end = begin + row_count;
+  check(plane.tile_width > 0 ? output_->write_tiles(plane.x, plane.x + plane.width, begin, end, plane.z,
+                                                    plane.z + 1, native_type(plane), texels)
+                             : output_->write_scanlines(begin, end, plane.z, native_type(plane), texels));
+}
+
+void OpenedNewImage::finish() {
+  const bool closed = output_->close();
+  check(closed);
+  output_.reset();  // the EXR writer keeps files with mip levels open until it is destroyed
+  file_->close_file();
+  check(true);
+  check_finished();
+}
+
+}  // namespace
+
+std::unique_ptr<NewImage> create_image(const fs::path& path, const std::vector<NewPart>& parts) {
+  return std::make_unique<OpenedNewImage>(path, parts);
+}
+
+}  // namespace remap

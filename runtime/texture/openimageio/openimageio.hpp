@@ -1,0 +1,55 @@
+// Shared by the files of the module of images, which alone include OpenImageIO.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+
+#include "texture/image_library.hpp"
+
+namespace remap {
+
+// The attribute that stops OpenImageIO from multiplying or dividing colors by alpha, because maps hold data.
+inline constexpr const char* kUnassociatedAlpha = "oiio:UnassociatedAlpha";
+
+// The first line of a message of OpenImageIO, or `otherwise` if the message is empty.
+std::string first_line(const std::string& text, const std::string& otherwise);
+
+// The note of results whose format has no tag for linear colors in whole numbers.
+inline constexpr const char* kNotedColorSpace = "remap:color_space";
+
+// The metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
+std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std::string& name);
+
+// The type for passing rows without conversion. Channels of several types need TypeUnknown, which the TIFF
+// writer of OpenImageIO 2.4 gets wrong at the right and lower edge of tiled images.
+OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
+
+// Throws kInput if a channel has an unsupported type.
+ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
+                      const std::filesystem::path& path);
+
+std::unique_ptr<StoredImage> open_image(const std::filesystem::path& path, int part);
+std::unique_ptr<NewImage> create_image(const std::filesystem::path& path, const std::vector<NewPart>& parts);
+
+// The levels of a stored image, as new images follow them.
+const std::vector<OIIO::ImageSpec>& followed_levels(const StoredImage& image);
+
+Picture read_picture(const std::filesystem::path& path);
+void write_exr_picture(const std::filesystem::path& path, const Picture& picture,
+                       const std::map<std::string, std::string>& attributes);
+void write_png_picture(const std::filesystem::path& path, const Picture& picture);
+std::string png_picture_bytes(const Picture& picture);
+
+// The description of a new file that follows `model` in everything except `changes`, as far as the format of
+// `output` can hold it. Throws kOutput, naming `path`, if it cannot hold the channels or the requested type.
+OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& model_format,
+                            const OIIO::ImageOutput& output, const ImageChanges& changes,
+                            const std::filesystem::path& path);
+
+}  // namespace remap

@@ -1,0 +1,274 @@
+// Reads images.
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <string_view>
+
+#include <OpenImageIO/strutil.h>
+
+#include "core/files.hpp"
+#include "core/plain_text.hpp"
+#include "remap/error.hpp"
+#include "texture/openimageio/openimageio.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// The name of a lossy compression; empty for a lossless one.
+std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& format) {
+  if (format == "jpeg" || format == "hdr") return format;
+  const std::string compression = spec.get_string_attribute("Compression");
+  for (const std::string_view lossy : {"dwaa", "dwab", "b44", "pxr24", "jpeg"}) {
+    if (compression.starts_with(lossy)) return compression.substr(0, compression.find(':'));
+  }
+  return "";
+}
+
+struct PngChunk {
+  std::string name;
+  std::uintmax_t end = 0;  // as it claims, in the file
+};
+
+// The chunks of a PNG before its pixels; none of another file.
+std::vector<PngChunk> leading_png_chunks(std::FILE* file) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  std::array<unsigned char, 8> head{};
+  const auto read_at = [&](std::uintmax_t place) {
+    return ::fseeko(file, static_cast<off_t>(place), SEEK_SET) == 0 &&
+           std::fread(head.data(), 1, head.size(), file) == head.size();
+  };
+  std::vector<PngChunk> chunks;
+  if (!read_at(0) ||
+      !std::equal(head.begin(), head.end(), kSignature.begin(),
+                  [](unsigned char byte, char letter) { return byte == static_cast<unsigned char>(letter); }))
+    return chunks;
+  for (std::uintmax_t place = kSignature.size(); read_at(place); place = chunks.back().end) {
+    const std::string name(reinterpret_cast<const char*>(head.data()) + 4, 4);
+    if (name == "IDAT") break;
+    std::uint32_t length = 0;  // big-endian
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | head[i];
+    chunks.push_back({name, place + length + 12});  // header and checksum
+  }
+  return chunks;
+}
+
+// What is wrong with the header of a BMP; empty for a good one and for another file. OpenImageIO reads beyond
+// its memory where the compression does not fit the number of bits.
+std::string fault_of_bmp(std::FILE* file) {
+  constexpr std::size_t kHead = 34, kBits = 28, kCompression = 30;
+  std::array<unsigned char, kHead> head{};
+  if (::fseeko(file, 0, SEEK_SET) != 0 || std::fread(head.data(), 1, kHead, file) != kHead ||
+      head[0] != 'B' || head[1] != 'M')
+    return "";
+  constexpr unsigned kSizeOfOldHeader = 12;  // which has no compression
+  if (head[14] == kSizeOfOldHeader) return "";
+  const auto number = [&head](std::size_t at) {  // of 16 bits
+    return static_cast<unsigned>(head[at]) | static_cast<unsigned>(head[at + 1]) << 8u;
+  };
+  const unsigned bits = number(kBits), compression = number(kCompression);
+  const bool fits = compression == 0 || (compression == 1 && bits == 8) || (compression == 2 && bits == 4) ||
+                    (compression == 3 && (bits == 16 || bits == 32));
+  if (fits && number(kCompression + 2) == 0) return "";
+  return "is damaged, or of an unknown kind: compression " + std::to_string(compression) + " of " +
+         std::to_string(bits) + " bits";
+}
+
+// OpenImageIO assumes sRGB for files of these formats without a color space.
+bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format,
+                       const std::vector<PngChunk>& chunks) {
+  if (format == "png")
+    return std::any_of(chunks.begin(), chunks.end(),
+                       [](const PngChunk& chunk) { return chunk.name == "sRGB" || chunk.name == "gAMA"; });
+  if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
+  return true;
+}
+
+// No valid file has more parts, but a damaged one may claim so.
+constexpr int kMostParts = 4096;
+
+// Gamma curves are read as sRGB, which the usual 2.2 differs little from.
+std::optional<Transfer> tagged_transfer(const OIIO::ImageSpec& spec) {
+  if (const auto noted = noted_metadata(spec, kNotedColorSpace)) return value_named(kTransfers, *noted);
+  const std::string color_space = spec.get_string_attribute("oiio:ColorSpace");
+  if (color_space.empty()) return std::nullopt;
+  const bool is_linear = OIIO::Strutil::iequals(color_space, "linear");
+  return is_linear ? Transfer::kLinear : Transfer::kSrgb;
+}
+
+std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
+  return type.is_array() ? std::nullopt : value_named(kPixelTypes, type.c_str());
+}
+
+}  // namespace
+
+std::string first_line(const std::string& text, const std::string& otherwise) {
+  const std::string line = text.substr(0, text.find('\n'));
+  return line.empty() ? otherwise : line;
+}
+
+OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec) {
+  return spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(OIIO::TypeUnknown);
+}
+
+ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, const fs::path& path) {
+  ImageLayout layout;
+  layout.width = spec.width;
+  layout.height = spec.height;
+  layout.x = spec.x;
+  layout.y = spec.y;
+  layout.alpha_channel = spec.alpha_channel;
+  layout.tile_height = spec.tile_width > 0 ? spec.tile_height : 0;
+  layout.format = format;
+  layout.lossy_compression = lossy_compression(spec, format);
+  layout.tagged_transfer = tagged_transfer(spec);
+  for (int c = 0; c < spec.nchannels; ++c) {
+    const std::string name = spec.channel_name(c);
+    const auto type = pixel_type(spec.channelformat(c));
+    if (!type)
+      throw Error(ErrorKind::kInput, path.string() + ": channel " + name + " has the unsupported type " +
+                                         spec.channelformat(c).c_str() +
+                                         " (use integers of up to 32 bits, half, float or double)");
+    layout.channels.push_back({name, *type, layout.texel_bytes});
+    layout.texel_bytes += byte_count(*type);
+  }
+  return layout;
+}
+
+namespace {
+
+class OpenedImage : public StoredImage {
+ public:
+  OpenedImage(const fs::path& path, int part) : path_(path), part_(part) { open(); }
+
+  const ImageLayout& layout() const noexcept override { return layout_; }
+  std::string part_name() const override { return levels_.front().get_string_attribute("oiio:subimagename"); }
+  int part_count() const noexcept override { return part_count_; }
+  int level_count() const noexcept override { return static_cast<int>(levels_.size()); }
+  void select_level(int level) override;
+  void set_followed_size(int width, int height) override;
+  void read_rows(int first_row, int row_count, std::byte* texels) override;
+  std::optional<std::string> noted_metadata(const std::string& name) const override {
+    return noted_metadata(levels_.front(), name);
+  }
+  const std::vector<OIIO::ImageSpec>& levels() const noexcept { return levels_; }
+
+ private:
+  const OIIO::ImageSpec& spec() const { return levels_[static_cast<std::size_t>(level_)]; }
+  void open();
+  void find_planes();
+  [[noreturn]] void fail(const std::string& what) const;
+
+  fs::path path_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  int part_ = 0;
+  int part_count_ = 0;
+  int level_ = 0;
+  std::vector<OIIO::ImageSpec> levels_;  // of the levels of the part, at the size that new images follow
+  ImageLayout layout_;                   // of `level_`, as stored
+};
+
+void OpenedImage::fail(const std::string& what) const {
+  throw Error(ErrorKind::kInput, path_.string() + ": " + what);
+}
+
+void OpenedImage::open() {
+  // OpenImageIO gives no reason if a file cannot be opened.
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path_.c_str(), "rb"), std::fclose);
+  if (!file) fail(std::string("cannot be read: ") + std::strerror(errno));
+  // libpng allocates and fills as much as a chunk claims.
+  const std::vector<PngChunk> chunks = leading_png_chunks(file.get());
+  for (const PngChunk& chunk : chunks)
+    if (chunk.end > fs::file_size(path_))
+      fail("is damaged: chunk " + plain(chunk.name) + " claims to be longer than the file");
+  if (const std::string fault = fault_of_bmp(file.get()); !fault.empty()) fail(fault);
+  OIIO::ImageSpec hints;
+  hints.attribute(kUnassociatedAlpha, 1);
+  input_ = OIIO::ImageInput::open(path_.string(), &hints);
+  if (!input_) {
+    const std::string reason = first_line(OIIO::geterror(), "unknown format");
+    // Of a file that cannot be opened a second time OpenImageIO says that it is no image.
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> second(std::fopen(path_.c_str(), "rb"),
+                                                                 std::fclose);
+    fail(second ? "cannot be read as an image: " + reason
+                : std::string("cannot be read: ") + std::strerror(errno));
+  }
+  (void)input_->geterror();  // discards remarks on unusual headers
+  find_planes();
+  // A color space that OpenImageIO assumed is neither read nor written.
+  if (!tells_color_space(spec(), input_->format_name(), chunks))
+    for (OIIO::ImageSpec& level_spec : levels_) level_spec.erase_attribute("oiio:ColorSpace");
+  layout_ = layout_of(spec(), input_->format_name(), path_);
+}
+
+void OpenedImage::find_planes() {
+  while (part_count_ < kMostParts && input_->seek_subimage(part_count_, 0)) ++part_count_;
+  (void)input_->geterror();
+  if (part_ >= part_count_)
+    fail("part " + std::to_string(part_) + " not found (number of parts: " + std::to_string(part_count_) +
+         ")");
+  for (int number = 0; input_->seek_subimage(part_, number); ++number) levels_.push_back(input_->spec());
+  (void)input_->geterror();
+  if (!input_->seek_subimage(part_, 0))
+    fail("cannot be read: " + first_line(input_->geterror(), "no image in it"));
+  if (spec().deep) fail("deep images are not supported");
+  if (spec().depth > 1) fail("volumes are not supported");
+  if (spec().width < 1 || spec().height < 1)  // possible in Targa and Radiance files
+    fail("image is empty (" + std::to_string(spec().width) + "x" + std::to_string(spec().height) + ")");
+}
+
+void OpenedImage::select_level(int level) {
+  if (level == level_) return;
+  level_ = level;
+  layout_ = layout_of(spec(), input_->format_name(), path_);
+}
+
+void OpenedImage::set_followed_size(int width, int height) {
+  if (level_count() > 1) fail("cannot be resampled, because it has mip levels");
+  OIIO::ImageSpec& spec = levels_.front();
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+      spec.height != spec.full_height)
+    fail("cannot be resampled, because its data window differs from its display window");
+  spec.width = spec.full_width = width;
+  spec.height = spec.full_height = height;
+}
+
+void OpenedImage::read_rows(int first_row, int row_count, std::byte* texels) {
+  const OIIO::ImageSpec& plane = spec();
+  const int width = layout_.width;  // as stored
+  const int begin = plane.y + first_row, end = begin + row_count;
+  const bool read = plane.tile_width > 0
+                        ? input_->read_tiles(part_, level_, plane.x, plane.x + width, begin, end, plane.z,
+                                             plane.z + 1, 0, plane.nchannels, native_type(plane), texels)
+                        : input_->read_scanlines(part_, level_, begin, end, plane.z, 0, plane.nchannels,
+                                                 native_type(plane), texels);
+  // OpenImageIO reads truncated TIFF and JPEG files "successfully"; only the message reveals the error.
+  const std::string message = input_->geterror();
+  if (!read || !message.empty())
+    fail("rows " + std::to_string(first_row) + " to " + std::to_string(first_row + row_count - 1) +
+         " cannot be read: " + first_line(message, "unknown reason") + " (the file may be truncated)");
+}
+
+}  // namespace
+
+std::unique_ptr<StoredImage> open_image(const fs::path& path, int part) {
+  return std::make_unique<OpenedImage>(path, part);
+}
+
+const std::vector<OIIO::ImageSpec>& followed_levels(const StoredImage& image) {
+  return static_cast<const OpenedImage&>(image).levels();  // the only class of stored images
+}
+
+std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std::string& name) {
+  if (const std::string value = spec.get_string_attribute(name); !value.empty()) return value;
+  const std::string software = spec.get_string_attribute("Software"), key = name + "=";
+  const std::size_t begin = software.find(key);
+  if (begin == std::string::npos) return std::nullopt;
+  const std::size_t end = software.find(';', begin);
+  return software.substr(begin + key.size(), end == std::string::npos ? end : end - begin - key.size());
+}
+
+}  // namespace remap

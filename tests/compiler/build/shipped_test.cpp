@@ -1,0 +1,271 @@
+// The converters that ship: the figures on their cards against their tables.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "build/build.hpp"
+#include "build/fit_folder.hpp"
+#include "build/report.hpp"
+#include "build/trust.hpp"
+#include "core/files.hpp"
+#include "fit/fit_table.hpp"
+#include "lower/chain.hpp"
+#include "lower/interpreter.hpp"
+#include "lower/lower.hpp"
+#include "support/campaign.hpp"
+#include "table/domain.hpp"
+#include "table/light.hpp"
+
+using namespace remap;
+
+namespace {
+
+const std::filesystem::path kFits = std::filesystem::path(REMAP_SOURCE_DIR) / "fits";
+
+const std::vector<Fit>& shipped() {
+  static const std::vector<Fit> fits = load_fits(kFits);
+  return fits;
+}
+
+bool of_hub(const Fit& fit) {
+  return fit.source.model.starts_with("mitsuba/") && fit.target.model.starts_with("mitsuba/");
+}
+
+bool is_in(const std::vector<std::string>& models, const std::string& model) {
+  return std::find(models.begin(), models.end(), model) != models.end();
+}
+
+template <typename Visit>
+void over_domain(const Fit& fit, const Visit& visit) {
+  for (int i = 0; i <= 60; ++i)
+    for (int j = 0; j <= 20; ++j) {
+      const Range& alphas = fit.domain.alpha;
+      const double alpha = alphas.min + (alphas.max - alphas.min) * i / 60.0;
+      visit(alpha, fit.domain.specular.max * j / 20.0);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("shipped: every ordered pair of the hub, and the models that are reached through it") {
+  const std::vector<std::string> hub = {"mitsuba/ward",  "mitsuba/ward-duer", "mitsuba/ward-balanced",
+                                        "mitsuba/phong", "mitsuba/beckmann",  "mitsuba/ggx",
+                                        "mitsuba/as"};
+  std::set<std::pair<std::string, std::string>> measured, others;
+  for (const Fit& fit : shipped())
+    (is_measured(fit) ? measured : others).insert({fit.source.model, fit.target.model});
+  for (const std::string& source : hub)
+    for (const std::string& target : hub)
+      if (source != target) CHECK(measured.count({source, target}) == 1);
+  // Every other model has converters to and from the hub.
+  std::set<std::string> real;
+  for (const auto& [source, target] : measured) {
+    if (!is_in(hub, source)) real.insert(source);
+    if (!is_in(hub, target)) real.insert(target);
+  }
+  for (const std::string& model : real) {
+    const auto joins = [&](const auto& pair) {
+      return (pair.first == model && is_in(hub, pair.second)) ||
+             (pair.second == model && is_in(hub, pair.first));
+    };
+    INFO(model);
+    CHECK(std::count_if(measured.begin(), measured.end(), joins) >= 2);
+  }
+  for (const auto& pair :
+       std::vector<std::pair<std::string, std::string>>{{"mitsuba/ward", "blender-internal-2.7/ward"},
+                                                        {"blender-internal-2.7/ward", "mitsuba/ward"},
+                                                        {"mitsuba/ggx", "cycles-2.7/ggx"},
+                                                        {"cycles-2.7/ggx", "mitsuba/ggx"},
+                                                        {"blender-internal-2.7/ward", "cycles-2.7/ggx"},
+                                                        {"cycles-2.7/ggx", "blender-internal-2.7/ward"}})
+    CHECK(others.count(pair) == 1);
+}
+
+// Tables of real renderers are less smooth: clamped widths, lookup tables in shaders, half floats.
+TEST_CASE("shipped: fits follow their tables to 2e-3 in alpha and 1 % in specular") {
+  for (const Fit& fit : shipped()) {
+    if (!is_measured(fit)) continue;
+    INFO(fit.id);
+    constexpr double allowed = 2e-3;
+    CHECK(fit.alpha_error.rms <= allowed);
+    CHECK(fit.split.held_out_rows >= (of_hub(fit) ? 20 : 15));
+    const std::string bytes = read_file(kFits / "tables" / fit.table.name);
+    CHECK(sha256(bytes) == fit.table.sha256);
+    const Table table = parse_table(bytes, fit.table.name);
+    CHECK(table_domain(table) == fit.domain);
+    double largest = 0.0;
+    for (const TableRow& row : table.rows) {
+      if (!is_inside(row, fit.domain)) continue;
+      CHECK(has_answer(row));
+      largest = std::max(largest, row.specular2);
+    }
+    CHECK(fit.specular_error.rms <= 0.01 * largest);
+    const RowErrors errors = row_errors(fit, rows_inside(answer_rows(table), fit.domain));
+    CHECK(errors.alpha.rms <= allowed);
+    CHECK(errors.specular.rms <= 0.01 * largest);
+  }
+}
+
+TEST_CASE(
+    "shipped: inside its domain a converter gives valid parameters of the target, and rises up to its limits",
+    "[slow]") {
+  for (const Fit& fit : shipped()) {
+    INFO(fit.id);
+    const double specular_slack = fit.has_errors() ? 2.0 * fit.specular_error.max + 1e-3 : 1e-3;
+    int below_limits = 0;
+    over_domain(fit, [&](double alpha, double specular) {
+      const MappedTexel texel = evaluate_fit(fit, alpha, specular);
+      CHECK(texel.alpha > 0.0);
+      CHECK(texel.alpha <= 1.0);
+      CHECK(texel.specular <= fit.regimes.specular_limit.value_or(1.0 + specular_slack));
+      if (!is_inside(fit, alpha * 1.01, specular + 0.01)) return;
+      ++below_limits;
+      CHECK(evaluate_fit(fit, alpha * 1.01, specular).alpha > texel.alpha);
+      if (texel.specular > 0.0) CHECK(evaluate_fit(fit, alpha, specular + 0.01).specular > texel.specular);
+    });
+    CHECK(below_limits > 0);
+  }
+}
+
+TEST_CASE("shipped: converters of the hub cover every width and specular") {
+  for (const Fit& fit : shipped())
+    if (of_hub(fit) && is_measured(fit)) {
+      INFO(fit.id);
+      CHECK(fit.domain == Domain{{0.01, 1.0}, {0.0, 1.0}});
+    }
+}
+
+TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more than 1e-3",
+          "[slow][campaign]") {
+  constexpr double kStep = 1e-4, kMost = 1e-3;
+  const int lines = campaign_length(40) + 1;
+  for (const Fit& fit : shipped()) {
+    if (!of_hub(fit) || !is_measured(fit)) continue;
+    MappedTexel worst;
+    for (int line = 0; line < lines; ++line) {
+      const double share = (line + 0.5) / lines, alpha = 0.01 + 0.99 * share;
+      MappedTexel by_alpha = evaluate_fit(fit, 0.01, share), by_specular = evaluate_fit(fit, alpha, 0.0);
+      for (double moving = 0.01; moving <= 1.0; moving += kStep) {
+        const MappedTexel wider = evaluate_fit(fit, moving, share);
+        worst.alpha = std::max(worst.alpha, std::fabs(wider.alpha - by_alpha.alpha));
+        worst.specular = std::max(worst.specular, std::fabs(wider.specular - by_alpha.specular));
+        by_alpha = wider;
+      }
+      for (double moving = 0.0; moving <= 1.0; moving += kStep) {
+        const MappedTexel brighter = evaluate_fit(fit, alpha, moving);
+        worst.alpha = std::max(worst.alpha, std::fabs(brighter.alpha - by_specular.alpha));
+        worst.specular = std::max(worst.specular, std::fabs(brighter.specular - by_specular.specular));
+        by_specular = brighter;
+      }
+    }
+    INFO(fit.id);
+    CHECK(worst.alpha <= kMost);
+    CHECK(worst.specular <= kMost);
+  }
+}
+
+// Between rows of the grid whose targets rise by more than the fit is off, the fit rises, too.
+TEST_CASE("shipped: a converter of the hub is monotone in width where its table is", "[slow]") {
+  constexpr int kBetween = 6;
+  for (const Fit& fit : shipped()) {
+    if (!of_hub(fit) || !is_measured(fit)) continue;
+    INFO(fit.id);
+    const Table table = read_table(kFits / "tables" / fit.table.name);
+    std::map<double, std::map<double, const TableRow*>> by_specular;
+    const std::vector<TableRow> rows = answer_rows(table);
+    for (const TableRow& row : rows) by_specular[row.specular1][row.alpha1] = &row;
+    for (const auto& [specular, line] : by_specular)
+      for (auto low = line.begin(); std::next(low) != line.end(); ++low) {
+        const auto high = std::next(low);
+        if (!(high->second->alpha2 - low->second->alpha2 > 4.0 * fit.alpha_error.max)) continue;
+        double before = 0.0;
+        for (int i = 0; i <= kBetween; ++i) {
+          const double alpha = low->first + (high->first - low->first) * i / kBetween;
+          const double found = evaluate_fit(fit, alpha, specular).alpha;
+          INFO(alpha << " " << specular);
+          CHECK(found >= before);
+          before = found;
+        }
+      }
+  }
+}
+
+TEST_CASE("shipped: chains agree with their steps", "[slow]") {
+  for (const Fit& fit : shipped()) {
+    if (!std::holds_alternative<Chain>(fit.mapping)) continue;
+    INFO(fit.id);
+    std::vector<Fit> steps;
+    for (const ChainStep& step : std::get<Chain>(fit.mapping).steps)
+      steps.push_back(find_fit(step.id, kFits));
+    Fit composed = composed_fit(steps, fit.id);
+    add_converter(&composed);
+    CHECK(composed == fit);
+    const ChainDifference difference = difference_from_steps(fit, steps);
+    CHECK(difference.alpha < 1e-4);  // at specular 0, where a step clamps what the chain hands on
+    CHECK(difference.grey_specular < 2e-5);
+    CHECK(difference.color_specular < 2e-3);
+  }
+}
+
+TEST_CASE("shipped: figure 18 there and back") {
+  const Fit there = find_fit("blender_internal_2_7_ward_to_cycles_2_7_ggx", kFits),
+            back = find_fit("cycles_2_7_ggx_to_blender_internal_2_7_ward", kFits);
+  // Ward and GGX differ in shape, so each direction has its own match and the round trip is not exact.
+  for (const double alpha : {0.1, 0.2, 0.3}) {
+    const MappedTexel far = evaluate_mapping(there.mapping, alpha, 0.1);
+    const MappedTexel home = evaluate_mapping(back.mapping, far.alpha, far.specular);
+    CHECK(home.alpha == Approx(alpha).epsilon(0.35));
+    CHECK(home.specular == Approx(0.1).epsilon(0.35));
+  }
+}
+
+TEST_CASE("shipped: the published formulas, as corrected") {
+  const Fit as = find_fit("mitsuba_ward_to_mitsuba_as_sztrajman_2019", kFits);
+  CHECK(evaluate_mapping(as.mapping, 1.0, 1.0).alpha == Approx(1.04 - 0.388 - 0.332 + 0.25).epsilon(1e-12));
+  CHECK(evaluate_mapping(as.mapping, 0.5, 1.0).specular ==
+        Approx(-512.13 + 512.75 * std::exp(-0.00057 * 0.5) + 0.398 * std::exp(-3.12 * 0.25)).epsilon(1e-9));
+  const Fit ggx = find_fit("mitsuba_ward_to_mitsuba_ggx_sztrajman_2019", kFits);
+  CHECK(evaluate_mapping(ggx.mapping, 1.0, 1.0).alpha == Approx(0.579).epsilon(1e-9));
+  const Fit cycles = find_fit("cycles_2_7_ggx_to_mitsuba_as", kFits);
+  CHECK(evaluate_mapping(cycles.mapping, 0.02, 0.5).specular ==
+        Approx(0.5 *
+               (-0.067 + 1.43 * std::exp(-0.692 * 0.02) - 0.547 * std::exp(-6.4 * 0.0004) + 0.0002 / 0.02))
+            .epsilon(1e-9));
+  for (const Fit& fit : {as, ggx, cycles}) {
+    REQUIRE(fit.remarks.size() >= 2);
+    CHECK(fit.remarks[0].find("Sztrajman et al. 2019") != std::string::npos);
+    CHECK(std::any_of(fit.remarks.begin(), fit.remarks.end(),
+                      [](const std::string& remark) { return remark.starts_with("Erratum: "); }));
+  }
+}
+
+TEST_CASE("shipped: the fits are those of the manifest, and the report is up to date") {
+  const BuildFolders folders{kFits, std::filesystem::path(REMAP_SOURCE_DIR) / "generated"};
+  CHECK(stale(load_manifest(kFits), folders).empty());
+  const std::vector<ReportFile> files = report(load_fit_folder(kFits));
+  for (const ReportFile& file : files) {
+    INFO(file.name);
+    CHECK((read_file(kFits / file.name) == file.text));
+  }
+}
+
+TEST_CASE("shipped tables: the manifest accepts the light of those that need it, and of no other") {
+  std::size_t accepted = 0;
+  for (const ManifestItem& item : load_manifest(kFits).items) {
+    const std::filesystem::path path = kFits / "tables" / (item.id + ".csv");
+    if (!std::filesystem::exists(path)) {
+      CHECK_FALSE(item.accept_light);
+      continue;
+    }
+    const std::string text = read_file(path);
+    const auto remark = light_remark(light_match(parse_csv(text, item.id).comments));
+    INFO(item.id);
+    CHECK(item.accept_light == (remark && remark->is_error));
+    accepted += item.accept_light ? 1 : 0;
+  }
+  CHECK(accepted == 2);
+}

@@ -1,0 +1,190 @@
+// Fit files: exact round trip, and every complaint with its place.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "lower/fit_file.hpp"
+#include "lower/lower.hpp"
+#include "remap/error.hpp"
+#include "support/example_fit.hpp"
+#include "support/made_regimes.hpp"
+#include "support/replaced.hpp"
+
+using namespace remap;
+
+namespace {
+
+Fit sample_fit() {
+  Fit fit;
+  fit.id = "a_b_to_c_d";
+  fit.source = {"a/b", RoughnessConvention::kAlpha, "specular"};
+  fit.target = {"c/d", RoughnessConvention::kExponent, "f0"};
+  fit.domain = {{1.0 / 3.0 * 0.1, 0.99}, {0.0, 0.7}};
+  fit.mapping =
+      Parametric{{{1.0 / 3.0, -0.1, 1e-17, 0.25}, {0.5}},
+                 {{0, {0.1, 0.0, 0.0, 0.0, 0.0, 1e-3}}, {1, {1.1, -0.5, 0.0, 1.0 / 7.0, 3.0, 0.0}}}};
+  fit.method = {{"form", "paper"}, {"starts", "4"}};
+  CandidateRecord candidate;
+  candidate.name = "svr";
+  candidate.number_count = 33;
+  candidate.alpha = {1e-3, 2e-3, 1.0 / 7.0};
+  candidate.chroma_shift = 0.01;
+  candidate.verdict = "no better, and more numbers";
+  fit.candidates = {candidate};
+  fit.alpha_error = {1e-4, 2e-4, 3e-4};
+  fit.specular_error = {4e-4, 5e-4, 6e-4};
+  fit.split = {42, 0.2, 80, 20, {{"clamped", 3}}};
+  fit.table = {"t.csv", "00ff", {{"objective", "natural"}}};
+  fit.image_similarity = ImageSimilarity{{0.05, 0.1, 0.2}, {{0.1, 0.99}, {0.5, 0.97}}};
+  fit.remarks = {"one", "two"};
+  fit.tool_version = "0.1.0";
+  return fit;
+}
+
+Fit svr_fit() {
+  Fit fit = sample_fit();
+  const Scaling alpha{0.1, 1.0 / 3.0, 0.05}, specular{0.0, 2.0, 0.0}, output{0.5, 0.25, 0.0};
+  fit.mapping = Svr{{{alpha}, output, 2.5, -0.125, {0.1, 0.7}, {1.0 / 9.0, -3.0}},
+                    {{alpha, specular}, output, 1e-3, 0.0, {0.1, 0.2, 0.3, 0.4}, {5.0, 1e-300}}};
+  return fit;
+}
+
+Fit mlp_fit() {
+  Fit fit = sample_fit();
+  const Scaling alpha{0.1, 1.0 / 3.0, 0.05}, specular{0.0, 2.0, 0.0}, output{0.5, 0.25, 0.0};
+  const Network of_alpha{
+      Activation::kSilu, {alpha}, {output}, {{1, {0.5, -1.0 / 3.0}, {0.1, 0.2}}, {2, {1.0, 2.0}, {0.3}}}};
+  const Network of_both{Activation::kSilu, {alpha, specular}, {output}, {{2, {0.25, 1e-17}, {0.0}}}};
+  fit.mapping = Mlp{of_alpha, of_both};
+  return fit;
+}
+
+Fit series_fit() {
+  Fit fit = sample_fit();
+  const TexelSeries of_alpha{{1.0 / 30.0, 0.9}, {0.0, 0.7}, {{0.5, 0.4, -1.0 / 7.0}}};
+  fit.mapping = Series{of_alpha, {{0.01, 1.0}, {0.0, 1.0}, {{0.5, 1e-17}, {0.1}}}};
+  return fit;
+}
+
+Fit regime_fit() {
+  Fit fit = made_regimes::fit();
+  fit.split = sample_fit().split;
+  fit.candidates = sample_fit().candidates;
+  fit.candidates.front().relative_alpha = {1.0 / 7.0, 1e-3};
+  return fit;
+}
+
+}  // namespace
+
+TEST_CASE("fit file: what is written is read back bit for bit, of every kind") {
+  for (const Fit& fit : {sample_fit(), svr_fit(), mlp_fit(), series_fit(), regime_fit()}) {
+    const std::string json = fit_to_json(fit);
+    CHECK(fit_from_json(json, "x.json") == fit);
+    CHECK(fit_to_json(fit_from_json(json, "x.json")) == json);
+  }
+}
+
+TEST_CASE("fit file: the converter is read back bit for bit; one of another mapping is refused") {
+  const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
+  for (Fit fit : {example_fit(), made_regimes::fit()}) {
+    const std::string unlowered = fit_to_json(fit);
+    CHECK_THROWS_WITH(read(replaced(unlowered, "\"converter\"", "\"converted\"")),
+                      Catch::Contains("holds no converter") && Catch::Contains("run remapc fit again"));
+    add_converter(&fit);
+    const std::string json = fit_to_json(fit);
+    CHECK(read(json) == fit);
+    CHECK(read(json).converter->lowered.wide == fit.converter->lowered.wide);
+    Fit other = fit;
+    other.domain.alpha.max *= 0.99;
+    other.converter.reset();
+    add_converter(&other);
+    CHECK_NOTHROW(read(fit_to_json(other)));
+    other.converter = fit.converter;
+    other.mapping = Parametric{{{0.9, 0.05}}, {{1, {0.8, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
+    CHECK_THROWS_WITH(read(fit_to_json(other)), Catch::Contains("x.json.converter: does not belong"));
+    other = fit;
+    other.id = "another_fit";
+    CHECK_THROWS_WITH(read(fit_to_json(other)), Catch::Contains("x.json.converter: does not belong"));
+  }
+}
+
+TEST_CASE("fit file: complaints about support vectors and networks name the field") {
+  const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
+  const std::string svr = fit_to_json(svr_fit()), mlp = fit_to_json(mlp_fit());
+  CHECK_THROWS_WITH(read(replaced(svr, "\"gamma\": 2.5", "\"gamma\": -2.5")),
+                    Catch::Contains("x.json.mapping.alpha.gamma"));
+  CHECK_THROWS_WITH(read(replaced(svr, "\"pole\": 0.05", "\"pole\": -0.05")),
+                    Catch::Contains("x.json.mapping.alpha.inputs"));
+  CHECK_THROWS_WITH(read(replaced(mlp, "\"silu\"", "\"sine\"")), Catch::Contains("x.json.mapping"));
+  CHECK_THROWS_WITH(read(replaced(mlp, "\"weights\"", "\"wights\"")),
+                    Catch::Contains("has no field \"weights\""));
+}
+
+TEST_CASE("fit file: complaints about series and regimes name the field") {
+  const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
+  const std::string series = fit_to_json(series_fit()), regimes = fit_to_json(regime_fit());
+  CHECK_THROWS_WITH(read(replaced(series, "\"coefficients\"", "\"terms\"")),
+                    Catch::Contains("x.json.mapping.alpha: has no field \"coefficients\""));
+  CHECK_THROWS_WITH(read(replaced(regimes, "\"alpha_limit\": 0.9", "\"alpha_limit\": 0.0")),
+                    Catch::Contains("x.json.regimes.alpha_limit: expected a number above 0"));
+  CHECK_THROWS_WITH(read(replaced(regimes, "\"specular_limit\": 1.0", "\"specular_limit\": null")),
+                    Catch::Contains("specular_limit"));
+}
+
+TEST_CASE("fit file: complaints name the file and the field") {
+  const std::string json = fit_to_json(sample_fit());
+  const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
+  CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: invalid JSON"));
+  CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: expected "));
+  CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("not a fit file"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"version\": 3", "\"version\": 2")),
+                    Catch::Contains("format version 2; this program reads version 3"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"seed\"", "\"sed\"")), "x.json.split: has no field \"seed\"");
+  CHECK_THROWS_WITH(read(replaced(json, "\"a_b_to_c_d\"", "\"a b\"")),
+                    Catch::StartsWith("x.json.id: expected a C++ identifier"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"exponent\"", "\"sharpness\"")),
+                    Catch::Contains("x.json.target.roughness"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"parametric\"", "\"magic\"")),
+                    Catch::Contains("x.json.mapping.kind"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"ramp\": -0.5", "\"ramp\": \"x\"")),
+                    Catch::Contains("expected a number"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"ramp_rate\": 0.0", "\"ramp_rate\": -1.0")),
+                    Catch::Contains("a rate from 0"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"a/b\"", "\"a\\\"; b\"")),
+                    Catch::Contains("letters, digits and _ - . /"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"f0\"", "\"alpha\"")), Catch::Contains("names no width"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"natural\"", "\"a\\nint b;\"")),
+                    Catch::Contains("a text of one line"));
+  CHECK_THROWS_WITH(read(replaced(json, "0.99", "0.001")), Catch::Contains("min < max"));
+}
+
+TEST_CASE("fit file: numbers that are not finite are never written") {
+  Fit fit = sample_fit();
+  std::get<Parametric>(fit.mapping).specular[1].factor.ramp = NAN;
+  CHECK_THROWS_WITH(fit_to_json(fit), Catch::Contains("not finite"));
+}
+
+TEST_CASE("id: models become an identifier") {
+  CHECK(converter_id("mitsuba/ward", "cycles-5/ggx") == "mitsuba_ward_to_cycles_5_ggx");
+  CHECK(converter_id("threejs-r187/standard", "a//b") == "threejs_r187_standard_to_a_b");
+  CHECK(is_valid_id("mitsuba_ward_to_mitsuba_as"));
+  for (const std::string bad : {"", "1a", "a-b", "int", "_a", "a__b", "a b"}) CHECK_FALSE(is_valid_id(bad));
+}
+
+TEST_CASE("fit file: ids that C++ or a file system uses itself are refused, and a long one is not repeated") {
+  const std::string json = fit_to_json(sample_fit());
+  const auto read = [&](const std::string& id) {
+    return fit_from_json(replaced(json, "\"a_b_to_c_d\"", "\"" + id + "\""), "x.json");
+  };
+  for (const std::string bad : {"std", "std2", "posix", "remap", "linux", "unix", "NULL", "namespace",
+                                "co_await", "_a", "a__b", "9a", "a b", "a-b", ""})
+    CHECK_THROWS_WITH(read(bad), Catch::StartsWith("x.json.id: expected " + std::string(kIdRule)));
+  for (const std::string good : {"standard", "std_to_a", "posixy", "a"}) CHECK(read(good).id == good);
+  CHECK(read(std::string(kLongestName, 'a')).id.size() == kLongestName);
+  for (const std::size_t length : {kLongestName + 1, std::size_t{100'000}}) try {
+      read(std::string(length, 'a'));
+      FAIL("accepted");
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).size() < 250);
+    }
+}

@@ -1,0 +1,38 @@
+// Shared by the tests of sweeps: options with defaults, and a sweep.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/sweep.hpp"
+
+namespace remap {
+
+inline SweepOptions sweep_options(const std::string& source, const std::string& target,
+                                  const std::string& objective, std::vector<SamplePoint> samples,
+                                  int resolution = 512) {
+  SweepOptions options;
+  options.source = source;
+  options.target = target;
+  options.objective = objective_preset(objective);
+  options.objective_name = objective;
+  options.resolution = resolution;
+  options.sampling = "test";
+  options.samples = std::move(samples);
+  return options;
+}
+
+inline Table sweep(const Renderer& renderer, const SweepOptions& options, unsigned jobs = 0) {
+  SweepExecution execution;
+  execution.jobs = jobs;
+  return run_sweep(renderer, options, execution);
+}
+
+// Returns the value of a comment of a table; empty if there is no such comment.
+inline std::string comment(const Table& table, const std::string& key) {
+  for (const auto& [name, value] : table.comments)
+    if (name == key) return value;
+  return "";
+}
+
+}  // namespace remap

@@ -1,0 +1,218 @@
+// Features by samples and tabulated materials, compared with parametric materials and with
+// profiles whose distance is known.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "remap/error.hpp"
+#include "support/warp_sets.hpp"
+#include "warp/features.hpp"
+#include "warp/quadrature.hpp"
+#include "warp/warp.hpp"
+
+namespace {
+
+using namespace remap;
+
+// Evaluates a material into a table with one entry per texel.
+TabulatedMaterial tabulated(const WarpMaterial& material) {
+  const auto directions = half_vector_quadrature();
+  const auto rows = static_cast<Eigen::Index>(directions.size());
+  TabulatedMaterial table;
+  table.name = material.name;
+  table.samples.resize(3 * rows, static_cast<Eigen::Index>(material.texels.size()));
+  for (std::size_t i = 0; i < material.texels.size(); ++i) {
+    const WarpTexel& texel = material.texels[i];
+    for (Eigen::Index row = 0; row < rows; ++row) {
+      const Lobe lobe =
+          evaluate_lobe(material.model.brdf, material.model.fresnel, static_cast<double>(texel[6]),
+                        directions[static_cast<std::size_t>(row)].geometry);
+      for (std::size_t c = 0; c < 3; ++c)
+        table.samples(static_cast<Eigen::Index>(c) * rows + row, static_cast<Eigen::Index>(i)) =
+            static_cast<float>(static_cast<double>(texel[c]) / std::numbers::pi + lobe.base +
+                               static_cast<double>(texel[3 + c]) * lobe.slope);
+    }
+    table.entries.push_back(static_cast<std::uint32_t>(i));
+  }
+  return table;
+}
+
+// RMS distance of the copies from the truth by the relative distance, relative to the template's spread.
+double error_of(const WarpSet& set, const AppearanceMatch& match, const MaterialRef& source,
+                const MaterialRef& target) {
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const double radius = appearance_space(set.target, features.target).radius;
+  const auto copy = copy_exactly(match, source, target);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < copy.size(); i += 5, count += 1.0)
+    sum += (features_of(features.target, set.target.texels[copy[i]]) -
+            features_of(features.target, set.truth[i]))
+               .squaredNorm();
+  return std::sqrt(sum / count) / radius;
+}
+
+WarpOptions by(AppearanceDistance distance) {
+  WarpOptions options;
+  options.distance = distance;
+  return options;
+}
+
+// Profiles albedo * exp(-r / l) / (2 pi l^2), whose integral over the plane is the albedo.
+TabulatedMaterial profiles(const std::vector<double>& radii,
+                           const std::vector<std::array<double, 2>>& albedo_and_length) {
+  TabulatedMaterial material;
+  material.name = "wax";
+  material.radii = radii;
+  const auto rows = static_cast<Eigen::Index>(radii.size());
+  material.samples.resize(3 * rows, static_cast<Eigen::Index>(albedo_and_length.size()));
+  for (std::size_t i = 0; i < albedo_and_length.size(); ++i) {
+    const auto [albedo, length] = albedo_and_length[i];
+    for (Eigen::Index row = 0; row < 3 * rows; ++row)
+      material.samples(row, static_cast<Eigen::Index>(i)) =
+          static_cast<float>(albedo * std::exp(-radii[static_cast<std::size_t>(row % rows)] / length) /
+                             (2.0 * std::numbers::pi * length * length));
+    material.entries.push_back(static_cast<std::uint32_t>(i));
+  }
+  return material;
+}
+
+std::vector<double> even_radii(double step, std::size_t count) {
+  std::vector<double> radii;
+  for (std::size_t i = 1; i <= count; ++i) radii.push_back(step * static_cast<double>(i));
+  return radii;
+}
+
+}  // namespace
+
+TEST_CASE("sampled features: distances are the integral over directions", "[warp]") {
+  const WarpSet set = rust_set(32);
+  const TabulatedMaterial a = tabulated(set.source), b = tabulated(set.target);
+  const auto relative = AppearanceDistance::kRelative;
+  const Eigen::VectorXd weights = direction_weights(set.source, set.target, relative);
+  const FeaturePair features = sampled_features(set.source, set.target, relative, weights);
+  for (Eigen::Index i = 0; i < 30; ++i) {
+    const Eigen::Index first = 31 * i, second = 17 * i + 5, rows = a.samples.rows() / 3;
+    double sum = 0.0;
+    for (Eigen::Index row = 0; row < a.samples.rows(); ++row)
+      sum += std::pow(
+          weights[row % rows] * static_cast<double>(a.samples(row, first) - b.samples(row, second)), 2.0);
+    const double found = (features_of(features.source, set.source.texels[static_cast<std::size_t>(first)]) -
+                          features_of(features.target, set.target.texels[static_cast<std::size_t>(second)]))
+                             .norm();
+    CHECK(found == Approx(std::sqrt(sum)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("dielectrics: exact Fresnel reflectance is near Schlick's, and finds the same correspondence",
+          "[warp][slow]") {
+  const WarpSet set = leaf_set(64);
+  WarpSet exact = set;
+  const MapModel model = builtin_map_model("mitsuba/ggx-dielectric");
+  exact.target.model = model.lobe;
+  exact.target.is_dielectric = model.is_dielectric;
+  // Compares the features of the same texel by the plain distance, which needs no reference.
+  const FeaturePair pair = appearance_features(set.target, exact.target, AppearanceDistance::kPlain);
+  const WarpTexel texel = set.target.texels[1234];
+  const Eigen::VectorXd by_schlick = features_of(pair.source, texel),
+                        by_fresnel = features_of(pair.target, texel);
+  const double difference = (by_schlick - by_fresnel).norm() / by_schlick.norm();
+  CHECK(difference > 1e-4);
+  CHECK(difference < 0.1);
+  const auto strokes = strokes_of(set, 0);
+  const double schlick = error_of(set, fit_warp(set.source, set.target, strokes), set.source, set.target);
+  const WarpFit fit = fit_warp(set.source, exact.target, strokes);
+  const double fresnel = error_of(set, fit, set.source, exact.target);
+  CAPTURE(schlick, fresnel, fit.diagnostics.coordinates_error);
+  CHECK(std::abs(schlick - fresnel) < 0.05);
+  CHECK(fit.diagnostics.coordinates_error < 0.03);
+}
+
+TEST_CASE("models for maps: all models of the renderer except conductors", "[warp]") {
+  CHECK(builtin_map_model("mitsuba/as-ior").lobe == BrdfModel{Brdf::kAs, Fresnel::kSchlick});
+  CHECK(builtin_map_model("mitsuba/ward-conserving").lobe == BrdfModel{Brdf::kWard, Fresnel::kNone});
+  CHECK(builtin_map_model("mitsuba/beckmann-metallic").lobe == BrdfModel{Brdf::kBeckmann, Fresnel::kSchlick});
+  CHECK(builtin_map_model("mitsuba/beckmann-dielectric").is_dielectric);
+  CHECK_THROWS_WITH(builtin_map_model("mitsuba/ggx-conductor"), Catch::Contains("the index of a conductor"));
+  CHECK_THROWS_WITH(builtin_map_model("mitsuba/gxx"), Catch::Contains("mitsuba/ggx"));
+}
+
+TEST_CASE("tables: a tabulated material has the positions of its parameters", "[warp][slow]") {
+  const WarpSet set = leaf_set(48);
+  const auto strokes = strokes_of(set, 0);
+  const TabulatedMaterial source = tabulated(set.source), target = tabulated(set.target);
+  const double by_parameters =
+      error_of(set, match_appearances(set.source, set.target, strokes), set.source, set.target);
+  const double from_table = error_of(set, match_appearances(source, set.target, strokes), source, set.target);
+  const double to_table = error_of(set, match_appearances(set.source, target, strokes), set.source, target);
+  const double both = error_of(set, match_appearances(source, target, strokes), source, target);
+  CAPTURE(by_parameters, from_table, to_table, both);
+  for (const double error : {from_table, to_table, both}) CHECK(std::abs(error - by_parameters) < 0.03);
+}
+
+TEST_CASE("profiles: the distance of section 4, for different radii", "[warp]") {
+  const auto coarse = even_radii(0.02, 400), fine = even_radii(0.013, 700);
+  const TabulatedMaterial a = profiles(coarse, {{0.8, 0.5}, {0.5, 0.3}}),
+                          b = profiles(fine, {{0.6, 0.4}, {0.2, 0.7}});
+  const FeaturePair pair = appearance_features(a, b, AppearanceDistance::kPlain);
+  const auto& from = std::get<SampledFeatures>(pair.source);
+  const auto& to = std::get<SampledFeatures>(pair.target);
+  const Eigen::VectorXd first = features_of_samples(from, samples_of(from, a, 0)),
+                        second = features_of_samples(to, samples_of(to, b, 0));
+  // The integral of (p exp(-r / l) - q exp(-r / m))^2 r dr, the same for three channels.
+  const double l = 0.5, m = 0.4, p = 0.8 / (2.0 * std::numbers::pi * l * l),
+               q = 0.6 / (2.0 * std::numbers::pi * m * m);
+  const double joint = 1.0 / l + 1.0 / m;
+  const double squares = 3.0 * (p * p * l * l / 4.0 + q * q * m * m / 4.0 - 2.0 * p * q / (joint * joint));
+  CHECK((first - second).squaredNorm() == Approx(squares).epsilon(0.01));
+}
+
+TEST_CASE("profiles: retargeted by strokes", "[warp][slow]") {
+  // Two latent variables, albedo and length, which differ between the waxes by monotone functions.
+  const auto radii = even_radii(0.05, 80);
+  constexpr std::size_t kEdge = 24;
+  std::vector<std::array<double, 2>> source, target;
+  for (std::size_t i = 0; i < kEdge * kEdge; ++i) {
+    const double u = static_cast<double>(i % kEdge) / (kEdge - 1),
+                 v = static_cast<double>(i / kEdge) / (kEdge - 1);
+    source.push_back({0.3 + 0.5 * u, 0.5 + 0.3 * v});
+    target.push_back({0.9 - 0.4 * u, 0.4 + 0.35 * v * v});
+  }
+  const TabulatedMaterial from = profiles(radii, source), to = profiles(radii, target);
+  std::vector<StrokePair> strokes(4);
+  for (std::uint32_t i = 0; i < kEdge * kEdge; ++i) {
+    const std::uint32_t x = i % kEdge, y = i / kEdge;
+    const bool is_corner = (x < 5 || x >= kEdge - 5) && (y < 5 || y >= kEdge - 5);
+    if (is_corner) {
+      StrokePair& stroke = strokes[(x < 5 ? 0u : 1u) + (y < 5 ? 0u : 2u)];
+      stroke.source.push_back(i);
+      stroke.target.push_back(i);
+    }
+  }
+  const AppearanceMatch match = match_appearances(from, to, strokes, by(AppearanceDistance::kPlain));
+  const auto copy = copy_exactly(match, from, to);
+  double error = 0.0, unrelated = 0.0;
+  for (std::size_t i = 0; i < copy.size(); ++i) {
+    const auto &own = target[copy[i]], &truth = target[i], &other = target[i * 7919 % copy.size()];
+    error += std::abs(own[0] - truth[0]);
+    unrelated += std::abs(other[0] - truth[0]);
+  }
+  CAPTURE(match.diagnostics.dimensions, error / unrelated);
+  CHECK(match.diagnostics.dimensions >= 2);
+  CHECK(error < 0.35 * unrelated);
+  CHECK(match.diagnostics.fold_share < 0.02);
+}
+
+TEST_CASE("tables: incompatible materials are refused", "[warp]") {
+  const WarpSet set = leaf_set(32);
+  const TabulatedMaterial wax = profiles(even_radii(0.1, 20), {{0.8, 0.5}, {0.5, 0.3}});
+  CHECK_THROWS_WITH(appearance_features(set.source, wax, AppearanceDistance::kPlain),
+                    Catch::Contains("one contains scattering profiles and the other reflectance"));
+  CHECK_THROWS_WITH(appearance_features(wax, wax, AppearanceDistance::kRelative),
+                    Catch::Contains("choose plain"));
+  TabulatedMaterial damaged = wax;
+  damaged.samples(3, 1) = -1.0f;
+  CHECK_THROWS_WITH(match_appearances(damaged, wax, {{{0}, {0}}}, by(AppearanceDistance::kPlain)),
+                    Catch::Contains("negative or not finite"));
+}

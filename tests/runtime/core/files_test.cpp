@@ -1,0 +1,125 @@
+// Files that appear whole, and those that cannot be read.
+#include "core/files.hpp"
+
+#include <array>
+#include <fstream>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "core/process_mark.hpp"
+#include "remap/error.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace remap;
+
+TEST_CASE("write file: replaces the old one whole, and leaves it where it fails") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "sub" / "a.txt";
+  write_file(path, "one");
+  write_file(path, "two");
+  CHECK(read_file(path) == "two");
+  CHECK(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}) == 1);
+  CHECK_THROWS_WITH(write_file(path / "b.txt", "x"), Catch::Contains("folder"));
+  CHECK(read_file(path) == "two");
+}
+
+TEST_CASE("read file: a folder and a missing file are told apart") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(read_file(folder.path()), Catch::Contains("is a folder"));
+  CHECK_THROWS_WITH(read_file(folder.path() / "no"), Catch::Contains("No such file"));
+}
+
+namespace {
+
+// The message of the error that `work` throws within two seconds; a reader that hangs ends the test program.
+template <typename Work>
+std::string refusal(Work work) {
+  ::alarm(2);
+  std::string message;
+  try {
+    work();
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  ::alarm(0);
+  return message;
+}
+
+}  // namespace
+
+TEST_CASE("read file: pipes with a name, devices and files without end are refused at once") {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(refusal([&] { read_file(pipe); }) ==
+        pipe.string() + ": is a named pipe, not a file (write its content to a file)");
+  CHECK(refusal([] { read_file("/dev/zero"); }) ==
+        "/dev/zero: is a device, not a file (give a regular file)");
+  CHECK(refusal([&] { require_regular_file(pipe); }).ends_with("(write its content to a file)"));
+  CHECK(refusal([&] { require_regular_file(folder.path() / "no"); }).ends_with("No such file or directory"));
+  CHECK(refusal([&] { require_regular_file(folder.path()); }).ends_with("is a folder, not a file"));
+}
+
+TEST_CASE("read file: a pipe that the shell has opened is read to its end") {
+  std::array<int, 2> ends{};
+  REQUIRE(::pipe(ends.data()) == 0);
+  REQUIRE(::write(ends[1], "content", 7) == 7);
+  ::close(ends[1]);
+  CHECK(read_file("/dev/fd/" + std::to_string(ends[0])) == "content");
+  ::close(ends[0]);
+}
+
+TEST_CASE("read file: what is larger than a limit is refused, whatever its size claims") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.txt";
+  write_file(path, "12345");
+  CHECK(read_file(path, 5) == "12345");
+  CHECK(refusal([&] { read_file(path, 4); }) ==
+        path.string() + ": has more than 4 bytes, the most that is read of such a file");
+  CHECK(refusal([] {
+          read_file("/proc/self/maps", 10);
+        }).starts_with("/proc/self/maps: has more than 10 bytes"));
+  std::filesystem::resize_file(path, kLargestFile + 1);
+  CHECK(refusal([&] { read_file(path); }).find("has more than 256 MB") != std::string::npos);
+}
+
+TEST_CASE("unfinished files: those of processes that were killed are removed, all others stay") {
+  const TemporaryFolder folder;
+  const pid_t dead = ::fork();
+  if (dead == 0) {
+    write_file(folder.path() / "of_child.txt", "x");
+    std::ofstream(unfinished_name(folder.path() / "left.png")) << "half";
+    ::_exit(0);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(dead, &status, 0) == dead);
+  const std::string tag = process_mark().substr(0, 9);
+  const auto left = folder.path() / (".left.unfinished-" + tag + std::to_string(dead) + ".png");
+  REQUIRE(std::filesystem::exists(left));
+  CHECK(is_mark_of_the_dead(tag + std::to_string(dead)));
+  const std::vector<std::string> others = {
+      ".a.unfinished-" + process_mark() + ".png",                 // of a process that lives
+      ".a.unfinished-00000000-" + std::to_string(dead) + ".png",  // of another machine
+      ".a.unfinished-" + std::to_string(dead) + ".png",           // without a machine
+      ".a.unfinished-" + tag + std::to_string(dead) + "x.png",    // not quite the name
+      ".a.unfinished-" + tag + "-1.png",                          // no process
+      "a.unfinished-" + tag + std::to_string(dead) + ".png"};     // not hidden
+  for (const std::string& name : others) std::ofstream(folder.path() / name) << "x";
+  write_file(folder.path() / "new.txt", "x");
+  CHECK_FALSE(std::filesystem::exists(left));
+  for (const std::string& name : others) CHECK(std::filesystem::exists(folder.path() / name));
+}
+
+TEST_CASE("commit file: a device or a pipe is not replaced") {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(refusal([&] { write_file(pipe, "x"); }) ==
+        pipe.string() + ": cannot be written: is a device or a pipe, which a file must not replace");
+  CHECK(std::filesystem::is_fifo(pipe));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+}

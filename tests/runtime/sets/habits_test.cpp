@@ -1,0 +1,226 @@
+// Sets with the names from the documentation of the tools that write them.
+#include <map>
+
+#include <catch2/catch.hpp>
+
+#include "runtime/sets/set_session.hpp"
+#include "sets/name_pieces.hpp"
+
+using namespace remap;
+
+namespace {
+
+// The habit and meaning of a name without extension: `glTF: G=roughness B=metallic`.
+std::string reading_text(const std::string& name) {
+  const std::vector<NameReading> readings = built_in_naming().read(name);
+  if (readings.empty()) return "none";
+  std::string text = readings.front().habit + ":";
+  for (const ChannelMeaning& entry : readings.front().meaning) {
+    text += " ";
+    if (entry.channels != Channels::kWhole) text += std::string(name_of(kChannels, entry.channels)) + "=";
+    text += role_name(entry.role);
+  }
+  return text;
+}
+
+std::string stem(const std::string& name) { return built_in_naming().read(name).at(0).stem; }
+
+}  // namespace
+
+TEST_CASE("Substance Painter: metal and roughness, packed as for Unreal") {
+  const SetSession session{"Crate_BaseColor.png", "Crate_Normal.png", "Crate_OcclusionRoughnessMetallic.png",
+                           "Crate_Emissive.png", "Crate_Height.png"};
+  const Discovery found = session.find();
+  const FoundSet& set = only_set(found, "Crate");
+  CHECK(set.state == SetState::kReady);
+  CHECK(use_text(set, set.width) == "roughness in G of Crate_OcclusionRoughnessMetallic.png");
+  CHECK(use_text(set, set.specular) == "-");
+  CHECK(set.maps.size() == 5);
+  CHECK(reading_text("Crate_OcclusionRoughnessMetallic") ==
+        "Substance Painter: R=occlusion G=roughness B=metallic");
+}
+
+TEST_CASE("Substance Painter: specular and glossiness, with UDIM tiles") {
+  const SetSession session{"hero_Body_Diffuse.1001.exr",    "hero_Body_Diffuse.1002.exr",
+                           "hero_Body_Specular.1001.exr",   "hero_Body_Specular.1002.exr",
+                           "hero_Body_Glossiness.1001.exr", "hero_Body_Glossiness.1002.exr"};
+  const Discovery found = session.find();
+  const FoundSet& set = only_set(found, "hero_Body");
+  CHECK(use_text(set, set.width) == "glossiness of hero_Body_Glossiness.<UDIM>.exr");
+  CHECK(use_text(set, set.specular) == "specular of hero_Body_Specular.<UDIM>.exr");
+  CHECK(set.maps[0].habit == "Substance Painter");
+  CHECK(set.maps[0].tiles ==
+        std::vector<Tile>{{1001, "hero_Body_Glossiness.1001.exr"}, {1002, "hero_Body_Glossiness.1002.exr"}});
+}
+
+TEST_CASE("Substance Painter: its presets for renderers and engines") {
+  CHECK(reading_text("m_SpecularRoughness") == "Substance Painter: roughness");
+  CHECK(reading_text("m_SpecularFaceColor") == "Substance Painter: specular");
+  CHECK(reading_text("m_ReflectionGlossiness") == "Substance Painter: glossiness_squared");
+  CHECK(reading_text("m_MaskMap") == "Substance Painter: R=metallic G=occlusion A=glossiness");
+  CHECK(reading_text("m_Base_color") == "Substance Painter: base_color");
+  CHECK(reading_text("m_Mixed_AO") == "Substance Painter: occlusion");
+  CHECK(reading_text("m_Normal_OpenGL") == "Substance Painter: normal");
+  CHECK(reading_text("monkey_DefaultMaterial_BaseColor_sRGB") == "Substance Painter: base_color");
+  CHECK(stem("monkey_DefaultMaterial_BaseColor_sRGB") == "monkey_DefaultMaterial");
+}
+
+TEST_CASE("Substance Painter: a tile before the word") {
+  const SetSession session{"robot_1001_Roughness.png", "robot_1002_Roughness.png", "robot_1001_BaseColor.png",
+                           "robot_1002_BaseColor.png"};
+  const Discovery found = session.find();
+  const FoundSet& set = only_set(found, "robot");
+  CHECK(use_text(set, set.width) == "roughness of robot_<UDIM>_Roughness.png");
+}
+
+TEST_CASE("Poly Haven: maps with the resolution after the word") {
+  const SetSession session{"rocky_terrain_02_diff_4k.jpg", "rocky_terrain_02_rough_4k.exr",
+                           "rocky_terrain_02_spec_4k.png", "rocky_terrain_02_nor_gl_4k.exr",
+                           "rocky_terrain_02_disp_4k.png", "rocky_terrain_02_ao_4k.jpg"};
+  const Discovery found = session.find();
+  const FoundSet& set = only_set(found, "rocky_terrain_02");
+  CHECK(use_text(set, set.width) == "roughness of rocky_terrain_02_rough_4k.exr");
+  CHECK(use_text(set, set.specular) == "specular of rocky_terrain_02_spec_4k.png");
+  CHECK(set.maps[0].habit == "Poly Haven");
+  CHECK(set.maps.size() == 6);
+  CHECK(reading_text("brick_arm_4k") == "Poly Haven: R=occlusion G=roughness B=metallic");
+  CHECK(reading_text("red_brick_03_nor_dx_2k") == "Poly Haven: normal");
+}
+
+TEST_CASE("ambientCG: resolution and format before the word") {
+  const SetSession session{"Metal014_4K-PNG_Color.png",     "Metal014_4K-PNG_NormalGL.png",
+                           "Metal014_4K-PNG_NormalDX.png",  "Metal014_4K-PNG_Roughness.png",
+                           "Metal014_4K-PNG_Metalness.png", "Metal014_4K-PNG_Displacement.png"};
+  const Discovery found = session.find();
+  const FoundSet& set = only_set(found, "Metal014");
+  CHECK(use_text(set, set.width) == "roughness of Metal014_4K-PNG_Roughness.png");
+  CHECK(set.maps[0].habit == "ambientCG");
+  CHECK(set.maps.size() == 6);
+  CHECK(reading_text("Chainmail004_1K-JPG_AmbientOcclusion") == "ambientCG: occlusion");
+  CHECK(reading_text("Metal08_rgh").ends_with(": roughness"));
+  CHECK(stem("3DBread005_2K-HQ_Color") == "3DBread005");
+}
+
+TEST_CASE("Quixel Megascans: resolution before the word") {
+  const SetSession session{"vhqgdhh_4K_Albedo.jpg", "vhqgdhh_4K_Specular.jpg", "vhqgdhh_4K_Gloss.jpg",
+                           "vhqgdhh_4K_Cavity.jpg", "vhqgdhh_4K_Normal.jpg",   "vhqgdhh_4K_Displacement.exr"};
+  const Discovery found = session.find();
+  const FoundSet& set = only_set(found, "vhqgdhh");
+  CHECK(use_text(set, set.width) == "glossiness of vhqgdhh_4K_Gloss.jpg");
+  CHECK(use_text(set, set.specular) == "specular of vhqgdhh_4K_Specular.jpg");
+  CHECK(set.maps[0].habit == "Quixel Megascans");
+  CHECK(set.maps[1].habit == "Quixel Megascans");
+  CHECK(reading_text("okdr22_4K_Roughness") == "Quixel Megascans: roughness");
+}
+
+TEST_CASE("glTF: packed maps of its two material models") {
+  const SetSession session{"BoomBox_baseColor.png", "BoomBox_occlusionRoughnessMetallic.png",
+                           "Robot_diffuse.png", "Robot_specularGlossiness.png", "Default_metalRoughness.jpg"};
+  const Discovery found = session.find();
+  REQUIRE(found.sets.size() == 3);
+  const FoundSet& robot = set_at(found, "Robot");
+  CHECK(use_text(robot, robot.width) == "glossiness in A of Robot_specularGlossiness.png");
+  CHECK(use_text(robot, robot.specular) == "specular in RGB of Robot_specularGlossiness.png");
+  REQUIRE(robot.maps.size() == 2);
+  CHECK(robot.maps[0].is_converted);
+  CHECK_FALSE(robot.maps[1].is_converted);
+  const FoundSet& box = set_at(found, "BoomBox");
+  CHECK(use_text(box, box.width) == "roughness in G of BoomBox_occlusionRoughnessMetallic.png");
+  CHECK(box.maps[0].habit == "glTF");
+  CHECK(reading_text("Default_metalRoughness") == "glTF: G=roughness B=metallic");
+  CHECK(reading_text("Fox_metallicRoughness") == "glTF: G=roughness B=metallic");
+  CHECK(reading_text("T_Crate_Worn_ORM") == "glTF: R=occlusion G=roughness B=metallic");
+}
+
+TEST_CASE("Mari: the channel is the whole name or its end") {
+  const SetSession session{"diffuse.1001.exr",
+                           "specRough.1001.exr",
+                           "spec.1001.exr",
+                           "props/barbarian_specularColor.1001.exr",
+                           "props/barbarian_specRough.1001.exr",
+                           "props/tableTopSpecular.tif",
+                           "props/tableTopRoughness.tif"};
+  const Discovery found = session.find();
+  REQUIRE(found.sets.size() == 3);
+  const FoundSet& whole = set_at(found, session.root().filename().string());
+  CHECK(whole.folder.empty());
+  CHECK(use_text(whole, whole.width) == "roughness of specRough.<UDIM>.exr");
+  CHECK(use_text(whole, whole.specular) == "specular of spec.<UDIM>.exr");
+  CHECK(whole.maps[0].habit == "Mari");
+  const FoundSet& barbarian = set_at(found, "props/barbarian");
+  CHECK(use_text(barbarian, barbarian.specular) == "specular of props/barbarian_specularColor.<UDIM>.exr");
+  const FoundSet& table = set_at(found, "props/tableTop");
+  CHECK(use_text(table, table.width) == "roughness of props/tableTopRoughness.tif");
+}
+
+TEST_CASE("renderers: short words") {
+  const SetSession session{"wood_rgh.tx", "wood_spc.tx", "steel_gls.tif", "steel_refl.tif"};
+  const Discovery found = session.find();
+  REQUIRE(found.sets.size() == 2);
+  const FoundSet& wood = set_at(found, "wood");
+  CHECK(use_text(wood, wood.width) == "roughness of wood_rgh.tx");
+  CHECK(use_text(wood, wood.specular) == "specular of wood_spc.tx");
+  const FoundSet& steel = set_at(found, "steel");
+  CHECK(use_text(steel, steel.width) == "glossiness of steel_gls.tif");
+  CHECK(use_text(steel, steel.specular) == "specular of steel_refl.tif");
+}
+
+TEST_CASE("read name: case and separators are ignored") {
+  for (const std::string name :
+       {"a_base_color", "a-Base-Color", "a BASE COLOR", "a.basecolor", "a_baseColor"})
+    CHECK(built_in_naming().read(name).at(0).meaning ==
+          std::vector<ChannelMeaning>{{Channels::kWhole, Role::kBaseColor}});
+  for (const std::string name :
+       {"a_ROUGHNESS", "a-roughness", "a roughness 2K", "a.Rough.2048x2048", "a_1024_rough"})
+    CHECK(reading_text(name).ends_with(": roughness"));
+  CHECK(stem("a_1024_rough") == "a");
+}
+
+TEST_CASE("read name: words inside other words and names of sets do not count") {
+  for (const std::string name :
+       {"spectrum", "glossary", "through", "a_spectrum", "color_chart", "arms", "armchair_", "normalized_2k",
+        "rough_sketch", "trough", "4k", "", "_", "1024"})
+    CHECK(reading_text(name) == "none");
+  CHECK(reading_text("rough_wood_diff_2k") == "Poly Haven: diffuse");
+  CHECK(stem("rough_wood_diff_2k") == "rough_wood");
+  CHECK(stem("glossy_tiles_Roughness") == "glossy_tiles");
+  // A capital begins a word only for habits with `camel_case`.
+  CHECK(reading_text("heroArm") == "none");
+  CHECK(reading_text("heroSpecRough") == "Mari: roughness");
+  CHECK(reading_text("rusty_metal_rough_4k") == "Poly Haven: roughness");
+  CHECK(reading_text("rusty_metal_roughness").ends_with(": roughness"));
+}
+
+TEST_CASE("read name: the roughness of a coat is not that of the base") {
+  for (const std::string name : {"car_CoatRoughness", "car_coat_roughness", "car_clearcoatRoughness",
+                                 "car_sheen_roughness", "car_diffuseRoughness"})
+    CHECK(reading_text(name).ends_with(": other"));
+}
+
+TEST_CASE("built-in habits: one word means the same in all of them") {
+  std::map<std::string, std::vector<ChannelMeaning>> meanings;
+  for (const Habit& habit : built_in_naming().habits()) {
+    CHECK(habit.built_in);
+    for (const NamingRule& rule : habit.rules) {
+      for (const std::string& word : rule.words) {
+        INFO(habit.name << ": " << word);
+        const auto [entry, added] = meanings.try_emplace(word_key(word), rule.meaning);
+        CHECK(entry->second == rule.meaning);
+      }
+    }
+  }
+}
+
+TEST_CASE("built-in habits: every word is read as its rule says") {
+  for (const Habit& habit : built_in_naming().habits()) {
+    for (const NamingRule& rule : habit.rules) {
+      for (const std::string& word : rule.words) {
+        INFO(habit.name << ": " << word);
+        const std::vector<NameReading> readings = built_in_naming().read("thing_" + word);
+        REQUIRE_FALSE(readings.empty());
+        CHECK(readings.front().meaning == rule.meaning);
+        CHECK(readings.front().stem == "thing");
+      }
+    }
+  }
+}

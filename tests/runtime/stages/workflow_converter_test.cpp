@@ -1,0 +1,122 @@
+// Whole materials between workflows, as a texture pass converts them.
+#include <array>
+#include <random>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "remap/workflow.hpp"
+#include "runtime/stages/materials.hpp"
+
+using namespace remap;
+using namespace workflow_test;
+
+namespace {
+
+constexpr std::size_t kTexels = 700;  // more than a block
+const std::array<Parameter, 3> kSourceOrder = {Parameter::kDiffuse, Parameter::kSpecular, Parameter::kWidth};
+const std::array<Parameter, 3> kTargetOrder = {Parameter::kBaseColor, Parameter::kMetallic,
+                                               Parameter::kWidth};
+
+// Rows of a material, and where the parameters of `order` lie among them.
+template <std::size_t Count>
+struct Rows {
+  std::array<std::vector<float>, Count> rows;
+
+  Rows() { rows.fill(std::vector<float>(kTexels)); }
+  template <typename Float>
+  std::array<Float*, Count> all() {
+    std::array<Float*, Count> pointers{};
+    for (std::size_t r = 0; r < Count; ++r) pointers[r] = rows[r].data();
+    return pointers;
+  }
+  template <typename Float>
+  MaterialRows<Float> material(const std::array<Parameter, 3>& order) {
+    MaterialRows<Float> material;
+    std::size_t r = 0;
+    for (const Parameter parameter : order) {
+      ParameterRows<Float>& own = material[parameter];
+      own.count = is_color(parameter) ? 3 : 1;
+      for (std::size_t c = 0; c < own.count; ++c) own.row[c] = rows[r++].data();
+    }
+    return material;
+  }
+};
+
+Rows<7> random_rows() {
+  Rows<7> all;
+  std::mt19937 random(4);
+  for (std::size_t i = 0; i < kTexels; ++i) {
+    const SpecularMaterial material = random_specular(random);
+    for (std::size_t c = 0; c < 3; ++c) {
+      all.rows[c][i] = material.diffuse[c];
+      all.rows[3 + c][i] = material.specular[c];
+    }
+    all.rows[6][i] = material.width;
+  }
+  return all;
+}
+
+// The largest difference between the converter of maps and that of the library.
+double largest_difference(const WorkflowConversion& conversion, InstructionSet set) {
+  Rows<7> source = random_rows();
+  Rows<5> expected, found;
+  convert_workflow(conversion, kTexels, source.all<const float>(), expected.all<float>());
+  WorkflowStages stages;
+  stages.source = conversion.specular;
+  stages.target = conversion.metallic;
+  stages.width = conversion.metallic.width;
+  stages.prior = std::get<Projection>(conversion.formula).prior;
+  make_workflow_converter(stages, set)
+      ->convert(kTexels, source.material<const float>(kSourceOrder), found.material<float>(kTargetOrder));
+  double largest = 0.0;
+  for (std::size_t r = 0; r < expected.rows.size(); ++r)
+    for (std::size_t i = 0; i < kTexels; ++i)
+      largest = std::max(largest, std::fabs(static_cast<double>(expected.rows[r][i] - found.rows[r][i])));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("workflow converter: maps become metallic by the projection, whatever the prior") {
+  for (const double prior : {0.0, kCleanPrior, kNoisyPrior}) {
+    WorkflowConversion conversion = gltf(Projection{prior});
+    conversion.specular.width = conversion.metallic.width;  // without a BRDF between, both ends have one
+    CAPTURE(prior);
+    CHECK(largest_difference(conversion, InstructionSet::kBaseline) < 1e-5);
+  }
+}
+
+TEST_CASE("workflow converter: a grey diffuse row becomes three, of which it is the first") {
+  constexpr std::size_t kCount = 1500;  // more than a block
+  WorkflowStages stages;
+  SpecularWorkflow scaled;
+  scaled.diffuse = DiffuseConvention::kScaled;
+  stages.source = scaled;
+  stages.target = SpecularWorkflow{};
+  const auto converter = make_workflow_converter(stages);
+  std::vector<float> width(kCount, 0.5f), specular(kCount), grey(kCount), green(kCount), blue(kCount);
+  std::vector<std::vector<float>> specular_out(3, std::vector<float>(kCount));
+  for (std::size_t i = 0; i < kCount; ++i) {
+    specular[i] = static_cast<float>(i) / kCount;
+    grey[i] = static_cast<float>(i % 7) / 7.0f;
+  }
+  const std::vector<float> given = grey;
+  MaterialRows<const float> in;
+  in[Parameter::kWidth] = {{width.data()}, 1};
+  in[Parameter::kSpecular] = {{specular.data()}, 1};
+  in[Parameter::kDiffuse] = {{grey.data()}, 1};
+  MaterialRows<float> out;
+  out[Parameter::kWidth] = {{width.data()}, 1};
+  out[Parameter::kSpecular] = {{specular_out[0].data(), specular_out[1].data(), specular_out[2].data()}, 3};
+  out[Parameter::kDiffuse] = {{grey.data(), green.data(), blue.data()}, 3};
+  CHECK(converter->convert(kCount, in, out) == 0);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const float expected = given[i] * (1.0f - specular[i]);
+    CAPTURE(i);
+    REQUIRE(grey[i] == expected);
+    REQUIRE(green[i] == expected);
+    REQUIRE(blue[i] == expected);
+    for (const auto& row : specular_out) REQUIRE(row[i] == specular[i]);
+  }
+}
