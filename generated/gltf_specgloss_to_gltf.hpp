@@ -93,8 +93,8 @@ inline float larger(float a, float b) noexcept { return float_of_order(larger(or
 // 0 in place of a negative value.
 inline float from_zero(float value) noexcept { return float_of_order(order(value) & ~(order(value) >> 31)); }
 
-// The value held in 0 to 1. Of NaN some number in that range.
-inline float held(float value) noexcept { return smaller(from_zero(value), 1.0f); }
+// The value clamped to 0 to 1. Of NaN some number in that range.
+inline float clamped(float value) noexcept { return smaller(from_zero(value), 1.0f); }
 
 inline float magnitude(float value) noexcept { return float_from_bits(bits(value) & 0x7fffffffu); }
 
@@ -172,24 +172,24 @@ inline void for_each_texel(const Texel& texel) noexcept {
 
 // Texels that are converted together: their rows stay in the first-level cache.
 template <std::size_t kRows, std::size_t kSize>
-struct HeldBlock {
+struct ClampedBlock {
   float row[kRows][kSize];
 };
 
-// The value held in 0 to 1; NaN stays, and is larger than any number by order().
-inline float held_or_nan(float value) noexcept {
-  return float_from_bits(bits(held(value)) | (nan_mask(value) & 0x7fffffffu));
+// The value clamped to 0 to 1; NaN stays, and is larger than any number by order().
+inline float clamped_or_nan(float value) noexcept {
+  return float_from_bits(bits(clamped(value)) | (nan_mask(value) & 0x7fffffffu));
 }
 
 // Holds rows in 0 to 1. Returns how many texels that changed.
 template <std::size_t kSize, std::size_t... kRow>
 inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
-                        HeldBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
+                        ClampedBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
   const std::array<const float*, sizeof...(kRow)> from = in;
   std::uint32_t count = 0;
   for_each_texel<kSize>([&](std::size_t i) {
     count += (outside_sign(from[kRow][i]) | ...) >> 31;
-    ((block.row[kRow][i] = held_or_nan(from[kRow][i])), ...);
+    ((block.row[kRow][i] = clamped_or_nan(from[kRow][i])), ...);
   });
   return count;
 }
@@ -223,7 +223,7 @@ inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn>
 
 // Width is the last row of both ends.
 template <std::size_t kRows, std::size_t kSize>
-inline void write_width(const Conventions& use, const HeldBlock<kRows, kSize>& block, float* out) noexcept {
+inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>& block, float* out) noexcept {
   for_each_texel<kSize>([&, out](std::size_t i) { out[i] = converted_width(use, block.row[kRows - 1][i]); });
 }
 
@@ -232,14 +232,14 @@ inline constexpr std::size_t kMetallicBlock = 16;
 // A block of the specular workflow: diffuse reflectance as the surface has it (three rows), F0 (three rows),
 // and the width as it is given.
 struct SpecularTexels {
-  HeldBlock<7, kMetallicBlock> held;
+  ClampedBlock<7, kMetallicBlock> clamped;
   std::uint32_t nan[kMetallicBlock];  // all bits where any of them is not a number
 };
 
 inline std::size_t read_specular(const Conventions& use, const std::array<const float*, 7>& in,
                                  SpecularTexels& texels) noexcept {
-  const std::size_t outside = hold(in, texels.held, std::make_index_sequence<7>());
-  auto& row = texels.held.row;
+  const std::size_t outside = hold(in, texels.clamped, std::make_index_sequence<7>());
+  auto& row = texels.clamped.row;
   for_each_texel<kMetallicBlock>([&](std::size_t i) { texels.nan[i] = nan_mask(row[6][i]); });
   for (std::size_t r = 0; r < 6; ++r)
     for_each_texel<kMetallicBlock>([&](std::size_t i) { texels.nan[i] |= nan_mask(row[r][i]); });
@@ -291,7 +291,7 @@ struct Texel {
 
 [[gnu::always_inline]] inline Texel texel_of(const SpecularTexels& texels, float alpha,
                                              std::size_t i) noexcept {
-  const auto& row = texels.held.row;
+  const auto& row = texels.clamped.row;
   return {channel_of(row[0][i], row[3][i]), channel_of(row[1][i], row[4][i]),
           channel_of(row[2][i], row[5][i]), gram_of(alpha)};
 }
@@ -314,7 +314,7 @@ struct Blend {
   return {diffuse, f0, use.dielectric_f0 * share, by_diffuse * inverse, by_f0 * inverse};
 }
 
-// Least squares before it is held in 0 to 1.
+// Least squares before it is clamped to 0 to 1.
 [[gnu::always_inline]] inline float free_albedo(const Blend& blend, float diffuse, float f0) noexcept {
   return blend.by_diffuse * diffuse + blend.by_f0 * (f0 - blend.dielectric);
 }
@@ -330,10 +330,10 @@ struct Blend {
 
 [[gnu::always_inline]] inline float best_error(const Blend& blend, const Gram& gram,
                                                const Channel& channel) noexcept {
-  return channel_error(blend, gram, channel, held(free_albedo(blend, channel.diffuse, channel.f0)));
+  return channel_error(blend, gram, channel, clamped(free_albedo(blend, channel.diffuse, channel.f0)));
 }
 
-// What the best base color of this share leaves over the channels, each held in 0 to 1. Rounding may make it
+// What the best base color of this share leaves over the channels, each clamped to 0 to 1. Rounding may make it
 // negative.
 [[gnu::always_inline]] inline float error_of(const Texel& texel, const Conventions& use,
                                              float share) noexcept {
@@ -342,7 +342,7 @@ struct Blend {
          best_error(blend, texel.gram, texel.blue);
 }
 
-// As long as no albedo is held, the error over n, the share, is a quartic over a quadratic: with
+// As long as no albedo is clamped, the error over n, the share, is a quartic over a quadratic: with
 //   q(n) = k f n^2 - (d + k s) n + d   for a channel of diffuse d and F0 s, k the diffuse of albedo 1, f a
 //   dielectric's F0,
 // the error is scale sum w q^2 / quadratic. The roots of one q are those of equation (3) of Sztrajman et al.
@@ -406,7 +406,7 @@ struct ErrorCurve {
   const float bend = curve.scale * dde;
   const float step = slope / (magnitude(bend) + 1e-12f);
   const float length = smaller(magnitude(step), 0.25f);
-  return held(n - float_from_bits(bits(length) | (bits(step) & 0x80000000u)));
+  return clamped(n - float_from_bits(bits(length) | (bits(step) & 0x80000000u)));
 }
 
 // Shares below it are metals, with what an 8-bit map makes of them.
@@ -435,8 +435,8 @@ inline constexpr float kMetalShare = 0.05f;
                                                float prior) noexcept {
   const ErrorCurve curve = error_curve(texel, use, prior);
   const float both = curve.r1 + approximate_root(from_zero(curve.r1 * curve.r1 - 4.0f * curve.r2 * curve.r0));
-  const float upper = improved(curve, held(both / (2.0f * curve.r2 + 1e-20f)));
-  const float lower = improved(curve, held(2.0f * curve.r0 / (both + 1e-20f)));
+  const float upper = improved(curve, clamped(both / (2.0f * curve.r2 + 1e-20f)));
+  const float lower = improved(curve, clamped(2.0f * curve.r0 / (both + 1e-20f)));
   const float metal = improved(curve, 0.0f);
   const std::uint32_t no_metal = no_metal_mask(texel, use);
   const float of_upper = penalised_error(texel, use, curve, no_metal, upper);
@@ -484,7 +484,7 @@ inline std::size_t project(const Conventions& use, float prior, const std::array
   const std::size_t outside = read_specular(use, in, texels);
   float alpha[kBlock], share[kBlock], dielectric[kBlock], by_diffuse[kBlock], by_f0[kBlock];
   for_each_texel<kBlock>(
-      [&](std::size_t i) { alpha[i] = width_to_alpha(use.width_in, texels.held.row[6][i]); });
+      [&](std::size_t i) { alpha[i] = width_to_alpha(use.width_in, texels.clamped.row[6][i]); });
   find_shares(use, prior, texels, alpha, share);
   for_each_texel<kBlock>([&](std::size_t i) {
     const Blend blend = blend_of(gram_of(alpha[i]), use, share[i]);
@@ -493,18 +493,18 @@ inline std::size_t project(const Conventions& use, float prior, const std::array
     by_f0[i] = blend.by_f0;
   });
   for (std::size_t c = 0; c < 3; ++c) {
-    const float* const diffuse = texels.held.row[c];
-    const float* const f0 = texels.held.row[3 + c];
+    const float* const diffuse = texels.clamped.row[c];
+    const float* const f0 = texels.clamped.row[3 + c];
     float* const color = out[c];
     for_each_texel<kBlock>([&, diffuse, f0, color](std::size_t i) {
       const float albedo = by_diffuse[i] * diffuse[i] + by_f0[i] * (f0[i] - dielectric[i]);
-      color[i] = or_nan(held(albedo), texels.nan[i]);
+      color[i] = or_nan(clamped(albedo), texels.nan[i]);
     });
   }
   float* const metallic = out[3];
   for_each_texel<kBlock>(
       [&, metallic](std::size_t i) { metallic[i] = or_nan(1.0f - share[i], texels.nan[i]); });
-  write_width(use, texels.held, out[4]);
+  write_width(use, texels.clamped, out[4]);
   return outside;
 }
 
@@ -513,7 +513,7 @@ inline constexpr Conventions kConventions{0.04f, 0.96f, true, WidthParameter::kG
 }  // namespace detail
 
 // Rows of `count` texels, in the order of the members above. An output row may be exactly any input row; no other rows may
-// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are held there; NaN
+// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are clamped there; NaN
 // makes the outputs that depend on it NaN. Returns the number of texels that had such values.
 inline std::size_t evaluate_rows(std::size_t count, const std::array<const float*, kInputRows>& in,
                                  const std::array<float*, kOutputRows>& out) noexcept {

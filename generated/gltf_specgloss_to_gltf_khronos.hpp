@@ -94,8 +94,8 @@ inline float larger(float a, float b) noexcept { return float_of_order(larger(or
 // 0 in place of a negative value.
 inline float from_zero(float value) noexcept { return float_of_order(order(value) & ~(order(value) >> 31)); }
 
-// The value held in 0 to 1. Of NaN some number in that range.
-inline float held(float value) noexcept { return smaller(from_zero(value), 1.0f); }
+// The value clamped to 0 to 1. Of NaN some number in that range.
+inline float clamped(float value) noexcept { return smaller(from_zero(value), 1.0f); }
 
 inline float magnitude(float value) noexcept { return float_from_bits(bits(value) & 0x7fffffffu); }
 
@@ -173,24 +173,24 @@ inline void for_each_texel(const Texel& texel) noexcept {
 
 // Texels that are converted together: their rows stay in the first-level cache.
 template <std::size_t kRows, std::size_t kSize>
-struct HeldBlock {
+struct ClampedBlock {
   float row[kRows][kSize];
 };
 
-// The value held in 0 to 1; NaN stays, and is larger than any number by order().
-inline float held_or_nan(float value) noexcept {
-  return float_from_bits(bits(held(value)) | (nan_mask(value) & 0x7fffffffu));
+// The value clamped to 0 to 1; NaN stays, and is larger than any number by order().
+inline float clamped_or_nan(float value) noexcept {
+  return float_from_bits(bits(clamped(value)) | (nan_mask(value) & 0x7fffffffu));
 }
 
 // Holds rows in 0 to 1. Returns how many texels that changed.
 template <std::size_t kSize, std::size_t... kRow>
 inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
-                        HeldBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
+                        ClampedBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
   const std::array<const float*, sizeof...(kRow)> from = in;
   std::uint32_t count = 0;
   for_each_texel<kSize>([&](std::size_t i) {
     count += (outside_sign(from[kRow][i]) | ...) >> 31;
-    ((block.row[kRow][i] = held_or_nan(from[kRow][i])), ...);
+    ((block.row[kRow][i] = clamped_or_nan(from[kRow][i])), ...);
   });
   return count;
 }
@@ -224,7 +224,7 @@ inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn>
 
 // Width is the last row of both ends.
 template <std::size_t kRows, std::size_t kSize>
-inline void write_width(const Conventions& use, const HeldBlock<kRows, kSize>& block, float* out) noexcept {
+inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>& block, float* out) noexcept {
   for_each_texel<kSize>([&, out](std::size_t i) { out[i] = converted_width(use, block.row[kRows - 1][i]); });
 }
 
@@ -233,14 +233,14 @@ inline constexpr std::size_t kMetallicBlock = 16;
 // A block of the specular workflow: diffuse reflectance as the surface has it (three rows), F0 (three rows),
 // and the width as it is given.
 struct SpecularTexels {
-  HeldBlock<7, kMetallicBlock> held;
+  ClampedBlock<7, kMetallicBlock> clamped;
   std::uint32_t nan[kMetallicBlock];  // all bits where any of them is not a number
 };
 
 inline std::size_t read_specular(const Conventions& use, const std::array<const float*, 7>& in,
                                  SpecularTexels& texels) noexcept {
-  const std::size_t outside = hold(in, texels.held, std::make_index_sequence<7>());
-  auto& row = texels.held.row;
+  const std::size_t outside = hold(in, texels.clamped, std::make_index_sequence<7>());
+  auto& row = texels.clamped.row;
   for_each_texel<kMetallicBlock>([&](std::size_t i) { texels.nan[i] = nan_mask(row[6][i]); });
   for (std::size_t r = 0; r < 6; ++r)
     for_each_texel<kMetallicBlock>([&](std::size_t i) { texels.nan[i] |= nan_mask(row[r][i]); });
@@ -269,25 +269,25 @@ inline std::size_t solve_khronos(const Conventions& use, const std::array<const 
                                  const std::array<float*, 5>& out) noexcept {
   SpecularTexels texels;
   const std::size_t outside = read_specular(use, in, texels);
-  const auto& row = texels.held.row;
+  const auto& row = texels.clamped.row;
   const float f = use.dielectric_f0;
   for (std::size_t i = 0; i < kMetallicBlock; ++i) {
     const float diffuse = perceived_brightness(row[0][i], row[1][i], row[2][i]) / use.diffuse_of_albedo;
     const float specular = perceived_brightness(row[3][i], row[4][i], row[5][i]);
     const float b = diffuse + specular - 2.0f * f, c = f - specular;
     const float root = (std::sqrt(from_zero(b * b - 4.0f * f * c)) - b) / (2.0f * f);
-    const float metallic = specular < f ? 0.0f : held(root);
+    const float metallic = specular < f ? 0.0f : clamped(root);
     const float dielectric = 1.0f - metallic, trust = metallic * metallic;
     const float of_diffuse = 1.0f / (use.diffuse_of_albedo * (dielectric > 1e-6f ? dielectric : 1e-6f));
     const float of_specular = 1.0f / (metallic > 1e-6f ? metallic : 1e-6f);
     for (std::size_t k = 0; k < 3; ++k) {
       const float by_diffuse = row[k][i] * of_diffuse;
       const float by_specular = (row[3 + k][i] - f * dielectric) * of_specular;
-      out[k][i] = or_nan(held(by_diffuse + (by_specular - by_diffuse) * trust), texels.nan[i]);
+      out[k][i] = or_nan(clamped(by_diffuse + (by_specular - by_diffuse) * trust), texels.nan[i]);
     }
     out[3][i] = or_nan(metallic, texels.nan[i]);
   }
-  write_width(use, texels.held, out[4]);
+  write_width(use, texels.clamped, out[4]);
   return outside;
 }
 
@@ -296,7 +296,7 @@ inline constexpr Conventions kConventions{0.04f, 0.96f, true, WidthParameter::kG
 }  // namespace detail
 
 // Rows of `count` texels, in the order of the members above. An output row may be exactly any input row; no other rows may
-// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are held there; NaN
+// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are clamped there; NaN
 // makes the outputs that depend on it NaN. Returns the number of texels that had such values.
 inline std::size_t evaluate_rows(std::size_t count, const std::array<const float*, kInputRows>& in,
                                  const std::array<float*, kOutputRows>& out) noexcept {

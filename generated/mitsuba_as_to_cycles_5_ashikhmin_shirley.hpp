@@ -52,9 +52,9 @@ struct Output {
   float color;  // specular reflectance, linear
 };
 
-// What the measured table covers. Beyond it alpha is held at the edge, and f0 is extrapolated in
-// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
-// of domain. color is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// What the measured table covers. Beyond it alpha is clamped to the edge, and f0 is extrapolated in
+// proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
+// of domain. color is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
 inline constexpr Input kDomainMax{0.82931036f, 0.3f};
 
@@ -183,23 +183,23 @@ inline bool any_sign(std::uint32_t value) noexcept { return value >> 31 != 0; }
 
 // What a converter covers, in the source's own parameters.
 struct Domain {
-  float width_min, width_max, specular_min, specular_max;
+  float alpha_min, alpha_max, specular_min, specular_max;
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// The width, clamped to the domain. Floats that are not negative compare as integers do; that vectorises with every
 // compiler and under any floating-point flags.
-struct HeldWidth {
+struct ClampedWidth {
   Float own;
   Bits nan;      // all bits: not a number
   Bits outside;  // sign bit: out of domain
 };
 
-inline HeldWidth held_width(const Domain& domain, Float given) noexcept {
+inline ClampedWidth clamped_width(const Domain& domain, Float given) noexcept {
   const Bits order = bits(given + 0.0f);  // -0 becomes 0
-  const Bits raised = larger(order, bits(domain.width_min));
-  const Bits held = smaller(raised, bits(domain.width_max));
-  return {float_from_bits(held), above(order & 0x7fffffffu, 0x7f800000u), differs(held, order)};
+  const Bits raised = larger(order, bits(domain.alpha_min));
+  const Bits clamped = smaller(raised, bits(domain.alpha_max));
+  return {float_from_bits(clamped), above(order & 0x7fffffffu, 0x7f800000u), differs(clamped, order)};
 }
 
 // Sign bit: whether a channel is out of domain; negative, beyond the edge, or NaN.
@@ -208,8 +208,8 @@ inline Bits channel_outside(const Domain& domain, Float given) noexcept {
   return order | (order - bits(domain.specular_min)) | (bits(domain.specular_max) - order);
 }
 
-// A channel held at 0 from below; NaN stays.
-inline Float held_channel(Float given) noexcept {
+// A channel clamped to 0 from below; NaN stays.
+inline Float clamped_channel(Float given) noexcept {
   const Bits order = bits(given);
   return float_from_bits(order & above(order, 0xff800000u));  // minus infinity
 }
@@ -261,10 +261,10 @@ inline Float channel_scale(const Domain& domain, Float largest) noexcept {
   return float_from_bits((more & ~all_of_sign(more)) + one);
 }
 
-// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
-inline Float kept_or_mapped(Float held, Float mapped) noexcept {
-  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
-  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+// The channel, clamped to 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float clamped, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(clamped) & 0x7fffffffu));
+  return float_from_bits((bits(clamped) & kept) | (bits(mapped) & ~kept));
 }
 
 // Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
@@ -293,11 +293,11 @@ inline Bits look_at_texels(Count count, const Mapping& mapping, const float* wid
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(width + i));
+    const ClampedWidth clamped = clamped_width(domain, load(width + i));
     const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
-    store(block.terms.alpha + i, mapping.alpha_of(held.own));
-    store(block.scale + i, with_nan(1.0f, held.nan));
-    store(block.outside + i, held.outside | outside);
+    store(block.terms.alpha + i, mapping.alpha_of(clamped.own));
+    store(block.scale + i, with_nan(1.0f, clamped.nan));
+    store(block.outside + i, clamped.outside | outside);
     channels = channels | outside;
   }
   return channels;
@@ -372,11 +372,11 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   for (std::size_t i = 0; i < size; i += kLanes) {
     if constexpr (kInside) {
       const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
+      store(out + i, clamped_channel(mapped) * load(block.scale + i));
     } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
+      const Float clamped = clamped_channel(load(in + i));
+      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
+      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
     }
   }
 }
@@ -454,7 +454,7 @@ inline OutputTexel<Channels> evaluate(float alpha, const std::array<float, Chann
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.f0)) >>
+  return ((detail::clamped_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.f0)) >>
           31) == 0;
 }
 

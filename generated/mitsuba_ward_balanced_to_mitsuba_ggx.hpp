@@ -51,9 +51,9 @@ struct Output {
   float f0;  // reflectance at normal incidence, linear
 };
 
-// What the measured table covers. Beyond it alpha is held at the edge, and specular is extrapolated in
-// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
-// of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// What the measured table covers. Beyond it alpha is clamped to the edge, and specular is extrapolated in
+// proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
+// of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
 inline constexpr Input kDomainMax{1.0f, 1.0f};
 
@@ -241,23 +241,23 @@ inline bool any_sign(std::uint32_t value) noexcept { return value >> 31 != 0; }
 
 // What a converter covers, in the source's own parameters.
 struct Domain {
-  float width_min, width_max, specular_min, specular_max;
+  float alpha_min, alpha_max, specular_min, specular_max;
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// The width, clamped to the domain. Floats that are not negative compare as integers do; that vectorises with every
 // compiler and under any floating-point flags.
-struct HeldWidth {
+struct ClampedWidth {
   Float own;
   Bits nan;      // all bits: not a number
   Bits outside;  // sign bit: out of domain
 };
 
-inline HeldWidth held_width(const Domain& domain, Float given) noexcept {
+inline ClampedWidth clamped_width(const Domain& domain, Float given) noexcept {
   const Bits order = bits(given + 0.0f);  // -0 becomes 0
-  const Bits raised = larger(order, bits(domain.width_min));
-  const Bits held = smaller(raised, bits(domain.width_max));
-  return {float_from_bits(held), above(order & 0x7fffffffu, 0x7f800000u), differs(held, order)};
+  const Bits raised = larger(order, bits(domain.alpha_min));
+  const Bits clamped = smaller(raised, bits(domain.alpha_max));
+  return {float_from_bits(clamped), above(order & 0x7fffffffu, 0x7f800000u), differs(clamped, order)};
 }
 
 // Sign bit: whether a channel is out of domain; negative, beyond the edge, or NaN.
@@ -266,8 +266,8 @@ inline Bits channel_outside(const Domain& domain, Float given) noexcept {
   return order | (order - bits(domain.specular_min)) | (bits(domain.specular_max) - order);
 }
 
-// A channel held at 0 from below; NaN stays.
-inline Float held_channel(Float given) noexcept {
+// A channel clamped to 0 from below; NaN stays.
+inline Float clamped_channel(Float given) noexcept {
   const Bits order = bits(given);
   return float_from_bits(order & above(order, 0xff800000u));  // minus infinity
 }
@@ -275,18 +275,18 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
-// A number from 0, held at the least and at the largest that it may be.
-inline Float held_above(Float value, Float least) noexcept {
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
   return float_from_bits(larger(bits(value), bits(least)));
 }
-inline Float held_below(Float value, Float limit) noexcept {
+inline Float clamped_below(Float value, Float limit) noexcept {
   return float_from_bits(smaller(bits(value), bits(limit)));
 }
 
 // The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
 // `inverse`: 200 / limit.
 inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
-  return held_below(held_channel((value - limit) * inverse), 1.0f);
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
 }
 
 inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
@@ -349,10 +349,10 @@ inline Float channel_scale(const Domain& domain, Float largest) noexcept {
   return float_from_bits((more & ~all_of_sign(more)) + one);
 }
 
-// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
-inline Float kept_or_mapped(Float held, Float mapped) noexcept {
-  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
-  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+// The channel, clamped to 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float clamped, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(clamped) & 0x7fffffffu));
+  return float_from_bits((bits(clamped) & kept) | (bits(mapped) & ~kept));
 }
 
 // Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
@@ -381,11 +381,11 @@ inline Bits look_at_texels(Count count, const Mapping& mapping, const float* wid
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(width + i));
+    const ClampedWidth clamped = clamped_width(domain, load(width + i));
     const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
-    store(block.terms.alpha + i, mapping.alpha_of(held.own));
-    store(block.scale + i, with_nan(1.0f, held.nan));
-    store(block.outside + i, held.outside | outside);
+    store(block.terms.alpha + i, mapping.alpha_of(clamped.own));
+    store(block.scale + i, with_nan(1.0f, clamped.nan));
+    store(block.outside + i, clamped.outside | outside);
     channels = channels | outside;
   }
   return channels;
@@ -447,11 +447,11 @@ inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexc
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float alpha = load(terms.alpha + i);
     store(terms.source_alpha + i, alpha);
-    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
 template <class Count>
 inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
   const std::size_t size = count;
@@ -467,7 +467,7 @@ inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexc
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
     const Float width = mapping.target_alpha(terms, i, top);
-    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
     store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
     any = any | above(bits(width), bits(mapping.alpha_limit));
   }
@@ -518,8 +518,8 @@ inline void use_bright_widths(Count count, const Mapping& mapping, Block& block)
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
-    const Float free = held_below(bright, mapping.alpha_limit);
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
     store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
   }
 }
@@ -552,11 +552,11 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
-    const Float given = kInside ? held : held * load(block.inverse + i);
-    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
-    const Float limited = held_below(mapped, mapping.specular_limit);
-    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
 }
 
@@ -646,7 +646,7 @@ inline OutputTexel<Channels> evaluate(float alpha, const std::array<float, Chann
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.specular)) >>
+  return ((detail::clamped_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.specular)) >>
           31) == 0;
 }
 

@@ -52,9 +52,9 @@ struct Output {
   float f0;  // reflectance at normal incidence, linear
 };
 
-// What the measured table covers. Beyond it alpha is held at the edge, and specular is extrapolated in
-// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
-// of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// What the measured table covers. Beyond it alpha is clamped to the edge, and specular is extrapolated in
+// proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
+// of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
 inline constexpr Input kDomainMax{1.0f, 0.75f};
 
@@ -135,23 +135,23 @@ inline bool any_sign(std::uint32_t value) noexcept { return value >> 31 != 0; }
 
 // What a converter covers, in the source's own parameters.
 struct Domain {
-  float width_min, width_max, specular_min, specular_max;
+  float alpha_min, alpha_max, specular_min, specular_max;
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// The width, clamped to the domain. Floats that are not negative compare as integers do; that vectorises with every
 // compiler and under any floating-point flags.
-struct HeldWidth {
+struct ClampedWidth {
   Float own;
   Bits nan;      // all bits: not a number
   Bits outside;  // sign bit: out of domain
 };
 
-inline HeldWidth held_width(const Domain& domain, Float given) noexcept {
+inline ClampedWidth clamped_width(const Domain& domain, Float given) noexcept {
   const Bits order = bits(given + 0.0f);  // -0 becomes 0
-  const Bits raised = larger(order, bits(domain.width_min));
-  const Bits held = smaller(raised, bits(domain.width_max));
-  return {float_from_bits(held), above(order & 0x7fffffffu, 0x7f800000u), differs(held, order)};
+  const Bits raised = larger(order, bits(domain.alpha_min));
+  const Bits clamped = smaller(raised, bits(domain.alpha_max));
+  return {float_from_bits(clamped), above(order & 0x7fffffffu, 0x7f800000u), differs(clamped, order)};
 }
 
 // Sign bit: whether a channel is out of domain; negative, beyond the edge, or NaN.
@@ -160,8 +160,8 @@ inline Bits channel_outside(const Domain& domain, Float given) noexcept {
   return order | (order - bits(domain.specular_min)) | (bits(domain.specular_max) - order);
 }
 
-// A channel held at 0 from below; NaN stays.
-inline Float held_channel(Float given) noexcept {
+// A channel clamped to 0 from below; NaN stays.
+inline Float clamped_channel(Float given) noexcept {
   const Bits order = bits(given);
   return float_from_bits(order & above(order, 0xff800000u));  // minus infinity
 }
@@ -209,11 +209,11 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(held.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), held.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), held.nan));
-    store(block.outside + i, held.outside);
+    const ClampedWidth clamped = clamped_width(domain, load(in + i));
+    const Float alpha = mapping.alpha_of(clamped.own);
+    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), clamped.nan));
+    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), clamped.nan));
+    store(block.outside + i, clamped.outside);
   }
 }
 
@@ -230,7 +230,7 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float given = load(in + i);
     store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, held_channel(given) * load(block.slope + i));
+    store(out + i, clamped_channel(given) * load(block.slope + i));
   }
 }
 
@@ -298,7 +298,7 @@ inline OutputTexel<Channels> evaluate(float alpha, const std::array<float, Chann
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.specular)) >>
+  return ((detail::clamped_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.specular)) >>
           31) == 0;
 }
 

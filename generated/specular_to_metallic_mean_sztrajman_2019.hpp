@@ -93,8 +93,8 @@ inline float larger(float a, float b) noexcept { return float_of_order(larger(or
 // 0 in place of a negative value.
 inline float from_zero(float value) noexcept { return float_of_order(order(value) & ~(order(value) >> 31)); }
 
-// The value held in 0 to 1. Of NaN some number in that range.
-inline float held(float value) noexcept { return smaller(from_zero(value), 1.0f); }
+// The value clamped to 0 to 1. Of NaN some number in that range.
+inline float clamped(float value) noexcept { return smaller(from_zero(value), 1.0f); }
 
 inline float magnitude(float value) noexcept { return float_from_bits(bits(value) & 0x7fffffffu); }
 
@@ -172,24 +172,24 @@ inline void for_each_texel(const Texel& texel) noexcept {
 
 // Texels that are converted together: their rows stay in the first-level cache.
 template <std::size_t kRows, std::size_t kSize>
-struct HeldBlock {
+struct ClampedBlock {
   float row[kRows][kSize];
 };
 
-// The value held in 0 to 1; NaN stays, and is larger than any number by order().
-inline float held_or_nan(float value) noexcept {
-  return float_from_bits(bits(held(value)) | (nan_mask(value) & 0x7fffffffu));
+// The value clamped to 0 to 1; NaN stays, and is larger than any number by order().
+inline float clamped_or_nan(float value) noexcept {
+  return float_from_bits(bits(clamped(value)) | (nan_mask(value) & 0x7fffffffu));
 }
 
 // Holds rows in 0 to 1. Returns how many texels that changed.
 template <std::size_t kSize, std::size_t... kRow>
 inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
-                        HeldBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
+                        ClampedBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
   const std::array<const float*, sizeof...(kRow)> from = in;
   std::uint32_t count = 0;
   for_each_texel<kSize>([&](std::size_t i) {
     count += (outside_sign(from[kRow][i]) | ...) >> 31;
-    ((block.row[kRow][i] = held_or_nan(from[kRow][i])), ...);
+    ((block.row[kRow][i] = clamped_or_nan(from[kRow][i])), ...);
   });
   return count;
 }
@@ -223,7 +223,7 @@ inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn>
 
 // Width is the last row of both ends.
 template <std::size_t kRows, std::size_t kSize>
-inline void write_width(const Conventions& use, const HeldBlock<kRows, kSize>& block, float* out) noexcept {
+inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>& block, float* out) noexcept {
   for_each_texel<kSize>([&, out](std::size_t i) { out[i] = converted_width(use, block.row[kRows - 1][i]); });
 }
 
@@ -232,14 +232,14 @@ inline constexpr std::size_t kMetallicBlock = 16;
 // A block of the specular workflow: diffuse reflectance as the surface has it (three rows), F0 (three rows),
 // and the width as it is given.
 struct SpecularTexels {
-  HeldBlock<7, kMetallicBlock> held;
+  ClampedBlock<7, kMetallicBlock> clamped;
   std::uint32_t nan[kMetallicBlock];  // all bits where any of them is not a number
 };
 
 inline std::size_t read_specular(const Conventions& use, const std::array<const float*, 7>& in,
                                  SpecularTexels& texels) noexcept {
-  const std::size_t outside = hold(in, texels.held, std::make_index_sequence<7>());
-  auto& row = texels.held.row;
+  const std::size_t outside = hold(in, texels.clamped, std::make_index_sequence<7>());
+  auto& row = texels.clamped.row;
   for_each_texel<kMetallicBlock>([&](std::size_t i) { texels.nan[i] = nan_mask(row[6][i]); });
   for (std::size_t r = 0; r < 6; ++r)
     for_each_texel<kMetallicBlock>([&](std::size_t i) { texels.nan[i] |= nan_mask(row[r][i]); });
@@ -270,7 +270,7 @@ inline LoneChannel lone_channel(const Conventions& use, float diffuse, float f0)
   // A channel of F0 f says nothing of metallic where its albedo is f too.
   const float above = albedo - f;
   const float metallic = magnitude(above) < 1e-6f ? 0.0f : (f0 - f) / above;
-  return {held(albedo), held(metallic)};
+  return {clamped(albedo), clamped(metallic)};
 }
 
 // Each channel keeps its own albedo; metallic is the mean over them, plain or weighted by albedo.
@@ -279,7 +279,7 @@ inline std::size_t solve_equation_3(const Conventions& use, bool by_albedo,
                                     const std::array<float*, 5>& out) noexcept {
   SpecularTexels texels;
   const std::size_t outside = read_specular(use, in, texels);
-  const auto& row = texels.held.row;
+  const auto& row = texels.clamped.row;
   for (std::size_t i = 0; i < kMetallicBlock; ++i) {
     float metallic = 0.0f, weights = 0.0f, mean = 0.0f;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -290,9 +290,9 @@ inline std::size_t solve_equation_3(const Conventions& use, bool by_albedo,
       out[c][i] = or_nan(channel.albedo, texels.nan[i]);
     }
     const bool plain = !by_albedo || weights < 1e-6f;
-    out[3][i] = or_nan(held(plain ? mean / 3.0f : metallic / weights), texels.nan[i]);
+    out[3][i] = or_nan(clamped(plain ? mean / 3.0f : metallic / weights), texels.nan[i]);
   }
-  write_width(use, texels.held, out[4]);
+  write_width(use, texels.clamped, out[4]);
   return outside;
 }
 
@@ -301,7 +301,7 @@ inline constexpr Conventions kConventions{0.03f, 1.0f, false, WidthParameter::kR
 }  // namespace detail
 
 // Rows of `count` texels, in the order of the members above. An output row may be exactly any input row; no other rows may
-// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are held there; NaN
+// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are clamped there; NaN
 // makes the outputs that depend on it NaN. Returns the number of texels that had such values.
 inline std::size_t evaluate_rows(std::size_t count, const std::array<const float*, kInputRows>& in,
                                  const std::array<float*, kOutputRows>& out) noexcept {

@@ -95,8 +95,8 @@ inline float larger(float a, float b) noexcept { return float_of_order(larger(or
 // 0 in place of a negative value.
 inline float from_zero(float value) noexcept { return float_of_order(order(value) & ~(order(value) >> 31)); }
 
-// The value held in 0 to 1. Of NaN some number in that range.
-inline float held(float value) noexcept { return smaller(from_zero(value), 1.0f); }
+// The value clamped to 0 to 1. Of NaN some number in that range.
+inline float clamped(float value) noexcept { return smaller(from_zero(value), 1.0f); }
 
 inline float magnitude(float value) noexcept { return float_from_bits(bits(value) & 0x7fffffffu); }
 
@@ -174,24 +174,24 @@ inline void for_each_texel(const Texel& texel) noexcept {
 
 // Texels that are converted together: their rows stay in the first-level cache.
 template <std::size_t kRows, std::size_t kSize>
-struct HeldBlock {
+struct ClampedBlock {
   float row[kRows][kSize];
 };
 
-// The value held in 0 to 1; NaN stays, and is larger than any number by order().
-inline float held_or_nan(float value) noexcept {
-  return float_from_bits(bits(held(value)) | (nan_mask(value) & 0x7fffffffu));
+// The value clamped to 0 to 1; NaN stays, and is larger than any number by order().
+inline float clamped_or_nan(float value) noexcept {
+  return float_from_bits(bits(clamped(value)) | (nan_mask(value) & 0x7fffffffu));
 }
 
 // Holds rows in 0 to 1. Returns how many texels that changed.
 template <std::size_t kSize, std::size_t... kRow>
 inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
-                        HeldBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
+                        ClampedBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
   const std::array<const float*, sizeof...(kRow)> from = in;
   std::uint32_t count = 0;
   for_each_texel<kSize>([&](std::size_t i) {
     count += (outside_sign(from[kRow][i]) | ...) >> 31;
-    ((block.row[kRow][i] = held_or_nan(from[kRow][i])), ...);
+    ((block.row[kRow][i] = clamped_or_nan(from[kRow][i])), ...);
   });
   return count;
 }
@@ -225,7 +225,7 @@ inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn>
 
 // Width is the last row of both ends.
 template <std::size_t kRows, std::size_t kSize>
-inline void write_width(const Conventions& use, const HeldBlock<kRows, kSize>& block, float* out) noexcept {
+inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>& block, float* out) noexcept {
   for_each_texel<kSize>([&, out](std::size_t i) { out[i] = converted_width(use, block.row[kRows - 1][i]); });
 }
 
@@ -633,10 +633,10 @@ inline void material_network(std::size_t count, const float* const* in, float* c
 }
 
 // Diffuse (three rows), specular (three rows), width to base color (three rows), metallic, width: what the
-// network gives of the first six, held in 0 to 1.
+// network gives of the first six, clamped to 0 to 1.
 inline std::size_t by_network(const Conventions& use, const std::array<const float*, 7>& in,
                               const std::array<float*, 5>& out) noexcept {
-  HeldBlock<7, kBlock> block;
+  ClampedBlock<7, kBlock> block;
   const std::size_t outside = hold(in, block, std::make_index_sequence<7>());
   std::uint32_t nan[kBlock] = {};
   const float* from[6] = {};
@@ -650,7 +650,7 @@ inline std::size_t by_network(const Conventions& use, const std::array<const flo
   for (std::size_t r = 0; r < 4; ++r) {
     float* const row = out[r];
     for_each_texel<kBlock>(
-        [&, r, row](std::size_t i) { row[i] = float_from_bits(bits(held(learned[r][i])) | nan[i]); });
+        [&, r, row](std::size_t i) { row[i] = float_from_bits(bits(clamped(learned[r][i])) | nan[i]); });
   }
   write_width(use, block, out[4]);
   return outside;
@@ -661,7 +661,7 @@ inline constexpr Conventions kConventions{0.03f, 1.0f, false, WidthParameter::kR
 }  // namespace detail
 
 // Rows of `count` texels, in the order of the members above. An output row may be exactly any input row; no other rows may
-// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are held there; NaN
+// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are clamped there; NaN
 // makes the outputs that depend on it NaN. Returns the number of texels that had such values.
 inline std::size_t evaluate_rows(std::size_t count, const std::array<const float*, kInputRows>& in,
                                  const std::array<float*, kOutputRows>& out) noexcept {

@@ -137,7 +137,7 @@ std::string converters_csv(const FitFolder& folder) {
     if (is_measured(fit)) pairs[{fit.source.model, fit.target.model}] = &fit;
   std::string text = line(head);
   for (const Fit* fit : by_trust(folder.fits)) text += line(row_of(*fit, pairs));
-  for (const WorkflowFit& fit : folder.analytic) text += line(row_of(fit));
+  for (const WorkflowFit& fit : folder.workflows) text += line(row_of(fit));
   for (const WarpMapFit& fit : folder.warps) text += line(row_of(fit));
   return text;
 }

@@ -11,7 +11,7 @@ namespace remap {
 
 void FitFolder::add(AnyFit fit) {
   if (auto* workflow = std::get_if<WorkflowFit>(&fit))
-    analytic.push_back(std::move(*workflow));
+    workflows.push_back(std::move(*workflow));
   else if (auto* warp = std::get_if<WarpMapFit>(&fit))
     warps.push_back(std::move(*warp));
   else
@@ -33,7 +33,7 @@ FitFolder load_fit_folder(const std::filesystem::path& folder) {
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
   std::sort(loaded.fits.begin(), loaded.fits.end(), by_id);
   std::sort(loaded.warps.begin(), loaded.warps.end(), by_id);
-  std::sort(loaded.analytic.begin(), loaded.analytic.end(), by_id);
+  std::sort(loaded.workflows.begin(), loaded.workflows.end(), by_id);
   return loaded;
 }
 
@@ -47,7 +47,7 @@ AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder
   if (std::filesystem::is_directory(folder)) {
     const FitFolder loaded = load_fit_folder(folder);
     for (const Fit& fit : loaded.fits) known.push_back(fit.id);
-    for (const WorkflowFit& fit : loaded.analytic) known.push_back(fit.id);
+    for (const WorkflowFit& fit : loaded.workflows) known.push_back(fit.id);
     for (const WarpMapFit& fit : loaded.warps) known.push_back(fit.id);
   }
   throw usage_error(name + ": neither a file nor a fit in " + folder.string() + suggestion(name, known));

@@ -11,7 +11,7 @@ namespace remap {
 // All fits of a folder, by id.
 struct FitFolder {
   std::vector<Fit> fits;  // converters of width and specular
-  std::vector<WorkflowFit> analytic;
+  std::vector<WorkflowFit> workflows;
   std::vector<WarpMapFit> warps;
 
   void add(AnyFit fit);

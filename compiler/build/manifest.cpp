@@ -182,8 +182,8 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
     items.push_back({entry["id"].text(), chain, entry.json().dump(), 0});
   });
   // Manifests of earlier versions do not have these sections.
-  if (json.contains("analytic"))
-    each("analytic", [&](const Field& entry) { read_workflow_item(entry, &items); });
+  if (json.contains("workflows"))
+    each("workflows", [&](const Field& entry) { read_workflow_item(entry, &items); });
   if (json.contains("networks"))
     each("networks", [&](const Field& entry) { read_network_item(entry, &items); });
   if (json.contains("accepted_light")) read_accepted(root["accepted_light"], &items);

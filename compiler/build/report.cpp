@@ -116,7 +116,7 @@ std::string uncompared_lines(const std::vector<Fit>& fits) {
 }
 
 std::string mark_text(const FitFolder& folder) {
-  const std::size_t all = folder.fits.size() + folder.analytic.size() + folder.warps.size();
+  const std::size_t all = folder.fits.size() + folder.workflows.size() + folder.warps.size();
   const auto marked = std::count_if(folder.fits.begin(), folder.fits.end(),
                                     [](const Fit& fit) { return !trust_warning(fit).empty(); });
   return "\n**(!)** marks " + std::to_string(marked) + " of " + std::to_string(all) +
@@ -168,7 +168,7 @@ std::string page(const FitFolder& folder) {
       "); the card of one: `remapc show ID`.\n`remapc build` writes this page.\n";
   text += mark_text(folder) + kFigures + small_errors_text(folder.fits);
   text += pair_lines(folder.fits) + uncompared_lines(folder.fits);
-  if (!folder.analytic.empty()) text += kWorkflowIntroduction + workflow_lines(folder.analytic);
+  if (!folder.workflows.empty()) text += kWorkflowIntroduction + workflow_lines(folder.workflows);
   if (!folder.warps.empty()) text += kWarpIntroduction + warp_lines(folder.warps);
   return text;
 }

@@ -19,6 +19,6 @@ Json candidate_json(const CandidateRecord& candidate);
 // held out. `rows`: describes the rows, as `held out`.
 std::string errors_text(const Fit& fit, const std::string& rows);
 
-Json figures_json(const ErrorFigures& figures);
+Json errors_json(const ErrorFigures& figures);
 
 }  // namespace remap

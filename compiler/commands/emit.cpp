@@ -39,7 +39,7 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
     files.push_back({options.output / (fit.id + ".hpp"), std::move(text)});
   };
   for (const Fit& fit : chosen.fits) add_header(fit, emit_header(fit));
-  for (const WorkflowFit& fit : chosen.analytic) add_header(fit, emit_header(fit));
+  for (const WorkflowFit& fit : chosen.workflows) add_header(fit, emit_header(fit));
   for (const WarpMapFit& fit : chosen.warps) add_header(fit, emit_header(fit));
   if (options.all) files.push_back({options.output / kConverterListName, emit_converter_list(chosen.fits)});
   return files;

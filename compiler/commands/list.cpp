@@ -52,7 +52,7 @@ void list_fits(const ListOptions& options) {
          {"alpha_rms_error", fit.alpha_error.rms},
          {"specular_rms_error", fit.specular_error.rms}},
         errors_text(fit, "held out"));
-  for (const WorkflowFit& fit : folder.analytic) {
+  for (const WorkflowFit& fit : folder.workflows) {
     const std::string formula(formula_name(fit.conversion.formula));
     add({{"id", fit.id},
          {"source", fit.conversion.source_model()},

@@ -67,11 +67,11 @@ std::string limit_literal(const std::optional<float>& limit) {
 std::string regime_call(const std::string& name, const std::optional<LoweredSeries>& regime,
                         const std::string& otherwise) {
   if (!regime) return otherwise;
-  const auto held = [](const std::string& value, float least) {
-    return "held_above(" + value + ", " + literal(static_cast<double>(least)) + ")";
+  const auto clamped = [](const std::string& value, float least) {
+    return "clamped_above(" + value + ", " + literal(static_cast<double>(least)) + ")";
   };
-  return "detail::" + name + "(" + held("terms.source_alpha[i]", regime->alpha_from) + ", " +
-         held("specular", regime->specular_from) + ")";
+  return "detail::" + name + "(" + clamped("terms.source_alpha[i]", regime->alpha_from) + ", " +
+         clamped("specular", regime->specular_from) + ")";
 }
 
 std::string regime_functions(const Lowered& lowered) {
@@ -106,7 +106,7 @@ RuleParts parts_of(const ConverterData& converter, const MappingCode& code) {
     case CodeForm::kProportional:
       return {fill_template(kProportionalFunctions,
                             {{"slope", code.is_positive ? "detail::specular_slope(alpha)"
-                                                        : "held_channel(detail::specular_slope(alpha))"}}),
+                                                        : "clamped_channel(detail::specular_slope(alpha))"}}),
               code_files({"proportional"})};
     case CodeForm::kTerms:
       return {fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}),

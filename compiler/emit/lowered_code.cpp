@@ -120,7 +120,7 @@ std::string cell_table(const PiecewisePolynomial& polynomial, const std::string&
 }
 
 constexpr std::string_view kCellOf = R"(
-// x rounded down, held in [0, last]. Masks in place of comparisons: compilers would branch on them.
+// x rounded down, clamped to [0, last]. Masks in place of comparisons: compilers would branch on them.
 inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
   const std::int32_t cell = static_cast<std::int32_t>(x);
   const std::int32_t below = (cell & ~(cell >> 31)) - last;

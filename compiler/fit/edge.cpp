@@ -88,8 +88,8 @@ EdgeErrors edge_errors(const MappingKind& mapping, const Domain& domain, const s
   const Residuals raw = residuals_of(rows, mapping);
   const Residuals ruled = residuals_of(rows, [&](double alpha, double specular) {
     const double scale = std::max(1.0, specular / domain.specular.max);
-    const double held = std::clamp(alpha, domain.alpha.min, domain.alpha.max);
-    const MappedTexel texel = evaluate_mapping(mapping, held, specular / scale);
+    const double clamped = std::clamp(alpha, domain.alpha.min, domain.alpha.max);
+    const MappedTexel texel = evaluate_mapping(mapping, clamped, specular / scale);
     return MappedTexel{texel.alpha, scale * texel.specular};
   });
   return {error_figures(ruled.alpha).rms, error_figures(ruled.specular).rms, error_figures(raw.alpha).rms,

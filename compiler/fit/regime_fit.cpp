@@ -23,7 +23,7 @@ constexpr int kSpeculars = 33;          // at which a joint is looked for
 constexpr int kHalvings = 40;
 // Pictures are affine in specular, nearly so after the match.
 constexpr int kWideSpeculars = 2;
-// Times the limit of alpha: where the mapping is held, more than its lowering may change beyond the seam.
+// Times the limit of alpha: where the mapping is clamped, more than its lowering may change beyond the seam.
 constexpr double kBeyondLimit = 1.0 + kSeam + 1e-4;
 constexpr double kLeastWide = 1e-3;    // of source alpha
 constexpr double kLeastBright = 1e-3;  // of the range of source specular

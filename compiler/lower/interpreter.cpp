@@ -15,9 +15,11 @@ double mapping_alpha(const Fit& fit, double alpha) {
   return fit.regimes.wide ? std::min(alpha, fit.regimes.wide->mapping_to) : alpha;
 }
 
-double held_value(const TexelSeries& series, double alpha, double specular) {
-  const auto held = [](const Range& range, double value) { return std::clamp(value, range.min, range.max); };
-  return series_value(series, held(series.alpha, alpha), held(series.specular, specular));
+double clamped_value(const TexelSeries& series, double alpha, double specular) {
+  const auto clamped = [](const Range& range, double value) {
+    return std::clamp(value, range.min, range.max);
+  };
+  return series_value(series, clamped(series.alpha, alpha), clamped(series.specular, specular));
 }
 
 // The share of the regime that takes over where `value` passes `limit`.
@@ -31,7 +33,7 @@ double free_specular(const Fit& fit, double wide, double alpha, double specular)
       std::visit([&](const auto& kind) { return target_specular(kind, mapping_alpha(fit, alpha), specular); },
                  fit.mapping);
   if (wide == 0.0 || !fit.regimes.wide) return inside;
-  return inside + wide * (held_value(fit.regimes.wide->specular, alpha, specular) - inside);
+  return inside + wide * (clamped_value(fit.regimes.wide->specular, alpha, specular) - inside);
 }
 
 Range as_floats(const Range& range) { return {rounded_to_float(range.min), rounded_to_float(range.max)}; }
@@ -55,7 +57,7 @@ TexelWidth target_width(const Fit& fit, double alpha, double top) {
   if (!regimes.bright) return {width, wide, 0.0};
   const double bright = share_beyond(free_specular(fit, wide, alpha, top), *regimes.specular_limit);
   if (bright == 0.0) return {width, wide, 0.0};
-  const double free = std::min(held_value(*regimes.bright, alpha, top), regimes.alpha_limit);
+  const double free = std::min(clamped_value(*regimes.bright, alpha, top), regimes.alpha_limit);
   return {width + bright * (free - width), wide, bright};
 }
 

@@ -26,7 +26,7 @@ double target_channel(const Fit& fit, double wide, double alpha, double specular
 // Whether the mapping alone answers: neither target parameter reaches its limit. A texel of one channel.
 bool is_inside(const Fit& fit, double alpha, double specular);
 
-// The part of the domain in which the mapping is evaluated; beyond, it is held.
+// The part of the domain in which the mapping is evaluated; beyond, it is clamped.
 Domain mapping_domain(const Fit& fit);
 
 // Both, of a texel of one channel.

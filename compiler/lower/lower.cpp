@@ -45,7 +45,7 @@ bool rises_with_specular(const SampleGrid& grid) {
 }
 
 // One output of a mapping, and the requirements on its polynomial.
-struct Wanted {
+struct LoweredOutput {
   const char* name = "";       // for messages
   const char* unit_text = "";  // after figures in messages
   MappedFunction model;
@@ -57,15 +57,15 @@ struct Wanted {
 };
 
 // The polynomial of a Lowered: a factor becomes the coefficient of specular^1.
-PiecewisePolynomial completed(const Wanted& wanted, PiecewisePolynomial polynomial) {
+PiecewisePolynomial completed(const LoweredOutput& wanted, PiecewisePolynomial polynomial) {
   if (wanted.is_factor) polynomial.degrees.insert(polynomial.degrees.begin(), -1);
   return polynomial;
 }
 
 // Tries shapes. Bounds refer to the output.
-class Attempt {
+class ShapeSearch {
  public:
-  explicit Attempt(const Wanted& wanted)
+  explicit ShapeSearch(const LoweredOutput& wanted)
       : wanted_(wanted),
         finder_(wanted.model, wanted.domain),
         samples_(sample(wanted.model, wanted.domain)),
@@ -118,7 +118,7 @@ class Attempt {
     return proof;
   }
 
-  const Wanted& wanted_;
+  const LoweredOutput& wanted_;
   ShapeFinder finder_;
   SampleGrid samples_;
   bool rises_with_alpha_ = false, rises_with_specular_ = false;
@@ -137,7 +137,7 @@ std::size_t table_size(const Shape& shape) {
 
 // The cheapest polynomial of the smallest size within the tolerance, preferably one that rises where the
 // model does. If none is within the tolerance, the one with the smallest proven bound.
-LoweredFunction search(const Wanted& wanted, double tolerance, Attempt* attempt) {
+LoweredFunction search(const LoweredOutput& wanted, double tolerance, ShapeSearch* attempt) {
   attempt->set_budget(kSearchBudget);
   const double top = wanted.is_factor ? wanted.specular_max : 1.0;
   LoweredFunction best;
@@ -158,7 +158,7 @@ LoweredFunction search(const Wanted& wanted, double tolerance, Attempt* attempt)
 std::string digits(double value) { return number_text(rounded_up(value, 2)); }
 
 // Searches growing tolerances for the smallest one that can be met, and throws it.
-[[noreturn]] void refuse(const Wanted& wanted, const LoweredFunction& best, Attempt* attempt) {
+[[noreturn]] void refuse(const LoweredOutput& wanted, const LoweredFunction& best, ShapeSearch* attempt) {
   const std::string found = std::string("lower: ") + wanted.name + " needs more than " +
                             std::to_string(kMostNumbers) + " numbers to stay within " +
                             digits(wanted.tolerance) + wanted.unit_text + "; ";
@@ -177,8 +177,8 @@ std::string digits(double value) { return number_text(rounded_up(value, 2)); }
   throw Error(ErrorKind::kNumeric, found + "no bound can be proven");
 }
 
-LoweredFunction lower_output(const Wanted& wanted) {
-  Attempt attempt(wanted);
+LoweredFunction lower_output(const LoweredOutput& wanted) {
+  ShapeSearch attempt(wanted);
   const double tolerance = wanted.tolerance * wanted.unit;
   if (!std::isfinite(tolerance))
     throw Error(ErrorKind::kNumeric, std::string("lower: ") + wanted.name +
@@ -190,9 +190,9 @@ LoweredFunction lower_output(const Wanted& wanted) {
 }
 
 template <typename Kind>
-Wanted wanted_alpha(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
-                    const LoweringOptions& options) {
-  Wanted alpha;
+LoweredOutput wanted_alpha(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
+                           const LoweringOptions& options) {
+  LoweredOutput alpha;
   alpha.name = "target alpha";
   alpha.model = mapped_function(alpha_depends_on_specular(mapping),
                                 [kind](const auto& a, const auto& s) { return target_alpha(kind, a, s); });
@@ -203,9 +203,9 @@ Wanted wanted_alpha(const Kind& kind, const MappingKind& mapping, const ProofDom
 
 // `limit`: what lies beyond is not looked at, so it is no unit of errors.
 template <typename Kind>
-Wanted wanted_specular(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
-                       const std::optional<double>& limit, const LoweringOptions& options) {
-  Wanted specular;
+LoweredOutput wanted_specular(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
+                              const std::optional<double>& limit, const LoweringOptions& options) {
+  LoweredOutput specular;
   specular.name = "target specular";
   specular.unit_text = " of its largest value";
   specular.is_factor = is_proportional(mapping);  // lowered as its value at specular 1
@@ -221,8 +221,8 @@ Wanted wanted_specular(const Kind& kind, const MappingKind& mapping, const Proof
 }
 
 // Lowers a series of both parameters to the tolerance of `like`.
-LoweredSeries lower_series(const Wanted& like, const char* name, const TexelSeries& series) {
-  Wanted wanted = like;
+LoweredSeries lower_series(const LoweredOutput& like, const char* name, const TexelSeries& series) {
+  LoweredOutput wanted = like;
   wanted.name = name;
   wanted.is_factor = false;
   wanted.model =
@@ -234,7 +234,7 @@ LoweredSeries lower_series(const Wanted& like, const char* name, const TexelSeri
 }
 
 // Whether values of the function may pass `limit` on its samples.
-bool may_pass(const Wanted& wanted, double limit) {
+bool may_pass(const LoweredOutput& wanted, double limit) {
   const double factor = wanted.is_factor ? wanted.specular_max : 1.0;
   const std::vector<double> values = sample(wanted.model, wanted.domain).values;
   return factor * *std::ranges::max_element(values) + wanted.tolerance * wanted.unit > limit;
@@ -252,15 +252,15 @@ void find_seams(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
     return range.min + (range.max - range.min) * i / kSeamSamples;
   };
   const auto in_seam = [](double share) { return share > 0.0 && share < 1.0; };
-  const double held_from = mapping_domain(fit).alpha.max;
+  const double clamped_from = mapping_domain(fit).alpha.max;
   double alpha_gap = 0.0, specular_gap = 0.0;
   for (int i = 0; i <= kSeamSamples; ++i)
     for (int j = 0; j <= kSeamSamples; ++j) {
       const double alpha = at(domain.alpha, i), specular = at(domain.specular, j);
       const TexelWidth width = target_width(fit, alpha, specular);
       if (in_seam(width.bright)) {
-        const double held = std::min(alpha, held_from);
-        const double inside = evaluate_mapping(fit.mapping, held, specular).alpha;
+        const double clamped = std::min(alpha, clamped_from);
+        const double inside = evaluate_mapping(fit.mapping, clamped, specular).alpha;
         const double moved = width.alpha - std::min(inside, fit.regimes.alpha_limit);
         alpha_gap = std::max(alpha_gap, std::fabs(moved) / width.bright);
       }
@@ -306,7 +306,7 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
     lowered.wide = {static_cast<float>(regimes.wide->mapping_to),
                     lower_series(specular, "target specular of the wide regime", regimes.wide->specular)};
   if (regimes.bright) {
-    Wanted bright = alpha;
+    LoweredOutput bright = alpha;
     bright.tolerance *= kBrightTolerance;
     lowered.bright = lower_series(bright, "target alpha of the bright regime", *regimes.bright);
   }

@@ -54,9 +54,9 @@ struct Judged {
 // The part of the domain in which a cell is used. The first and the last cell extend to the ends of the
 // domain.
 Range alpha_of_cell(const PiecewisePolynomial& polynomial, const ProofDomain& domain, int cell) {
-  const auto held = [&](double alpha) { return std::clamp(alpha, domain.alpha.min, domain.alpha.max); };
-  return {cell == 0 ? domain.alpha.min : held(cell_begin(polynomial, cell)),
-          cell + 1 == polynomial.cell_count ? domain.alpha.max : held(cell_begin(polynomial, cell + 1))};
+  const auto clamped = [&](double alpha) { return std::clamp(alpha, domain.alpha.min, domain.alpha.max); };
+  return {cell == 0 ? domain.alpha.min : clamped(cell_begin(polynomial, cell)),
+          cell + 1 == polynomial.cell_count ? domain.alpha.max : clamped(cell_begin(polynomial, cell + 1))};
 }
 
 // Initial boxes in the part of the domain of each cell.

@@ -21,14 +21,14 @@ namespace remap {
 
 struct WideRegime {
   // The mapping passes the limit of alpha by kSeam before this width of the source, whatever the specular,
-  // and is held beyond.
+  // and is clamped beyond.
   double mapping_to = 1.0;
   TexelSeries specular;  // target specular
   bool operator==(const WideRegime&) const = default;
 };
 
-// Beyond the ranges of the series of a regime, its parameters are held. Without a regime, the mapping is cut
-// off at the limit.
+// Beyond the ranges of the series of a regime, its parameters are clamped. Without a regime, the mapping is
+// cut off at the limit.
 struct Regimes {
   double alpha_limit = 1.0;              // the largest target alpha, canonical
   std::optional<double> specular_limit;  // the largest target specular; none: not known

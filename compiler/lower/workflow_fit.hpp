@@ -22,7 +22,7 @@ struct NetworkTraining {
   bool operator==(const NetworkTraining&) const = default;
 };
 
-// Kind `analytic`, or `mlp` if the formula is a network.
+// Kind `workflow`, or `mlp` if the formula is a network.
 struct WorkflowFit {
   std::string id;
   WorkflowConversion conversion;
@@ -32,7 +32,7 @@ struct WorkflowFit {
   bool operator==(const WorkflowFit&) const = default;
 };
 
-inline constexpr const char* kWorkflowKind = "analytic";
+inline constexpr const char* kWorkflowKind = "workflow";
 
 inline const char* material_kind(const WorkflowFit& fit) {
   return is_learned(fit.conversion.formula) ? "mlp" : kWorkflowKind;

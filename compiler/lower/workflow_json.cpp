@@ -59,7 +59,7 @@ RoughnessConvention read_width(const Field& side) {
 
 WorkflowFormula read_formula(const Field& mapping) {
   if (mapping["kind"].text() == "mlp") return LearnedNetwork{read_network(mapping["network"], 4)};
-  mapping["kind"].require(mapping["kind"].text() == kWorkflowKind, "analytic or mlp");
+  mapping["kind"].require(mapping["kind"].text() == kWorkflowKind, "workflow or mlp");
   const std::string name = mapping["formula"].text();
   if (name == "equation-2") return Equation2{};
   if (name == "projection") return Projection{mapping["prior"].number()};

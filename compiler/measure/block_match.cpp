@@ -192,8 +192,8 @@ std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& bl
       match_diffuse_apart(setup, &row);
       match_whole(setup, &row);
     }
-    const bool held = !setup.source_widths.effective.contains(row.alpha1);
-    if (held && row.status == RowStatus::kOk) row.status = RowStatus::kClamped;
+    const bool clamped = !setup.source_widths.effective.contains(row.alpha1);
+    if (clamped && row.status == RowStatus::kOk) row.status = RowStatus::kClamped;
   }
   return rows;
 }

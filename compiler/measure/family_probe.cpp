@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-using Picture = std::vector<float>;
+using Radiances = std::vector<float>;
 using Matrix = std::vector<std::vector<double>>;
 
 // Number of steps of the finest probing. Degrees up to half of it can be checked between their nodes.
@@ -91,10 +91,10 @@ class FamilyProbe {
  private:
   struct Width {
     double alpha;
-    std::map<std::size_t, Picture> pictures;  // by point
+    std::map<std::size_t, Radiances> pictures;  // by point
   };
 
-  const Picture& picture(Width& width, std::size_t point) const {
+  const Radiances& picture(Width& width, std::size_t point) const {
     const auto known = width.pictures.find(point);
     if (known != width.pictures.end()) return known->second;
     const RoleValues role_values{width.alpha, axis_.specular(chebyshev_point(point)), 0.0};
@@ -124,14 +124,14 @@ class FamilyProbe {
   bool holds(const std::vector<std::size_t>& points, const SpecularFamily& family, std::size_t degree) {
     const std::size_t stride = kFinest / std::max(kLeastChecked, 2 * degree);
     return std::all_of(widths_.begin(), widths_.end(), [&](Width& width) {
-      std::vector<Picture> pictures;
+      std::vector<Radiances> pictures;
       for (const std::size_t point : points) pictures.push_back(picture(width, point));
-      const Picture& full = picture(width, kFinest);
+      const Radiances& full = picture(width, kFinest);
       const double allowed = picture_tolerance(model_) * *std::max_element(full.begin(), full.end());
       for (std::size_t point = 0; point <= kFinest; point += stride) {
-        const Picture expected =
+        const Radiances expected =
             combined(pictures, family.weights_at(axis_.specular(chebyshev_point(point))));
-        const Picture& found = picture(width, point);
+        const Radiances& found = picture(width, point);
         for (std::size_t i = 0; i < found.size(); ++i)
           if (!(std::fabs(static_cast<double>(expected[i]) - found[i]) <= allowed)) return false;
       }
@@ -144,7 +144,7 @@ class FamilyProbe {
   Matrix gram_matrix(std::size_t degree) {
     Matrix gram(degree + 1, std::vector<double>(degree + 1));
     for (Width& width : widths_) {
-      const Picture& full = picture(width, kFinest);
+      const Radiances& full = picture(width, kFinest);
       const double brightest = *std::max_element(full.begin(), full.end());
       for (std::size_t i = 0; i <= degree; ++i)
         for (std::size_t j = 0; j <= degree; ++j)

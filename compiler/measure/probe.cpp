@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-using Picture = std::vector<float>;
+using Radiances = std::vector<float>;
 
 // Pictures are floats: a combination of three is exact to a few 2^-24 of the brightest pixel.
 constexpr double kPictureTolerance = 2e-6;
@@ -27,10 +27,10 @@ constexpr int kMostHalvings = 20;
 // Like picture_tolerance, for a quotient of sums.
 double ratio_tolerance(const ModelDescription& model) { return std::max(kRatioTolerance, model.precision); }
 
-double brightest(const Picture& picture) { return *std::max_element(picture.begin(), picture.end()); }
+double brightest(const Radiances& picture) { return *std::max_element(picture.begin(), picture.end()); }
 
 // Returns the largest |(1 - t) low + t high - found|, relative to the brightest pixel of `high`.
-double line_deviation(const Picture& low, const Picture& high, double t, const Picture& found) {
+double line_deviation(const Radiances& low, const Radiances& high, double t, const Radiances& found) {
   double worst = 0.0;
   for (std::size_t i = 0; i < low.size(); ++i) {
     const double expected = low[i] + t * (static_cast<double>(high[i]) - low[i]);
@@ -39,14 +39,14 @@ double line_deviation(const Picture& low, const Picture& high, double t, const P
   return worst / brightest(high);
 }
 
-bool is_black(const Picture& picture) {
+bool is_black(const Radiances& picture) {
   return std::all_of(picture.begin(), picture.end(), [](float value) { return value == 0.0f; });
 }
 
 // Renders a model at one width, at the ends and in the middle of its specular range.
 struct WidthProbe {
   double alpha;
-  Picture low, middle, high;
+  Radiances low, middle, high;
 };
 
 class SpecularProbe {
@@ -84,7 +84,7 @@ class SpecularProbe {
   }
 
  private:
-  Picture take(double alpha, double specular) const {
+  Radiances take(double alpha, double specular) const {
     return picture_taker_.take(model_, RoleValues{alpha, specular, 0.0});
   }
 
@@ -110,7 +110,7 @@ class SpecularProbe {
     double worst = 0.0;
     for (const WidthProbe& probe : widths_) {
       const double t = (middle - low) / (high - low);
-      const Picture half = take(probe.alpha, ior_of_reflectance(0.5 * (low + high)));
+      const Radiances half = take(probe.alpha, ior_of_reflectance(0.5 * (low + high)));
       worst = std::max({worst, line_deviation(probe.low, probe.high, t, probe.middle),
                         line_deviation(probe.low, probe.high, 0.5, half)});
     }
@@ -119,7 +119,7 @@ class SpecularProbe {
 
   // How far a picture lies along the line from `low` to `high`; nothing if it does not lie on the line.
   std::optional<double> share(const WidthProbe& probe, double specular) const {
-    const Picture picture = take(probe.alpha, specular);
+    const Radiances picture = take(probe.alpha, specular);
     double product = 0.0, power = 0.0;
     for (std::size_t i = 0; i < picture.size(); ++i) {
       const double whole = static_cast<double>(probe.high[i]) - probe.low[i];
@@ -189,24 +189,24 @@ EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescr
   if (!(alphas.max > step * step * alphas.min)) return {alphas, alphas};
   const double full = model.parameter(ParameterRole::kSpecular).range.max;
   const auto responds = [&](double alpha, double neighbour) {
-    const Picture here = picture_taker.take(model, RoleValues{alpha, full, 0.0});
-    const Picture nearby = picture_taker.take(model, RoleValues{neighbour, full, 0.0});
+    const Radiances here = picture_taker.take(model, RoleValues{alpha, full, 0.0});
+    const Radiances nearby = picture_taker.take(model, RoleValues{neighbour, full, 0.0});
     if (is_black(here) || is_black(nearby)) return false;
     return line_deviation(nearby, here, 0.0, here) > picture_tolerance(model);
   };
   // Bisects from a clamped end towards a width that is not clamped: the middle, or else the other end.
   const double middle = std::sqrt(alphas.min * alphas.max);
-  const auto end = [&](double held, double other) {
-    const double inwards = held < other ? step : 1.0 / step;
-    if (responds(held, held * inwards)) return held;
+  const auto end = [&](double clamped, double other) {
+    const double inwards = clamped < other ? step : 1.0 / step;
+    if (responds(clamped, clamped * inwards)) return clamped;
     double free = responds(middle, middle / inwards) ? middle : other;
     if (free == other && !responds(other, other / inwards))
       throw Error(ErrorKind::kInput, model.name + ": no width from alpha " + number_text(alphas.min) +
                                          " to " + number_text(alphas.max) +
                                          " changes its picture (the roughness has no effect)");
-    while (std::max(free / held, held / free) > step) {
-      const double between = std::sqrt(held * free);
-      (responds(between, between / inwards) ? free : held) = between;
+    while (std::max(free / clamped, clamped / free) > step) {
+      const double between = std::sqrt(clamped * free);
+      (responds(between, between / inwards) ? free : clamped) = between;
     }
     return free;
   };
@@ -219,11 +219,11 @@ bool probe_diffuse(const PictureTaker& picture_taker, const ModelDescription& mo
   const auto take = [&](double alpha, double specular, double diffuse) {
     return picture_taker.take(model, RoleValues{alpha, specular, diffuse});
   };
-  const Picture dark = take(alphas.max, speculars.min, 0.0), lit = take(alphas.max, speculars.min, full);
+  const Radiances dark = take(alphas.max, speculars.min, 0.0), lit = take(alphas.max, speculars.min, full);
   for (const double alpha : {alphas.min, alphas.max}) {
-    const Picture without = take(alpha, speculars.max, 0.0);
-    const Picture half = take(alpha, speculars.max, 0.5 * full), with = take(alpha, speculars.max, full);
-    Picture expected(without);
+    const Radiances without = take(alpha, speculars.max, 0.0);
+    const Radiances half = take(alpha, speculars.max, 0.5 * full), with = take(alpha, speculars.max, full);
+    Radiances expected(without);
     for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += lit[i] - dark[i];
     if (line_deviation(expected, with, 1.0, expected) > picture_tolerance(model)) return false;
     if (line_deviation(without, with, 0.5, half) > picture_tolerance(model)) return false;
@@ -241,13 +241,13 @@ DiffuseMatch match_diffuse(const PictureTaker& picture_taker, const ModelDescrip
     const double alpha = std::sqrt(model.alpha.min * model.alpha.max);
     const double dark = model.parameter(ParameterRole::kSpecular).range.min;
     const double full = model.parameter(ParameterRole::kDiffuse).range.max;
-    Picture picture = picture_taker.take(model, RoleValues{alpha, dark, full});
-    const Picture without = picture_taker.take(model, RoleValues{alpha, dark, 0.0});
+    Radiances picture = picture_taker.take(model, RoleValues{alpha, dark, full});
+    const Radiances without = picture_taker.take(model, RoleValues{alpha, dark, 0.0});
     for (std::size_t i = 0; i < picture.size(); ++i)
       picture[i] = static_cast<float>((picture[i] - without[i]) / full);
     return picture;
   };
-  const Picture wanted = diffuse_picture(source), given = diffuse_picture(target);
+  const Radiances wanted = diffuse_picture(source), given = diffuse_picture(target);
   const double wanted_2 = inner_product(wanted.data(), wanted.data(), wanted.size());
   const double cross = inner_product(wanted.data(), given.data(), wanted.size());
   const double given_2 = inner_product(given.data(), given.data(), given.size());

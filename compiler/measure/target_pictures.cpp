@@ -33,9 +33,9 @@ struct Window {
   }
 };
 
-using Block = std::array<double, kBlockPixels>;
+using PixelBlock = std::array<double, kBlockPixels>;
 
-void add_scaled(double factor, const float* values, std::size_t count, Block* sums) {
+void add_scaled(double factor, const float* values, std::size_t count, PixelBlock* sums) {
   for (std::size_t i = 0; i < count; ++i) (*sums)[i] += factor * static_cast<double>(values[i]);
 }
 
@@ -98,9 +98,9 @@ PictureTangents BankPictures::at(const RoleValues& point, const std::vector<bool
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) nodes[i] = &bank_.pictures(window.first + i);
   for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
     const std::size_t count = std::min(kBlockPixels, pixels - start);
-    Block picture{}, slope{}, rise{};
+    PixelBlock picture{}, slope{}, rise{};
     for (std::size_t k = 0; k < weights.size(); ++k) {
-      Block interpolated{}, interpolated_rise{};
+      PixelBlock interpolated{}, interpolated_rise{};
       for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
         const float* values = &(*nodes[i])[k][start];
         add_scaled(window.basis.value[i], values, count, &interpolated);

@@ -200,7 +200,7 @@ std::shared_ptr<const std::vector<LitSample>> BuiltinRenderer::samples_of(const 
 }
 
 // The parameters of one color channel.
-struct Channel {
+struct LobeChannel {
   double specular = 0.0;  // scale, F0, or the index of a dielectric
   double eta = 0.0, k = 0.0;
   double diffuse = 0.0;
@@ -208,8 +208,8 @@ struct Channel {
 };
 
 // Converts base color, metallic and specular level to diffuse and F0 (Sztrajman et al. 2019, equation 2).
-Channel layered(const Channel& metal) {
-  Channel channel = metal;
+LobeChannel layered(const LobeChannel& metal) {
+  LobeChannel channel = metal;
   channel.diffuse = metal.specular * (1.0 - metal.metallic);
   channel.specular = kDielectricF0 * metal.level * (1.0 - metal.metallic) + metal.specular * metal.metallic;
   return channel;
@@ -220,24 +220,24 @@ double channel_value(const std::vector<double>& values, std::size_t channel) {
 }
 
 // The parameter values of each channel; one channel where all parameters are grey.
-std::vector<Channel> channels_of(const Material& material, const ModelDescription& description,
-                                 Reflectance reflectance) {
-  std::vector<Channel> channels(1);
-  const auto fill = [&](const ParameterDescription& parameter, double Channel::*value) {
+std::vector<LobeChannel> channels_of(const Material& material, const ModelDescription& description,
+                                     Reflectance reflectance) {
+  std::vector<LobeChannel> channels(1);
+  const auto fill = [&](const ParameterDescription& parameter, double LobeChannel::*value) {
     const std::vector<double>& values = material.parameters.at(parameter.name);
     if (values.size() > channels.size()) channels.resize(values.size(), channels.front());
     for (std::size_t c = 0; c < channels.size(); ++c) channels[c].*value = channel_value(values, c);
   };
   for (const ParameterDescription& parameter : description.parameters) {
-    if (parameter.role == ParameterRole::kSpecular) fill(parameter, &Channel::specular);
-    if (parameter.role == ParameterRole::kIndex) fill(parameter, &Channel::eta);
-    if (parameter.role == ParameterRole::kExtinction) fill(parameter, &Channel::k);
-    if (parameter.role == ParameterRole::kDiffuse) fill(parameter, &Channel::diffuse);
-    if (parameter.name == "metallic") fill(parameter, &Channel::metallic);
+    if (parameter.role == ParameterRole::kSpecular) fill(parameter, &LobeChannel::specular);
+    if (parameter.role == ParameterRole::kIndex) fill(parameter, &LobeChannel::eta);
+    if (parameter.role == ParameterRole::kExtinction) fill(parameter, &LobeChannel::k);
+    if (parameter.role == ParameterRole::kDiffuse) fill(parameter, &LobeChannel::diffuse);
+    if (parameter.name == "metallic") fill(parameter, &LobeChannel::metallic);
     if (parameter.name == "specular" && parameter.role == ParameterRole::kOther)
-      fill(parameter, &Channel::level);
+      fill(parameter, &LobeChannel::level);
   }
-  for (Channel& channel : channels) {
+  for (LobeChannel& channel : channels) {
     if (reflectance == Reflectance::kTrimmedScale) channel.specular = std::min(channel.specular, 1.0);
     if (reflectance == Reflectance::kSchlickIor) channel.specular = normal_reflectance(channel.specular);
     if (reflectance == Reflectance::kMetallic) channel = layered(channel);
@@ -247,7 +247,7 @@ std::vector<Channel> channels_of(const Material& material, const ModelDescriptio
 
 // The reflectance of one channel, from `shape`, the lobe of a perfect mirror, and `schlick`, Schlick's weight
 // at this geometry.
-double specular_reflectance(Reflectance reflectance, double shape, double schlick, const Channel& channel,
+double specular_reflectance(Reflectance reflectance, double shape, double schlick, const LobeChannel& channel,
                             double cos_light_half) {
   switch (reflectance) {
     case Reflectance::kScale:
@@ -273,7 +273,7 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
   const std::string& roughness = description.parameter(ParameterRole::kRoughness).name;
   const double alpha = to_alpha(model->roughness, material.parameters.at(roughness).front());
 
-  const std::vector<Channel> channels = channels_of(material, description, model->reflectance);
+  const std::vector<LobeChannel> channels = channels_of(material, description, model->reflectance);
   const auto side = static_cast<std::size_t>(scene.resolution);
   std::vector<double> radiance(side * side * channels.size(), 0.0);
   const auto samples = samples_of(scene);

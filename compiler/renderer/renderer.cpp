@@ -21,8 +21,8 @@ constexpr std::array<std::string_view, 6> kRoleWords = {"roughness", "specular",
 double own_width(const ModelDescription& model, double alpha) {
   const Range range = model.parameter(ParameterRole::kRoughness).range;
   const double own = from_alpha(model.roughness, alpha);
-  const double held = std::clamp(own, range.min, range.max);
-  return std::fabs(own - held) <= 1e-12 * std::fabs(held) ? held : own;
+  const double clamped = std::clamp(own, range.min, range.max);
+  return std::fabs(own - clamped) <= 1e-12 * std::fabs(clamped) ? clamped : own;
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ End make_end(const Renderer& renderer, const Fit& fit, const std::string& role, 
 
 Material material_of(const End& end, double alpha, const std::vector<double>& speculars) {
   const ParameterDescription& specular = end.model.parameter(ParameterRole::kSpecular);
-  const double held = std::clamp(alpha, end.model.alpha.min, end.model.alpha.max);
-  Material material = grey_material(end.model, held, specular.range.min, 0.0);
+  const double clamped = std::clamp(alpha, end.model.alpha.min, end.model.alpha.max);
+  Material material = grey_material(end.model, clamped, specular.range.min, 0.0);
   std::vector<double>& values = material.parameters[specular.name];
   values.clear();
   for (const double value : speculars)

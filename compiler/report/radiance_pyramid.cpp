@@ -163,8 +163,8 @@ void RadiancePyramid::add_bilinear(const Level& level, const MapPosition& positi
   const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
   const auto fx = static_cast<float>(x - column), fy = static_cast<float>(y - row);
   const auto texel = [&](int c, int r) {
-    const int wrapped = (c + level.width) % level.width, held = std::clamp(r, 0, level.height - 1);
-    return &level.texels[static_cast<std::size_t>(held * level.width + wrapped) * channel_count_];
+    const int wrapped = (c + level.width) % level.width, clamped = std::clamp(r, 0, level.height - 1);
+    return &level.texels[static_cast<std::size_t>(clamped * level.width + wrapped) * channel_count_];
   };
   const float *a = texel(column, row), *b = texel(column + 1, row);
   const float *c = texel(column, row + 1), *d = texel(column + 1, row + 1);

@@ -44,12 +44,12 @@ Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer,
 // (model/interpreter.hpp).
 Parameters shipped(const EnvironmentsOptions& options, const Fit& fit) {
   const Lowered& lowered = require_converter(fit).lowered;
-  const double held_specular = std::min(options.specular, fit.domain.specular.max);
-  const double scale = held_specular > 0.0 ? options.specular / held_specular : 1.0;
+  const double clamped_specular = std::min(options.specular, fit.domain.specular.max);
+  const double scale = clamped_specular > 0.0 ? options.specular / clamped_specular : 1.0;
   Parameters parameters;
   for (const double alpha : options.alphas) {
     const auto width = static_cast<float>(std::clamp(alpha, fit.domain.alpha.min, fit.domain.alpha.max));
-    const auto specular = static_cast<float>(held_specular);
+    const auto specular = static_cast<float>(clamped_specular);
     const double target_specular = static_cast<double>(value(lowered.specular.polynomial, width, specular));
     parameters.push_back({static_cast<double>(value(lowered.alpha.polynomial, width, specular)),
                           std::max(0.0, target_specular * scale)});

@@ -24,15 +24,15 @@ double mean_radiance(const std::vector<float>& radiance) {
 }
 
 // A picture of one material under one environment.
-struct Picture {
+struct LitPicture {
   DisplayedSphere display;
   double mean = 0.0;                           // linear luminance
   std::array<std::vector<float>, 2> halves{};  // display colors from each half of the light directions
 };
 
-Picture picture_of(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
+LitPicture picture_of(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
   const std::vector<float> radiance = pictures.radiance(material, environment);
-  Picture picture{
+  LitPicture picture{
       displayed_sphere(radiance, pictures.pixels(), pictures.resolution()), mean_radiance(radiance), {}};
   for (std::size_t half = 0; half < picture.halves.size(); ++half)
     picture.halves[half] = display_values(pictures.half_radiance(material, environment, half));
@@ -57,7 +57,7 @@ struct ComparedPair {
 
 // The mean square sampling error of the difference of two pictures. It is estimated from the differences that
 // each half of the light directions gives: the error of their mean is half of their difference.
-double squared_noise(const Picture& source, const Picture& target) {
+double squared_noise(const LitPicture& source, const LitPicture& target) {
   double sum = 0.0;
   for (std::size_t i = 0; i < source.halves[0].size(); ++i) {
     const double first = static_cast<double>(source.halves[0][i]) - static_cast<double>(target.halves[0][i]);
@@ -68,7 +68,7 @@ double squared_noise(const Picture& source, const Picture& target) {
 }
 
 // Places the pictures of one environment on its sheet.
-void fill_sheet(const std::vector<ComparedPair>& pairs, const std::vector<Picture>& shots,
+void fill_sheet(const std::vector<ComparedPair>& pairs, const std::vector<LitPicture>& shots,
                 const SpherePictures& pictures, Image* sheet) {
   for (const ComparedPair& pair : pairs) {
     const std::size_t row = pair.conversion.pair;
@@ -100,11 +100,11 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
                                                            1 + kMethodCount + (options.least_error ? 1 : 0),
                                                            options.resolution));
   run_parallel(environment_count, options.jobs, [&](std::size_t e) {
-    std::vector<Picture> shots;
+    std::vector<LitPicture> shots;
     for (std::size_t m = 0; m < rendered.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
     if (on_sheet) fill_sheet(pairs, shots, pictures, &result->sheets[e]);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const Picture &source = shots[pairs[i].source], &target = shots[pairs[i].target];
+      const LitPicture &source = shots[pairs[i].source], &target = shots[pairs[i].target];
       comparisons[i * environment_count + e] = {
           pairs[i].conversion,
           e,

@@ -24,7 +24,7 @@ struct WorkflowsCommand {
 std::vector<NamedConversion> learned_conversions(const std::filesystem::path& folder) {
   std::vector<NamedConversion> learned;
   if (folder.empty()) return learned;
-  for (const WorkflowFit& fit : load_fit_folder(folder).analytic)
+  for (const WorkflowFit& fit : load_fit_folder(folder).workflows)
     if (is_learned(fit.conversion.formula)) learned.push_back({fit.id, fit.conversion});
   return learned;
 }

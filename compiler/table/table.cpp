@@ -26,9 +26,9 @@ constexpr std::size_t kRequiredColumns = 4;
 constexpr std::size_t kDiffuse1 = 4, kDiffuse2 = 5, kError = 6, kStatus = 7;
 
 // Parses one table.
-class Reader {
+class TableReader {
  public:
-  Reader(const Csv& csv, const ColumnMap& map) : csv_(csv), map_(map) {}
+  TableReader(const Csv& csv, const ColumnMap& map) : csv_(csv), map_(map) {}
 
   Table read() {
     table_.name = csv_.name;
@@ -167,7 +167,7 @@ Table parse_table(std::string_view text, const std::string& name, const ColumnMa
   return table_from_csv(parse_csv(text, name), map);
 }
 
-Table table_from_csv(const Csv& csv, const ColumnMap& map) { return Reader(csv, map).read(); }
+Table table_from_csv(const Csv& csv, const ColumnMap& map) { return TableReader(csv, map).read(); }
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
   return parse_table(read_file(path), path.string(), map);

@@ -56,7 +56,7 @@ Placement fitted(const WarpMaterial& material, const AppearanceFeatures& feature
   constexpr auto kTerms = static_cast<Eigen::Index>(kQuadraticTerms);
   Eigen::MatrixXd design(goal.rows(), kTerms);
   for (Eigen::Index i = 0; i < design.rows(); ++i) {
-    const auto terms = quadratic_terms(result, held(material.texels[texels[static_cast<std::size_t>(i)]]));
+    const auto terms = quadratic_terms(result, clamped(material.texels[texels[static_cast<std::size_t>(i)]]));
     design.row(i) = Eigen::Map<const Eigen::RowVectorXd>(terms.data(), kTerms);
   }
   Eigen::MatrixXd left = design.transpose() * design;

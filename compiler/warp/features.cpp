@@ -114,7 +114,7 @@ Eigen::MatrixXd feature_columns(const AppearanceFeatures& features, const Materi
   const auto of = [&](std::uint32_t texel) -> Eigen::VectorXd {
     if (const auto* sampled = std::get_if<SampledFeatures>(&features))
       return features_of_samples(*sampled, samples_of(*sampled, material, texel));
-    return features_of(features, held(material.parametric()->texels[texel]));
+    return features_of(features, clamped(material.parametric()->texels[texel]));
   };
   Eigen::MatrixXd columns;
   for (std::size_t i = 0; i < texels.size(); ++i) {

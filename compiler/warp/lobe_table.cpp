@@ -16,8 +16,8 @@ double node_width(Eigen::Index node) {
 
 WidthPosition width_position(double alpha) noexcept {
   static const double start = std::log(kLeastWidth), length = std::log(kLargestWidth) - start;
-  const double held = std::clamp(alpha, kLeastWidth, kLargestWidth);
-  const double place = (std::log(held) - start) / length * static_cast<double>(kWidthNodes - 1);
+  const double clamped = std::clamp(alpha, kLeastWidth, kLargestWidth);
+  const double place = (std::log(clamped) - start) / length * static_cast<double>(kWidthNodes - 1);
   const double node = std::clamp(std::floor(place), 0.0, static_cast<double>(kWidthNodes - 2));
   return {static_cast<Eigen::Index>(node), place - node};
 }
@@ -48,7 +48,7 @@ Eigen::VectorXd mean_reflectance(const WarpMaterial& material, const LobeTable& 
     return sum / 3.0;
   };
   for (const std::uint32_t index : texels) {
-    const WarpTexel texel = held(material.texels[index]);
+    const WarpTexel texel = clamped(material.texels[index]);
     const WidthPosition position = width_position(static_cast<double>(texel[6]));
     const double specular = mean(texel, 3);
     const auto add = [&](Eigen::Index node, double share) {

@@ -58,7 +58,7 @@ Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std:
   return largest;
 }
 
-WarpTexel held(const WarpTexel& texel) noexcept {
+WarpTexel clamped(const WarpTexel& texel) noexcept {
   WarpTexel result = texel;
   for (float& value : result) value = value < 0.0f ? 0.0f : value > 1.0f ? 1.0f : value;
   return result;

@@ -15,7 +15,7 @@
 namespace remap {
 
 // The texels of one material in any order. Texels with a value that is not finite are skipped. Reflectances
-// and alpha are in 0 to 1 (held()).
+// and alpha are in 0 to 1 (clamped()).
 struct WarpMaterial {
   std::string name;  // for messages
   BrdfModel model;   // of the specular lobe; default: GGX with Schlick's Fresnel
@@ -92,6 +92,6 @@ void require_valid(const MaterialRef& source, const MaterialRef& target,
                    const std::vector<StrokePair>& strokes);
 
 // Clamps the values of a texel to 0 to 1; NaN is kept.
-WarpTexel held(const WarpTexel& texel) noexcept;
+WarpTexel clamped(const WarpTexel& texel) noexcept;
 
 }  // namespace remap

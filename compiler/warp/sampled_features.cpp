@@ -143,7 +143,7 @@ Eigen::VectorXd samples_of(const SampledFeatures& features, const TabulatedMater
 Eigen::VectorXd samples_of(const SampledFeatures& features, const MaterialRef& material,
                            std::uint32_t texel) {
   if (material.parametric() != nullptr)
-    return samples_of(features, held(material.parametric()->texels[texel]));
+    return samples_of(features, clamped(material.parametric()->texels[texel]));
   return samples_of(features, *material.tabulated(), material.tabulated()->entries[texel]);
 }
 

@@ -16,14 +16,14 @@ namespace fs = std::filesystem;
 using Color = std::uint32_t;  // 0xRRGGBB
 constexpr Color kTransparent = Color{1} << 24;
 
-constexpr double kColorRadius = 40.0;    // colors within it count as one
-constexpr double kPairRadius = 48.0;     // colors of two images within it match
-constexpr double kShadeRadius = 80.0;    // for shades of the background next to strokes, from JPEG
-constexpr double kBlendRadius = 60.0;    // from the line between two colors to their blend
-constexpr double kMostBlends = 0.4;      // share of the texels; thin strokes have long edges
-constexpr double kLeastShare = 2e-5;     // of the texels, for a color
-constexpr std::size_t kLeastTexels = 8;  // for a color
-constexpr std::size_t kMostColors = 33;  // including the background
+constexpr double kColorRadius = 40.0;         // colors within it count as one
+constexpr double kPairRadius = 48.0;          // colors of two images within it match
+constexpr double kShadeRadius = 80.0;         // for shades of the background next to strokes, from JPEG
+constexpr double kBlendRadius = 60.0;         // from the line between two colors to their blend
+constexpr double kMostBlends = 0.4;           // share of the texels; thin strokes have long edges
+constexpr double kLeastColorShare = 2e-5;     // of the texels, for a color
+constexpr std::size_t kLeastColorTexels = 8;  // for a color
+constexpr std::size_t kMostColors = 33;       // including the background
 constexpr std::size_t kMostCandidates = 128;
 
 using Point = std::array<double, 3>;
@@ -230,7 +230,7 @@ std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& ma
       static_cast<double>(std::count(painting.texels.begin(), painting.texels.end(), kTransparent));
   const std::size_t first_stroke = transparent >= 0.01 * count ? 0 : 1;
   const std::vector<ColorCount> colors = frequencies(painting);
-  const std::size_t least = std::max(kLeastTexels, static_cast<std::size_t>(kLeastShare * count));
+  const std::size_t least = std::max(kLeastColorTexels, static_cast<std::size_t>(kLeastColorShare * count));
   const std::vector<ColorCount> all = clusters_of(colors, least);
   const std::vector<ColorCount> kept =
       without_rims(all, painting, labels_of(painting, colors, all), first_stroke);

@@ -21,7 +21,7 @@ bool is_metallic(Role role) { return role == Role::kMetallic; }
 bool is_albedo(const FoundSet& set) {
   const auto has = [&](bool (*wanted)(Role)) { return !uses(set, wanted).empty(); };
   return (has(is_diffuse) || has(is_base_color)) && !has(is_specular) && !has(is_metallic) &&
-         !has(tells_width);
+         !has(is_roughness);
 }
 
 FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
@@ -48,7 +48,7 @@ bool add_map(const FoundSet& set, const fs::path& root, Parameter parameter, boo
   if (found.empty()) return false;
   const MapUse& use = found.front();
   request.parameters[parameter].source = MapName{root / set.maps[use.map].path, channel_names(use.channels)};
-  if (parameter == Parameter::kWidth)
+  if (parameter == Parameter::kRoughness)
     request.convention = convention_of(use.role).value_or(RoughnessConvention::kRoughness);
   return true;
 }
@@ -70,11 +70,11 @@ MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
     result.is_albedo = true;
     if (!add(Parameter::kDiffuse, is_diffuse)) add(Parameter::kDiffuse, is_base_color);
     request.parameters[Parameter::kSpecular].source = ConstantValues{0.0f};
-    request.parameters[Parameter::kWidth].source = ConstantValues{1.0f};
+    request.parameters[Parameter::kRoughness].source = ConstantValues{1.0f};
     request.convention = RoughnessConvention::kAlpha;
     return result;
   }
-  if (!add(Parameter::kWidth, tells_width))
+  if (!add(Parameter::kRoughness, is_roughness))
     throw input_error(folder.string() + ": contains no roughness map");
   if (add(Parameter::kSpecular, is_specular)) {
     if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return result;
@@ -148,7 +148,7 @@ TextureMaterial read_texture_material(const fs::path& folder, const std::string&
   };
   want(Parameter::kDiffuse, 0, 3);
   want(Parameter::kSpecular, 3, 3);
-  want(Parameter::kWidth, 6, 1);
+  want(Parameter::kRoughness, 6, 1);
   convert_maps(*converter, conversion);
   return result;
 }

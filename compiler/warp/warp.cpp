@@ -158,7 +158,7 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
 WarpMaterial reduced(const WarpMaterial& material, const std::vector<std::uint32_t>& texels) {
   WarpMaterial result{material.name, material.model, {}, material.is_dielectric};
   result.texels.reserve(texels.size());
-  for (const std::uint32_t texel : texels) result.texels.push_back(held(material.texels[texel]));
+  for (const std::uint32_t texel : texels) result.texels.push_back(clamped(material.texels[texel]));
   return result;
 }
 

@@ -31,7 +31,7 @@ bool all_within(const std::vector<float>& values, const Range& range) {
   return std::all_of(values.begin(), values.end(), [&](float v) { return v >= low && v <= high; });
 }
 
-enum class Look { kWidth, kBoth };
+enum class Look { kRoughness, kBoth };
 
 // Whether the images of grey texels, one for each width and specular, lie in the later steps' domains.
 bool images_fit(Steps steps, std::vector<float> width, std::vector<float> specular, Look look) {
@@ -72,7 +72,7 @@ SourceDomain chained_domain(Steps steps) {
   const SourceDomain whole = {first.roughness, first.specular};
   const auto width_fits = [&](float width) {
     return images_fit(steps, std::vector<float>(kSpeculars, width), spread(whole.specular, kSpeculars),
-                      Look::kWidth);
+                      Look::kRoughness);
   };
   const RoughnessConvention convention = first.source.roughness;
   const double middle_alpha =

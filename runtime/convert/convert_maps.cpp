@@ -178,7 +178,7 @@ bool Conversion::is_made(Parameter parameter) const {
 
 // The largest valid value. Roughness and specular alone have no limit.
 float Conversion::highest(Parameter parameter) const {
-  return !converter_.is_of_brdf() && parameter != Parameter::kWidth ? 1.0f : kLargest;
+  return !converter_.is_of_brdf() && parameter != Parameter::kRoughness ? 1.0f : kLargest;
 }
 
 // The row of a map that can be read in place of a loaded one; null if its values must be changed.
@@ -208,7 +208,7 @@ void Conversion::load_channel(const SourceParameter& parameter, std::size_t chan
 void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) const {
   for (const auto& [parameter, target] : maps_.targets) {
     const bool changes =
-        parameter == Parameter::kWidth && target_convention() != converter_.info().target.roughness;
+        parameter == Parameter::kRoughness && target_convention() != converter_.info().target.roughness;
     if (changes || target.transfer != Transfer::kLinear) continue;
     const std::size_t count = std::min(scratch.target.count(parameter), target.channels.size());
     for (std::size_t c = 0; c < count; ++c) {
@@ -279,7 +279,7 @@ void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStati
     scratch.source.make(parameter, count);
     const bool changes =
         maps_.bad_texels == BadTexels::kClamp ||
-        (parameter == Parameter::kWidth && source_convention() != converter_.info().source.roughness);
+        (parameter == Parameter::kRoughness && source_convention() != converter_.info().source.roughness);
     for (std::size_t c = 0; c < count; ++c) {
       const float* const stored = changes ? nullptr : row_of_map(source, c, segment);
       if (stored != nullptr)
@@ -354,7 +354,7 @@ void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
   };
   for (const Parameter parameter : sources_) {
     Range range{0.0, 1.0};
-    if (parameter == Parameter::kWidth) range = converter_.info().roughness;
+    if (parameter == Parameter::kRoughness) range = converter_.info().roughness;
     if (parameter == Parameter::kSpecular) range.max = converter_.info().specular.max;
     for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
       clamp(scratch.source.own_row(parameter, c), range);
@@ -411,7 +411,7 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   statistics.texel_count += count;
   meet_bad_texels(segment, scratch, statistics);
   change_convention(source_convention(), info.source.roughness,
-                    {scratch.source.own_row(Parameter::kWidth, 0), count});
+                    {scratch.source.own_row(Parameter::kRoughness, 0), count});
   if (maps_.bad_texels == BadTexels::kClamp) clamp_bad(count, scratch);
 
   const std::size_t specular = scratch.source.count(Parameter::kSpecular);
@@ -427,7 +427,7 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
                                                  scratch.target.row(Parameter::kDoubts, 0),
                                                  maps_.coverage ? scratch.coverage.data() : nullptr});
   change_convention(info.target.roughness, target_convention(),
-                    {scratch.target.row(Parameter::kWidth, 0), count});
+                    {scratch.target.row(Parameter::kRoughness, 0), count});
   store_targets(segment, scratch, statistics);
 }
 

@@ -48,8 +48,8 @@ std::size_t Converter::convert(std::size_t count, const float* width, std::span<
   require_channels(specular.size());  // before they are copied
   MaterialRows<const float> in;
   MaterialRows<float> out;
-  in[Parameter::kWidth] = {{width}, 1};
-  out[Parameter::kWidth] = {{width_out}, 1};
+  in[Parameter::kRoughness] = {{width}, 1};
+  out[Parameter::kRoughness] = {{width_out}, 1};
   in[Parameter::kSpecular].count = out[Parameter::kSpecular].count = specular.size();
   std::copy(specular.begin(), specular.end(), in[Parameter::kSpecular].row.begin());
   std::copy(specular_out.begin(), specular_out.end(), out[Parameter::kSpecular].row.begin());

@@ -7,7 +7,7 @@ namespace remap {
 namespace {
 
 constexpr NamedValues<Parameter, kParameterCount> kParameters = {
-    {{Parameter::kWidth, "width"},
+    {{Parameter::kRoughness, "width"},
      {Parameter::kSpecular, "specular"},
      {Parameter::kDiffuse, "diffuse"},
      {Parameter::kBaseColor, "base_color"},
@@ -27,7 +27,7 @@ bool is_measure(Parameter parameter) {
 }
 
 std::string plain_name(Parameter parameter) {
-  return parameter == Parameter::kWidth ? "roughness" : std::string(parameter_name(parameter));
+  return parameter == Parameter::kRoughness ? "roughness" : std::string(parameter_name(parameter));
 }
 
 std::string parameter_option(Parameter parameter) {

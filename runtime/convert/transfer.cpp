@@ -180,8 +180,8 @@ void change_convention(RoughnessConvention from, RoughnessConvention to, std::sp
   const float highest = from == RoughnessConvention::kExponent ? INFINITY : 1.0f;
   for (float& width : widths) {
     if (std::isnan(width)) continue;
-    const double held = static_cast<double>(std::clamp(width, 0.0f, highest));
-    width = static_cast<float>(from_alpha(to, to_alpha(from, held)));
+    const double clamped = static_cast<double>(std::clamp(width, 0.0f, highest));
+    width = static_cast<float>(from_alpha(to, to_alpha(from, clamped)));
   }
 }
 

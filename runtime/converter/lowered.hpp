@@ -47,7 +47,7 @@ struct LoweredFunction {
 // The share of a limit over which a regime (model/regimes.hpp) takes over.
 inline constexpr double kSeam = 0.005;
 
-// A regime: its function, and where its domain begins, below which a parameter is held.
+// A regime: its function, and where its domain begins, below which a parameter is clamped.
 struct LoweredSeries {
   float alpha_from = 0.0f, specular_from = 0.0f;
   LoweredFunction function;

@@ -62,7 +62,7 @@ FoundMap found_map(const fs::path& folder, const NamedMap& map) {
     found.tiles.push_back({number, folder / tile_name(*map.files.pattern, number)});
   found.is_converted = std::any_of(
       found.meaning.begin(), found.meaning.end(),
-      [](const ChannelMeaning& entry) { return tells_width(entry.role) || entry.role == Role::kSpecular; });
+      [](const ChannelMeaning& entry) { return is_roughness(entry.role) || entry.role == Role::kSpecular; });
   return found;
 }
 
@@ -80,7 +80,7 @@ std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std:
 }
 
 void judge(FoundSet& set) {
-  set.width = single_use(set, tells_width, "roughness");
+  set.width = single_use(set, is_roughness, "roughness");
   set.specular = single_use(set, is<Role::kSpecular>, "specular");
   if (set.state == SetState::kFaulty || set.width) return;
   set.state = SetState::kSkipped;

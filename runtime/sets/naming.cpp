@@ -62,7 +62,7 @@ Stem stem_before(const NameParts& parts, std::size_t word) {
 
 }  // namespace
 
-bool tells_width(Role role) {
+bool is_roughness(Role role) {
   return role == Role::kRoughness || role == Role::kGlossiness || role == Role::kAlphaWidth;
 }
 

@@ -97,7 +97,7 @@ inline constexpr NamedValues<Role, 19> kRoles = {{{Role::kRoughness, "roughness"
                                                   {Role::kOther, "other"}}};
 inline std::string_view role_name(Role role) { return name_of(kRoles, role); }
 // Whether the role determines the roughness. A set has one such map.
-bool tells_width(Role role);
+bool is_roughness(Role role);
 template <Role kRole>
 bool is(Role role) {
   return role == kRole;

@@ -34,7 +34,7 @@ Role read_role(const Field& field) { return read_named(field, kRoles, "role"); }
 
 // A converter reads roughness and specular from one map each, so no rule may name one twice.
 void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meaning) {
-  const auto width = [](const ChannelMeaning& entry) { return tells_width(entry.role); };
+  const auto width = [](const ChannelMeaning& entry) { return is_roughness(entry.role); };
   const auto specular = [](const ChannelMeaning& entry) { return entry.role == Role::kSpecular; };
   field.require(std::count_if(meaning.begin(), meaning.end(), width) <= 1,
                 "at most one of roughness, glossiness and alpha_width");

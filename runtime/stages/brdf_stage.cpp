@@ -88,9 +88,9 @@ class BrdfStage final : public Stage {
 
   std::size_t run(Block& block, std::uint8_t* outside) const override {
     const std::size_t channels = block.is_grey(Parameter::kSpecular) ? 1 : 3;
-    const float* const width = block.row(Parameter::kWidth);
+    const float* const width = block.row(Parameter::kRoughness);
     const auto specular = block.color(Parameter::kSpecular);
-    return kernel_(pass_, {block.size(), channels, width, specular, block.make(Parameter::kWidth),
+    return kernel_(pass_, {block.size(), channels, width, specular, block.make(Parameter::kRoughness),
                            block.make_color(Parameter::kSpecular, channels), outside});
   }
 

@@ -15,19 +15,19 @@ struct NodePosition {
 };
 
 NodePosition position_of(double place, std::size_t count) noexcept {
-  const double held = std::clamp(place, 0.0, static_cast<double>(count - 1));
-  const std::size_t first = std::min(static_cast<std::size_t>(held), count - 2);
-  return {first, held - static_cast<double>(first)};
+  const double clamped = std::clamp(place, 0.0, static_cast<double>(count - 1));
+  const std::size_t first = std::min(static_cast<std::size_t>(clamped), count - 2);
+  return {first, clamped - static_cast<double>(first)};
 }
 
 // From 0 at the least alpha to 1 at the largest one.
 double width_share(const AppearanceCoordinates& space, float alpha) noexcept {
   const double least = static_cast<double>(space.least_alpha);
-  const double held = static_cast<double>(std::clamp(alpha, space.least_alpha, space.largest_alpha));
-  return std::log(held / least) / std::log(static_cast<double>(space.largest_alpha) / least);
+  const double clamped = static_cast<double>(std::clamp(alpha, space.least_alpha, space.largest_alpha));
+  return std::log(clamped / least) / std::log(static_cast<double>(space.largest_alpha) / least);
 }
 
-double held_reflectance(float value) noexcept { return std::clamp(static_cast<double>(value), 0.0, 1.0); }
+double clamped_reflectance(float value) noexcept { return std::clamp(static_cast<double>(value), 0.0, 1.0); }
 
 bool has_nan(const WarpTexel& texel) noexcept {
   return std::any_of(texel.begin(), texel.end(), [](float value) { return std::isnan(value); });
@@ -63,8 +63,8 @@ Position position_by(const AppearanceCoordinates& space, const SeparableTerms& t
   for (std::size_t k = 0; k < n; ++k) {
     position[k] = between(offset + k, n);
     for (std::size_t c = 0; c < 3; ++c)
-      position[k] += held_reflectance(texel[c]) * static_cast<double>(terms.diffuse[3 * k + c]) +
-                     held_reflectance(texel[3 + c]) * between(specular + 3 * k + c, 3 * n);
+      position[k] += clamped_reflectance(texel[c]) * static_cast<double>(terms.diffuse[3 * k + c]) +
+                     clamped_reflectance(texel[3 + c]) * between(specular + 3 * k + c, 3 * n);
   }
   return position;
 }
@@ -179,7 +179,7 @@ std::size_t width_node_count(const AppearanceCoordinates& space, const Separable
 std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates& space,
                                                     const WarpTexel& texel) noexcept {
   std::array<double, kWarpParameters> u{};
-  for (std::size_t i = 0; i < 6; ++i) u[i] = std::cbrt(held_reflectance(texel[i]));
+  for (std::size_t i = 0; i < 6; ++i) u[i] = std::cbrt(clamped_reflectance(texel[i]));
   u[6] = width_share(space, texel[6]);
   std::array<double, kQuadraticTerms> terms{};
   terms[0] = 1.0;

@@ -27,7 +27,7 @@ std::array<Pointer, Count> rows(std::span<const Pointer> given, const char* what
 // Interprets a network in double precision, texel by texel.
 std::size_t interpret(const Network& network, const code::Conventions& use,
                       const std::array<const float*, 7>& in, const std::array<float*, 5>& out) {
-  code::HeldBlock<7, code::kMetallicBlock> block;
+  code::ClampedBlock<7, code::kMetallicBlock> block;
   const std::size_t outside = code::hold(in, block, std::make_index_sequence<7>());
   for (std::size_t i = 0; i < code::kMetallicBlock; ++i) {
     std::vector<double> values;

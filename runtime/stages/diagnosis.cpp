@@ -36,7 +36,7 @@ code::Texel texel_of(const code::Conventions& use, const SpecularMaterial& mater
   std::array<const float*, 7> in{};
   for (std::size_t r = 0; r < rows.size(); ++r) in[r] = rows[r].data();
   code::read_specular(use, in, texels);
-  return code::texel_of(texels, code::width_to_alpha(use.width_in, texels.held.row[6][0]), 0);
+  return code::texel_of(texels, code::width_to_alpha(use.width_in, texels.clamped.row[6][0]), 0);
 }
 
 float width_of(const code::Texel& texel, const code::Conventions& use) {
@@ -91,7 +91,7 @@ MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularM
   const code::Texel texel = texel_of(use, material);
   const auto& [red, green, blue] = result.base_color;
   return {code::residual_of(texel, use, result.metallic, red, green, blue), width_of(texel, use),
-          has_value_beyond(material) || code::is_held(texel, use, result.metallic)};
+          has_value_beyond(material) || code::is_clamped(texel, use, result.metallic)};
 }
 
 DielectricF0 estimate_dielectric_f0(const WorkflowConversion& conversion,

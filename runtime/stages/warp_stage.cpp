@@ -34,13 +34,13 @@ class WarpStage final : public Stage {
                                                           specular[0],
                                                           specular[1],
                                                           specular[2],
-                                                          block.row(Parameter::kWidth)};
+                                                          block.row(Parameter::kRoughness)};
     if (outside != nullptr) flag_outside(block.size(), in, outside);  // before rows are written over
     const auto new_diffuse = block.make_color(Parameter::kDiffuse),
                new_specular = block.make_color(Parameter::kSpecular);
     return kernel_(warp_, block.size(), in,
                    {new_diffuse[0], new_diffuse[1], new_diffuse[2], new_specular[0], new_specular[1],
-                    new_specular[2], block.make(Parameter::kWidth)});
+                    new_specular[2], block.make(Parameter::kRoughness)});
   }
 
  private:

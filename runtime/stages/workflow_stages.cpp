@@ -13,7 +13,7 @@ namespace {
 
 using Colors = std::array<const float*, 3>;
 
-float held(float value) { return std::clamp(value, 0.0f, 1.0f); }
+float clamped(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
 class ToSpecular final : public Stage {
  public:
@@ -25,7 +25,7 @@ class ToSpecular final : public Stage {
     const auto diffuse = block.make_color(Parameter::kDiffuse);
     const auto specular = block.make_color(Parameter::kSpecular);
     kernel_(use_, block.size(),
-            {base[0], base[1], base[2], block.row(Parameter::kMetallic), block.row(Parameter::kWidth)},
+            {base[0], base[1], base[2], block.row(Parameter::kMetallic), block.row(Parameter::kRoughness)},
             {diffuse[0], diffuse[1], diffuse[2], specular[0], specular[1], specular[2], block.make_unused()});
     return 0;
   }
@@ -45,7 +45,7 @@ class ScaleDiffuse final : public Stage {
     const auto out = block.make_color(Parameter::kDiffuse);
     std::array<float, kBlockTexels> left;
     for (std::size_t i = 0; i < block.size(); ++i)
-      left[i] = 1.0f - held(std::max({specular[0][i], specular[1][i], specular[2][i]}));
+      left[i] = 1.0f - clamped(std::max({specular[0][i], specular[1][i], specular[2][i]}));
     for (std::size_t c = 3; c-- > 0;)  // red last: grey is its row, which may be the first of `out`
       for (std::size_t i = 0; i < block.size(); ++i)
         out[c][i] = to_ == DiffuseConvention::kScaled && left[i] > 0.0f ? diffuse[c][i] / left[i]
@@ -72,7 +72,7 @@ class KeepDielectrics final : public Stage {
     std::array<float, kBlockTexels> dielectric;
     dielectric.fill(source_f0_);
     MaterialRows<const float> in;
-    in[Parameter::kWidth] = {{block.row(Parameter::kWidth)}, 1};
+    in[Parameter::kRoughness] = {{block.row(Parameter::kRoughness)}, 1};
     in[Parameter::kSpecular] = {{dielectric.data()}, 1};
     const MaterialRows<float> no_target;
     Block mapped(in, no_target);
@@ -86,7 +86,7 @@ class KeepDielectrics final : public Stage {
     const auto out = block.make_color(Parameter::kSpecular);
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < block.size(); ++i)
-        out[c][i] = std::max(specular[c][i] - (1.0f - held(metallic[i])) * (f0[i] - target_f0_), 0.0f);
+        out[c][i] = std::max(specular[c][i] - (1.0f - clamped(metallic[i])) * (f0[i] - target_f0_), 0.0f);
     return count;
   }
 
@@ -111,7 +111,7 @@ class Project final : public Stage {
 
   std::size_t run(Block& block, std::uint8_t*) const override {
     const Colors diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
-    const float* width = block.row(Parameter::kWidth);
+    const float* width = block.row(Parameter::kRoughness);
     std::array<float, kBlockTexels> alpha;
     if (reads_alpha_) {
       for (std::size_t i = 0; i < block.size(); ++i)
@@ -202,8 +202,8 @@ DiffuseConvention diffuse_between(const WorkflowStages& stages) {
 
 std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
   if (kind_of(end) == WorkflowKind::kSpecular)
-    return {Parameter::kWidth, Parameter::kSpecular, Parameter::kDiffuse};
-  return {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
+    return {Parameter::kRoughness, Parameter::kSpecular, Parameter::kDiffuse};
+  return {Parameter::kRoughness, Parameter::kBaseColor, Parameter::kMetallic};
 }
 
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,

@@ -33,7 +33,7 @@ void add_behaviour(const Converter& converter, ContentHash& hash) {
   for (const Parameter parameter : converter.sources()) {
     const std::size_t count = is_color(parameter) ? 3 : 1;
     Range range{0.0, 1.0};
-    if (parameter == Parameter::kWidth) range = info.roughness;
+    if (parameter == Parameter::kRoughness) range = info.roughness;
     if (parameter == Parameter::kSpecular) range = {0.0, info.specular.max};
     sources[parameter].count = count;
     for (std::size_t c = 0; c < count; ++c, ++row) {

@@ -54,8 +54,8 @@ std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
     return best.empty() ? other : best;
   };
   switch (parameter) {
-    case Parameter::kWidth:
-      return uses(set, tells_width);
+    case Parameter::kRoughness:
+      return uses(set, is_roughness);
     case Parameter::kSpecular:
       return uses(set, is<Role::kSpecular>);
     case Parameter::kDiffuse:
@@ -82,13 +82,13 @@ FoundSet of_diffuse_alone(FoundSet set) {
 }
 
 // Turns a folder of sets into jobs.
-class TreeJobs {
+class FolderJobs {
  public:
-  TreeJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& stand_ins)
+  FolderJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& defaults)
       : options_(options),
         workflow_(workflow),
         choice_(target_choice(options, workflow)),
-        stand_ins_(stand_ins),
+        defaults_(defaults),
         root_(options.folder) {}
 
   JobList list();
@@ -109,13 +109,13 @@ class TreeJobs {
   const ConvertOptions& options_;
   const WorkflowChoice& workflow_;
   TargetChoice choice_;
-  const TextureSetRequest& stand_ins_;  // values for missing maps, and factors for all sets
+  const TextureSetRequest& defaults_;  // values for missing maps, and factors for all sets
   fs::path root_;
   std::vector<FoundSet> converted_;
   JobList jobs_;
 };
 
-JobList TreeJobs::list() {
+JobList FolderJobs::list() {
   const Naming naming = options_.names.empty() ? built_in_naming() : read_naming(options_.names);
   DiscoveryOptions discovery;
   discovery.recursive = options_.recursive;
@@ -127,7 +127,7 @@ JobList TreeJobs::list() {
   jobs_.unrecognised_count = found.unrecognised.size();
   for (const WalkProblem& problem : found.problems) fail(problem.message);
   for (FoundSet& set : found.sets) {
-    if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kWidth))
+    if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
       set = of_diffuse_alone(std::move(set));
     if (set.state == SetState::kReady)
       add(set);
@@ -144,7 +144,7 @@ JobList TreeJobs::list() {
   return std::move(jobs_);
 }
 
-void TreeJobs::add(const FoundSet& set) {
+void FolderJobs::add(const FoundSet& set) {
   for (const Parameter parameter : workflow_.sources()) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name = plain_name(parameter);
@@ -153,7 +153,7 @@ void TreeJobs::add(const FoundSet& set) {
                   " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
                   "--diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
-    if (found.empty() && !is_given(stand_ins_.parameters.at(parameter)))
+    if (found.empty() && !is_given(defaults_.parameters.at(parameter)))
       return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
                   " VALUE for such sets)");
   }
@@ -162,8 +162,8 @@ void TreeJobs::add(const FoundSet& set) {
 }
 
 // Puts the map of a parameter into the job. Notes a message and returns false where the set lacks the tile.
-bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
-                           ConversionJob& job) {
+bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
+                             ConversionJob& job) {
   const std::vector<MapUse> found = uses_of(set, parameter);
   if (found.empty()) return true;
   const MapUse& use = found.front();
@@ -176,16 +176,16 @@ bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::
   }
   job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};
   // --roughness-encoding speaks of maps that are found as roughness.
-  if (parameter == Parameter::kWidth && convention_of(use.role))
+  if (parameter == Parameter::kRoughness && convention_of(use.role))
     job.request.convention = convention_of(use.role);
   return true;
 }
 
-void TreeJobs::add_tile(const FoundSet& set, int tile) {
+void FolderJobs::add_tile(const FoundSet& set, int tile) {
   const std::string number = tile == 0 ? "" : std::to_string(tile);
   ConversionJob job{place(set),
                     number,
-                    stand_ins_,
+                    defaults_,
                     options_.output / set.folder,
                     options_.diagnose / set.folder,
                     {set.name + "_", tile == 0 ? "" : "." + number},
@@ -198,7 +198,7 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
 }
 
 // Adds the maps that are not converted but have a place in the layout.
-void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
+void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
   for (const FoundMap& map : set.maps)
     for (const ChannelMeaning& entry : map.meaning) {
       const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
@@ -214,7 +214,7 @@ void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) 
 }
 
 // Adds the files that the conversion does not read. A map without tiles goes with the first tile of the set.
-void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) const {
+void FolderJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) const {
   const std::vector<fs::path*> read = files_of(job);
   const bool is_first = tile == tiles_of(set).front();
   for (const FoundMap& map : set.maps) {
@@ -227,7 +227,7 @@ void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) co
 }
 
 // The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
-std::map<fs::path, fs::path> TreeJobs::outputs(const FoundSet& set) const {
+std::map<fs::path, fs::path> FolderJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? set.maps[set.width->map] : set.maps.front();
   const std::string end =
       (tiles_of(set).front() == 0 ? "" : ".<UDIM>") +
@@ -250,7 +250,7 @@ std::map<fs::path, fs::path> TreeJobs::outputs(const FoundSet& set) const {
 }
 
 // --roughness-encoding speaks of maps that are found as roughness.
-void TreeJobs::require_encoding_used() const {
+void FolderJobs::require_encoding_used() const {
   if (!options_.roughness_encoding || converted_.empty()) return;
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !convention_of(set.width->role); };
   if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
@@ -261,7 +261,7 @@ void TreeJobs::require_encoding_used() const {
 
 // Names are compared byte by byte after `.` and `..` are resolved in the text; links and case-insensitive
 // file systems are not considered.
-void TreeJobs::require_no_collisions() const {
+void FolderJobs::require_no_collisions() const {
   std::map<fs::path, fs::path> all;
   for (const FoundSet& set : converted_)
     for (const auto& [path, source] : outputs(set)) {
@@ -333,7 +333,7 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
 
 JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
                         const TextureSetRequest& request) {
-  if (!options.folder.empty()) return TreeJobs(options, workflow, request).list();
+  if (!options.folder.empty()) return FolderJobs(options, workflow, request).list();
   ConversionJob job{"", "", request, options.output, options.diagnose, {}, copied_files(options, workflow)};
   if (const std::vector<TiledFile> tiled = tiled_files(job); !tiled.empty()) return tile_jobs(job, tiled);
   JobList list;

@@ -24,14 +24,14 @@ struct ConversionJob {
 };
 
 // A set that is not converted, or a file or folder that cannot be read.
-struct LeftOut {
+struct SkippedSet {
   std::string message;
   bool is_failure = false;  // false where there was nothing to convert
 };
 
 struct JobList {
   std::vector<ConversionJob> jobs;
-  std::vector<LeftOut> left_out;
+  std::vector<SkippedSet> left_out;
   std::size_t unrecognised_count = 0;  // images of a folder whose names no habit matches
   bool is_tree = false;                // several sets or tiles; a failing one does not stop the others
   std::string tile_noun = "tile";      // "frame" for sequences

@@ -60,7 +60,7 @@ void require_parameters(const ConvertOptions& options, const WorkflowChoice& wor
   for (const Parameter parameter : workflow.sources()) {
     if (options.map_of(parameter) != nullptr || workflow.constants.contains(parameter)) continue;
     static const std::map<Parameter, std::string> kRemedies = {
-        {Parameter::kWidth, "a map or a number; or use --glossiness"},
+        {Parameter::kRoughness, "a map or a number; or use --glossiness"},
         {Parameter::kSpecular, "a map or a number; 0.04 for most dielectrics"},
         {Parameter::kDiffuse, "a map or a number; 0 for bare metal"},
         {Parameter::kBaseColor, "a map or numbers"},
@@ -133,7 +133,7 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
   std::vector<Parameter> parameters = workflow.sources();
   if (options.map_of(Parameter::kMetalMask) != nullptr) parameters.push_back(Parameter::kMetalMask);
   for (const Parameter parameter : parameters) {
-    const bool is_width = parameter == Parameter::kWidth;
+    const bool is_width = parameter == Parameter::kRoughness;
     ParameterRequest asked;
     if (const MapSource* source = options.map_of(parameter)) asked.source = *source;
     if (const auto constant = workflow.constants.find(parameter); constant != workflow.constants.end())

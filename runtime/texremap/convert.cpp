@@ -105,7 +105,7 @@ bool are_constants(const TextureSetRequest& request) {
 
 // The name of a target parameter; the roughness is called by its encoding.
 std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessConvention width) {
-  if (parameter == Parameter::kWidth) return std::string(convention_name(width));
+  if (parameter == Parameter::kRoughness) return std::string(convention_name(width));
   if (!chosen.workflow.is_material()) return chosen.info().target.specular;
   return std::string(parameter_name(parameter));
 }

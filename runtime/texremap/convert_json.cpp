@@ -189,7 +189,7 @@ void print_json(const Outcome& outcome) {
 
 void print_json_start(const Outcome& outcome) {
   print_line({{"conversion", converter_json(outcome.chosen)}});
-  for (const LeftOut& entry : outcome.list.left_out)
+  for (const SkippedSet& entry : outcome.list.left_out)
     print_line({{"left_out", {{"message", entry.message}, {"is_failure", entry.is_failure}}}});
 }
 

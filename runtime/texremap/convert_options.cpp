@@ -16,7 +16,7 @@ constexpr NamedValues<PixelType, 4> kWrittenTypes = {{{PixelType::kUint8, "uint8
 constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 constexpr NamedValues<Parameter, 2> kOnly = {
-    {{Parameter::kWidth, "roughness"}, {Parameter::kSpecular, "specular"}}};
+    {{Parameter::kRoughness, "roughness"}, {Parameter::kSpecular, "specular"}}};
 
 Reader<MapSource> map_source() {
   return {[](const std::string& option, const std::string& word) { return parameter_source(option, word); },
@@ -106,9 +106,9 @@ void add_map_options(Command& command, ConvertOptions& options) {
     return command.add_option(name + " MAP", options.maps[parameter], map_source(), description)
         ->tag(kChangesResults);
   };
-  add_map("--roughness", P::kWidth, "Roughness of the source model")
+  add_map("--roughness", P::kRoughness, "Roughness of the source model")
       ->tag(kNotWithFolder | kNotWithDiffuseWarp);
-  add_map("--glossiness", P::kWidth, "Glossiness, 1 - sqrt(alpha), in place of the roughness")
+  add_map("--glossiness", P::kRoughness, "Glossiness, 1 - sqrt(alpha), in place of the roughness")
       ->tag(kNotWithFolder | kNotWithDiffuseWarp)
       ->excludes(command.option("--roughness"));
   add_map("--specular", P::kSpecular, "Specular color; with DIR, numbers for sets without a specular map")

@@ -123,7 +123,7 @@ ColorNotes Outcome::colors() const {
 std::size_t Outcome::failed_count() const {
   std::size_t count = 0;
   for (const JobReport& report : reports) count += report.failure.has_value();
-  for (const LeftOut& entry : list.left_out) count += entry.is_failure;
+  for (const SkippedSet& entry : list.left_out) count += entry.is_failure;
   return count;
 }
 
@@ -230,7 +230,7 @@ void print_colors(const std::string& program, const Outcome& outcome) {
 }
 
 void print_left_out(const std::string& program, const JobList& list, bool failures_only) {
-  for (const LeftOut& entry : list.left_out)
+  for (const SkippedSet& entry : list.left_out)
     if (entry.is_failure || !failures_only)
       print_message(program, (entry.is_failure ? "failed: " : "skipped: ") + entry.message);
 }

@@ -110,7 +110,7 @@ void require_8_bits(bool has_8_bits) {
 }
 
 WidthSource width_source(const TextureSet& set) {
-  const SetParameter* map = set.map_of(Parameter::kWidth);
+  const SetParameter* map = set.map_of(Parameter::kRoughness);
   if (map == nullptr) return {{}, set.convention};
   return {set.maps[map->channels.front().map].path(), set.convention};
 }

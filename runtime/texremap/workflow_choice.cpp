@@ -124,11 +124,11 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
 }  // namespace
 
 std::vector<Parameter> WorkflowChoice::sources() const {
-  return is_material() ? parameters_of(*source) : std::vector{Parameter::kWidth, Parameter::kSpecular};
+  return is_material() ? parameters_of(*source) : std::vector{Parameter::kRoughness, Parameter::kSpecular};
 }
 
 std::vector<Parameter> WorkflowChoice::targets() const {
-  return is_material() ? parameters_of(*target) : std::vector{Parameter::kWidth, Parameter::kSpecular};
+  return is_material() ? parameters_of(*target) : std::vector{Parameter::kRoughness, Parameter::kSpecular};
 }
 
 bool WorkflowChoice::has_source(Parameter parameter) const {
@@ -175,7 +175,7 @@ void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::
 void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
   refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts a diffuse map alone");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessConvention::kAlpha;
-  choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kWidth, {1.0f}}};
+  choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kRoughness, {1.0f}}};
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const Wor
     add_target(Parameter::kDiffuse, materials.front().diffuse[c]);
     add_target(Parameter::kSpecular, materials.front().specular[c]);
   }
-  add_target(Parameter::kWidth, materials.front().width);
+  add_target(Parameter::kRoughness, materials.front().width);
   convert_maps(*converter, maps);
   WorkflowConversion conversion{plain, std::get<MetallicWorkflow>(stages.target), Projection{}};
   conversion.specular.width = RoughnessConvention::kAlpha;

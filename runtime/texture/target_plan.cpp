@@ -286,7 +286,7 @@ std::vector<PlannedMap> separate_maps(const TextureSet& set, const TargetChoice&
 std::vector<PlannedMap> specgloss_maps(const TextureSet& set, const TargetChoice& choice) {
   std::vector<TargetChannel> channels = color_channels(set, Parameter::kSpecular, choice);
   channels.resize(3, channels.front());  // grey in every color
-  channels.push_back(ConvertedChannel{Parameter::kWidth});
+  channels.push_back(ConvertedChannel{Parameter::kRoughness});
   std::vector<PlannedMap> all = {
       new_map(file_name(Parameter::kSpecular, choice), kColorAndAlpha, channels, set, choice)};
   if (is_wanted(choice, Parameter::kDiffuse)) all.push_back(color_map(set, Parameter::kDiffuse, choice));
@@ -302,13 +302,13 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
     throw Error(ErrorKind::kUsage, "--layout: " + layout + " cannot hold " +
                                        (is_specgloss ? "metallic (use separate or orm)"
                                                      : "diffuse and specular (use separate or specgloss)"));
-  if (!is_wanted(choice, Parameter::kWidth) || (is_specgloss && !is_wanted(choice, Parameter::kSpecular)))
+  if (!is_wanted(choice, Parameter::kRoughness) || (is_specgloss && !is_wanted(choice, Parameter::kSpecular)))
     throw Error(ErrorKind::kUsage,
                 "--only cannot be used with --layout " + layout + " (a channel would be empty)");
   if (is_specgloss) return specgloss_maps(set, choice);
   std::vector<PlannedMap> all = {
-      new_map(file_name(Parameter::kWidth, choice), kColor,
-              {packed_channel(set, "occlusion", 1.0f, choice), ConvertedChannel{Parameter::kWidth},
+      new_map(file_name(Parameter::kRoughness, choice), kColor,
+              {packed_channel(set, "occlusion", 1.0f, choice), ConvertedChannel{Parameter::kRoughness},
                packed_channel(set, "metallic", 0.0f, choice)},
               set, choice)};
   for (const Parameter parameter : choice.parameters)
@@ -319,7 +319,7 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
 }  // namespace
 
 std::string file_name(Parameter parameter, const TargetChoice& choice) {
-  const bool is_width = parameter == Parameter::kWidth;
+  const bool is_width = parameter == Parameter::kRoughness;
   if (choice.layout == Layout::kSpecGloss && (is_width || parameter == Parameter::kSpecular))
     return "specular_glossiness";
   if ((choice.layout == Layout::kOrm || choice.layout == Layout::kArm) &&

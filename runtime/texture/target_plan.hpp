@@ -55,7 +55,7 @@ struct ResultNames {
 
 struct TargetChoice {
   std::filesystem::path folder;
-  std::vector<Parameter> parameters = {Parameter::kWidth, Parameter::kSpecular};  // to write
+  std::vector<Parameter> parameters = {Parameter::kRoughness, Parameter::kSpecular};  // to write
   std::string width_name = "roughness";           // name of a separate roughness file
   std::map<Parameter, Transfer> color_transfers;  // chosen by the user
   bool colors_stay_grey = true;          // colors that are grey in the set stay grey in a separate file

@@ -18,7 +18,7 @@ namespace remap {
 // The content of a channel of a result: a converted value, the mask of texels outside the domain, a copy of a
 // channel of the set, or one stored value for all texels.
 struct ConvertedChannel {
-  Parameter parameter = Parameter::kWidth;
+  Parameter parameter = Parameter::kRoughness;
   std::size_t index = 0;  // channel of the parameter
 };
 struct MaskChannel {};

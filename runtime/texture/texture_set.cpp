@@ -334,7 +334,7 @@ std::vector<std::string> remarks(const TextureSet& set) {
     // OpenImageIO reads Targa files whole, and other formats by rows or tiles.
     const std::size_t bytes = map.layout().row_bytes() * static_cast<std::size_t>(map.layout().height);
     if (map.layout().format == "targa" && bytes >= kWholeImageWorthSaying)
-      messages.push_back(map.path().string() + ": the whole Targa image is held in memory (" +
+      messages.push_back(map.path().string() + ": the whole Targa image is clamped in memory (" +
                          std::to_string(bytes / kMegabyte) + " MB); other formats are streamed");
   }
   for (const ImageReader& map : set.maps)

@@ -20,9 +20,9 @@ class HeaderStage final : public remap::Stage {
   bool has_domain() const noexcept override { return true; }
 
   std::size_t run(remap::Block& block, std::uint8_t*) const override {
-    const float* const width = block.row(remap::Parameter::kWidth);
+    const float* const width = block.row(remap::Parameter::kRoughness);
     const auto specular = block.color(remap::Parameter::kSpecular);
-    return pass_(block.size(), width, specular, block.make(remap::Parameter::kWidth),
+    return pass_(block.size(), width, specular, block.make(remap::Parameter::kRoughness),
                  block.make_color(remap::Parameter::kSpecular));
   }
 

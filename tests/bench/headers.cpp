@@ -28,17 +28,17 @@ void skip(const std::string& what, const std::string& reason) { std::cerr << wha
 
 namespace {
 
-Table bench_table() {
+remap::Table bench_table() {
   // Where it is missing, this says so.
   const auto published = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (!published.empty()) return remap::read_table(published, remap::column_map("sztrajman-2019"));
-  Table table = remap_bench::sweep_table("paper", "mitsuba/ward", "mitsuba/as");
+  remap::Table table = remap_bench::sweep_table("paper", "mitsuba/ward", "mitsuba/as");
   table.name = "built-in sweep";
   return table;
 }
 
 // `<name>.json`, and its header `<name>.hpp`.
-void write_fit(const std::filesystem::path& folder, const Table& table, const std::string& kind) {
+void write_fit(const std::filesystem::path& folder, const remap::Table& table, const std::string& kind) {
   remap::FitOptions options;
   options.id = kind;
   options.kind = kind;
@@ -109,7 +109,7 @@ void write_chain(const std::filesystem::path& folder) {
 int main(int, char** argv) {
   try {
     const std::filesystem::path folder = argv[1];
-    const Table table = bench_table();
+    const remap::Table table = bench_table();
     remap::write_file(folder / "table.csv", remap::table_text(table));
     write_fit(folder, table, "svr");
     write_fit(folder, table, "parametric");

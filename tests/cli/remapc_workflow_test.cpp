@@ -1,4 +1,4 @@
-// remapc on fits of kind analytic: what takes them, and what says that it does not.
+// remapc on fits of workflows: what takes them, and what says that it does not.
 #include <nlohmann/json.hpp>
 
 #include "cli/remapc_session.hpp"
@@ -10,10 +10,10 @@ namespace {
 
 const std::string kManifest =
     R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": [],
-  "analytic": [{"id": "painted_to_metal",
+  "workflows": [{"id": "painted_to_metal",
     "source": {"model": "painted", "workflow": "specular", "diffuse": "plain", "roughness": "glossiness"},
     "target": {"model": "metal", "workflow": "metallic", "dielectric_f0": 0.05, "diffuse": "plain", "roughness": "alpha"},
-    "mapping": {"kind": "analytic", "formula": "projection", "prior": 1e-5}, "remarks": ["Mine."]}]})";
+    "mapping": {"kind": "workflow", "formula": "projection", "prior": 1e-5}, "remarks": ["Mine."]}]})";
 
 std::vector<std::string> build_of(const Session& session) {
   return {"build", "--json", "--fits", session.path("fits"), "-o", session.path("generated")};
@@ -21,7 +21,7 @@ std::vector<std::string> build_of(const Session& session) {
 
 }  // namespace
 
-TEST_CASE("remapc with analytic fits: build, list, show and emit take them", "[slow]") {
+TEST_CASE("remapc with fits of workflows: build, list, show and emit take them", "[slow]") {
   const Session session;
   session.write("fits/manifest.json", kManifest);
   const ProcessResult built = require_success(session.remapc(build_of(session)));
@@ -33,7 +33,7 @@ TEST_CASE("remapc with analytic fits: build, list, show and emit take them", "[s
   CHECK(session.remapc({"emit", "--all", "--check", "--fits", fits, "-o", session.path("generated")})
             .exit_code == 0);
   const auto list = nlohmann::json::parse(session.remapc({"list", "--json", "--fits", fits}).output);
-  CHECK(list[0]["kind"] == "analytic");
+  CHECK(list[0]["kind"] == "workflow");
   CHECK(list[0]["formula"] == "projection");
   CHECK(session.remapc({"list", "--fits", fits}).output.find("whole materials") != std::string::npos);
   const std::string card = session.remapc({"show", "painted_to_metal", "--fits", fits}).output;

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kWidth = 70, kHeight = 50;
+constexpr int kRoughness = 70, kHeight = 50;
 
 struct Case {
   std::string extension;
@@ -39,7 +39,7 @@ std::vector<Case> cases() {
 }
 
 OIIO::ImageSpec spec_of(const Case& format, const std::vector<std::string>& channels) {
-  OIIO::ImageSpec spec = test_spec(kWidth, kHeight, channels, format.type);
+  OIIO::ImageSpec spec = test_spec(kRoughness, kHeight, channels, format.type);
   spec.tile_width = spec.tile_height = format.tile;
   if (!format.compression.empty()) spec.attribute("Compression", format.compression);
   spec.attribute("Copyright", "nobody");
@@ -151,8 +151,8 @@ TEST_CASE("texremap: Exif in a TIFF survives") {
 TEST_CASE("texremap: the windows of an EXR are kept") {
   const Session session;
   for (const char* name : {"r.exr", "s.exr"}) {
-    OIIO::ImageSpec spec =
-        test_spec(kWidth, kHeight, name[0] == 'r' ? std::vector<std::string>{"Y"} : kColor, OIIO::TypeHalf);
+    OIIO::ImageSpec spec = test_spec(kRoughness, kHeight,
+                                     name[0] == 'r' ? std::vector<std::string>{"Y"} : kColor, OIIO::TypeHalf);
     spec.x = 10;
     spec.y = -7;
     spec.full_width = 200;
@@ -168,8 +168,8 @@ TEST_CASE("texremap: the windows of an EXR are kept") {
 
 TEST_CASE("texremap: channels of different pixel types keep their types") {
   const Session session;
-  write_image(session.path("r.exr"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeFloat), noise);
-  OIIO::ImageSpec spec = test_spec(kWidth, kHeight, {"R", "G", "B", "id"}, OIIO::TypeFloat);
+  write_image(session.path("r.exr"), test_spec(kRoughness, kHeight, {"Y"}, OIIO::TypeFloat), noise);
+  OIIO::ImageSpec spec = test_spec(kRoughness, kHeight, {"R", "G", "B", "id"}, OIIO::TypeFloat);
   spec.channelformats = {OIIO::TypeHalf, OIIO::TypeHalf, OIIO::TypeHalf, OIIO::TypeUInt32};
   write_image(session.path("s.exr"), spec, noise);
   require_success(session.convert("r.exr", "s.exr"));
@@ -181,8 +181,8 @@ TEST_CASE("texremap: channels of different pixel types keep their types") {
 
 TEST_CASE("texremap: associated alpha in a TIFF is neither multiplied nor relabelled") {
   const Session session;
-  write_image(session.path("r.tif"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
-  OIIO::ImageSpec spec = test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16);
+  write_image(session.path("r.tif"), test_spec(kRoughness, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
+  OIIO::ImageSpec spec = test_spec(kRoughness, kHeight, kWithAlpha, OIIO::TypeUInt16);
   spec.erase_attribute("oiio:UnassociatedAlpha");
   write_image(session.path("s.tif"), spec, noise);
   require_success(session.convert("r.tif", "s.tif"));
@@ -277,8 +277,8 @@ TEST_CASE("texremap: a taken roughness map with a constant specular", "[needs][s
 
 TEST_CASE("texremap: idiff finds the passed-through alpha unchanged", "[needs]") {
   const Session session;
-  write_image(session.path("r.png"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
-  write_image(session.path("s.png"), test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16), noise);
+  write_image(session.path("r.png"), test_spec(kRoughness, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
+  write_image(session.path("s.png"), test_spec(kRoughness, kHeight, kWithAlpha, OIIO::TypeUInt16), noise);
   require_success(session.convert("r.png", "s.png"));
   const std::string tool = REMAP_OIIOTOOL;
   if (!fs::exists(tool)) return skip("oiiotool", "not installed");
@@ -290,7 +290,7 @@ TEST_CASE("texremap: idiff finds the passed-through alpha unchanged", "[needs]")
   CHECK(diff("R").exit_code != 0);
 }
 
-TEST_CASE("texremap formats: a large Targa is held in memory, with a remark", "[slow]") {
+TEST_CASE("texremap formats: a large Targa is clamped in memory, with a remark", "[slow]") {
   const Session session;
   for (const int height : {16, 3000}) {
     const std::string name = "s" + std::to_string(height) + ".tga";
@@ -301,7 +301,7 @@ TEST_CASE("texremap formats: a large Targa is held in memory, with a remark", "[
         session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness", "0.3",
                           "--specular", session.path(name), "--only", "specular", "-o", session.path("out")});
     REQUIRE(result.exit_code == 0);
-    CHECK((result.errors.find("the whole Targa image is held in memory (68 MB)") != std::string::npos) ==
+    CHECK((result.errors.find("the whole Targa image is clamped in memory (68 MB)") != std::string::npos) ==
           (height == 3000));
   }
 }

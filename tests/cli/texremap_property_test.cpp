@@ -592,7 +592,7 @@ void check_library(const Batch& batch, const Set& set) {
   MapConversion maps;
   maps.width = kTexels;
   maps.height = 1;
-  const std::map<Parameter, std::string> names = {{Parameter::kWidth, "width"},
+  const std::map<Parameter, std::string> names = {{Parameter::kRoughness, "width"},
                                                   {Parameter::kSpecular, "specular"},
                                                   {Parameter::kDiffuse, "diffuse"},
                                                   {Parameter::kBaseColor, "base_color"},
@@ -606,7 +606,7 @@ void check_library(const Batch& batch, const Set& set) {
       for (Material material : set.materials)
         row.push_back(static_cast<float>(parameter(material, row_name(p, c))));
       maps.sources[p].channels.push_back(float_channel(std::as_const(row).data(), kTexels));
-      if (p == Parameter::kWidth) maps.sources[p].factors = {static_cast<float>(batch.width_factor)};
+      if (p == Parameter::kRoughness) maps.sources[p].factors = {static_cast<float>(batch.width_factor)};
       if (p == Parameter::kSpecular) maps.sources[p].factors = {static_cast<float>(batch.specular_factor)};
     }
   for (const Parameter p : converter.targets()) {

@@ -121,7 +121,7 @@ bool same(const std::vector<float>& a, const std::vector<float>& b) {
   return true;
 }
 
-// Networks are held against the interpreter in double precision: sums of 300 products of floats err by some
+// Networks are compared with the interpreter in double precision: sums of 300 products of floats err by some
 // 1e-6. NaN stands in the same places.
 bool close(const std::vector<float>& a, const std::vector<float>& b) {
   if (a.size() != b.size()) return false;

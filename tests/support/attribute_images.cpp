@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-constexpr int kWidth = 48, kHeight = 32;
+constexpr int kRoughness = 48, kHeight = 32;
 const std::vector<std::string> kGrey = {"Y"}, kColor = {"R", "G", "B"}, kWithAlpha = {"R", "G", "B", "A"};
 
 void require(bool done, const std::string& message) {
@@ -123,7 +123,7 @@ void add_typed(OIIO::ImageSpec& spec) {
 
 OIIO::ImageSpec rich_spec(const std::vector<std::string>& channels, OIIO::TypeDesc type,
                           const std::string& compression = "", int tile_width = 0, int tile_height = 0) {
-  OIIO::ImageSpec spec = test_spec(kWidth, kHeight, channels, type);
+  OIIO::ImageSpec spec = test_spec(kRoughness, kHeight, channels, type);
   if (!compression.empty()) spec.attribute("Compression", compression);
   spec.tile_width = tile_width;
   spec.tile_height = tile_height;

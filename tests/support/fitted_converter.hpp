@@ -20,9 +20,9 @@ class InterpretedStage final : public Stage {
 
   std::size_t run(Block& block, std::uint8_t* outside) const override {
     const std::size_t channels = block.is_grey(Parameter::kSpecular) ? 1 : 3;
-    const float* const width = block.row(Parameter::kWidth);
+    const float* const width = block.row(Parameter::kRoughness);
     const auto specular = block.color(Parameter::kSpecular);
-    float* const width_out = block.make(Parameter::kWidth);
+    float* const width_out = block.make(Parameter::kRoughness);
     const auto specular_out = block.make_color(Parameter::kSpecular, channels);
     std::array<double, 3> texel{}, mapped{};
     std::size_t outside_count = 0;

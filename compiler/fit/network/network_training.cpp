@@ -243,19 +243,19 @@ std::string shape_text(const NetworkShape& shape) {
 }
 
 // The result of either way of training.
-struct Outcome {
+struct TrainingOutcome {
   BestStart best;
   NetworkSamples samples;
   std::string method;
 };
 
-Outcome train_small(const NetworkShape& shape, const NormalisedSamples& all, const TrainingOptions& options,
-                    const FitProgress& progress) {
+TrainingOutcome train_small(const NetworkShape& shape, const NormalisedSamples& all,
+                            const TrainingOptions& options, const FitProgress& progress) {
   const auto parameters = static_cast<double>(shape.parameter_count());
   const double residuals =
       std::clamp(kLevenbergWork / (parameters * parameters), kFewestResiduals, kMostResiduals);
   const auto most = static_cast<std::size_t>(residuals / static_cast<double>(shape.sizes.back())) + 1;
-  Outcome outcome;
+  TrainingOutcome outcome;
   outcome.samples = split_columns(all, options.validation_fraction, most);
   OptimiserSettings settings;
   settings.weight_decay = options.weight_decay;
@@ -287,9 +287,9 @@ Outcome train_small(const NetworkShape& shape, const NormalisedSamples& all, con
   return outcome;
 }
 
-Outcome train_large(const NetworkShape& shape, const NormalisedSamples& all, const TrainingOptions& options,
-                    const FitProgress& progress) {
-  Outcome outcome;
+TrainingOutcome train_large(const NetworkShape& shape, const NormalisedSamples& all,
+                            const TrainingOptions& options, const FitProgress& progress) {
+  TrainingOutcome outcome;
   outcome.samples = split_columns(all, options.validation_fraction, std::numeric_limits<std::size_t>::max());
   const NetworkSamples part = split_columns(all, options.validation_fraction, kMostLbfgsRows);
   // A pass takes about three multiplications per parameter and sample.
@@ -329,7 +329,7 @@ TrainedNetwork train_network(const Samples& samples, const TrainingOptions& opti
   const NetworkShape shape = shape_of(samples, options);
   const NormalisedSamples all = normalised_samples(samples, options.seed);
   const bool is_small = shape.parameter_count() <= kLevenbergParameters;
-  const Outcome outcome =
+  const TrainingOutcome outcome =
       is_small ? train_small(shape, all, options, progress) : train_large(shape, all, options, progress);
 
   TrainedNetwork trained;

@@ -45,7 +45,7 @@ InstructionSet instruction_set_from_name(const std::string& place, const std::st
 
 // The parameters of materials, and measures of a conversion.
 enum class Parameter {
-  kWidth,      // of the highlight: roughness, glossiness, alpha or a Phong exponent
+  kRoughness,  // of the highlight: roughness, glossiness, alpha or a Phong exponent
   kSpecular,   // reflectance at normal incidence
   kDiffuse,    // of the specular workflow
   kBaseColor,  // of the metallic workflow
@@ -132,8 +132,8 @@ class Converter {
  public:
   // A converter of width and specular alone.
   Converter(ConverterInfo info, StageList stages)
-      : Converter(std::move(info), {Parameter::kWidth, Parameter::kSpecular},
-                  {Parameter::kWidth, Parameter::kSpecular}, std::move(stages)) {}
+      : Converter(std::move(info), {Parameter::kRoughness, Parameter::kSpecular},
+                  {Parameter::kRoughness, Parameter::kSpecular}, std::move(stages)) {}
   Converter(ConverterInfo info, std::vector<Parameter> sources, std::vector<Parameter> targets,
             StageList stages)
       : info_(std::move(info)),

@@ -19,7 +19,7 @@ class OpenImageIo : public ImageLibrary {
                                    const std::vector<NewPart>& parts) const override {
     return create_image(path, parts);
   }
-  Picture read_picture(const std::filesystem::path& path) const override { return read_picture(path); }
+  Picture read_picture(const std::filesystem::path& path) const override { return remap::read_picture(path); }
   void write_exr(const std::filesystem::path& path, const Picture& picture,
                  const std::map<std::string, std::string>& attributes) const override {
     write_exr_picture(path, picture, attributes);

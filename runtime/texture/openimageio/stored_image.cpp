@@ -152,7 +152,7 @@ class OpenedImage : public StoredImage {
   void set_followed_size(int width, int height) override;
   void read_rows(int first_row, int row_count, std::byte* texels) override;
   std::optional<std::string> noted_metadata(const std::string& name) const override {
-    return noted_metadata(levels_.front(), name);
+    return remap::noted_metadata(levels_.front(), name);
   }
   const std::vector<OIIO::ImageSpec>& levels() const noexcept { return levels_; }
 

@@ -19,8 +19,8 @@ TEST_CASE("fit: the held-out rows judge and do not train") {
   CHECK(split.held_out.size() == 30);
   // Changes the rows that seed 3 holds out: the fit must stay the same, the errors must not.
   for (TableRow& row : table.rows)
-    for (const TableRow& held : split.held_out)
-      if (row.line == held.line) row.specular2 += 0.01;
+    for (const TableRow& clamped : split.held_out)
+      if (row.line == clamped.line) row.specular2 += 0.01;
   const Fit fit = fit_of(table, 3);
   CHECK(slope_at(fit, 0.5) == Approx(0.7).epsilon(1e-7));
   CHECK(fit.specular_error.rms == Approx(0.01).epsilon(1e-4));

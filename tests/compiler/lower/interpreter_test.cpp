@@ -109,7 +109,7 @@ TEST_CASE("interpreter: target alpha is that of the largest channel") {
         Approx(evaluate_mapping(fit.mapping, 0.5, 0.5).alpha));
 }
 
-TEST_CASE("interpreter: outside the domain the width is held and color is kept") {
+TEST_CASE("interpreter: outside the domain the width is clamped and color is kept") {
   const Fit fit = ward_to_as();
   const std::array<double, 3> specular = {2.0, 1.0, 0.1};
   std::array<double, 3> out{};

@@ -19,7 +19,7 @@ WorkflowFit example(const WorkflowFormula& formula) {
 
 }  // namespace
 
-TEST_CASE("analytic fit: every formula returns from its file") {
+TEST_CASE("workflow fit: every formula returns from its file") {
   for (const WorkflowFormula& formula :
        {WorkflowFormula{Equation2{}}, WorkflowFormula{Projection{1e-5}},
         WorkflowFormula{Equation3{MetallicMean::kPlain}}, WorkflowFormula{Equation3{MetallicMean::kAlbedo}},
@@ -32,7 +32,7 @@ TEST_CASE("analytic fit: every formula returns from its file") {
   }
 }
 
-TEST_CASE("analytic fit: a file that is wrong is refused with the place") {
+TEST_CASE("workflow fit: a file that is wrong is refused with the place") {
   const std::string good = fit_to_json(example(Projection{1e-5}));
   const auto refuses = [&](const std::string& part, const std::string& other, const std::string& message) {
     CHECK_THROWS_WITH(any_fit_from_json(replaced(good, part, other), "f.json"),
@@ -49,7 +49,7 @@ TEST_CASE("analytic fit: a file that is wrong is refused with the place") {
   refuses("\"version\": 3", "\"version\": 9", "format version 9");
 }
 
-TEST_CASE("analytic fit: where width and specular are expected the error says what can be done") {
+TEST_CASE("workflow fit: where width and specular are expected the error says what can be done") {
   CHECK_THROWS_WITH(fit_from_json(fit_to_json(example(Equation2{})), "f.json"),
                     Catch::StartsWith("f.json: converts whole materials") && Catch::Contains("emitted"));
 }

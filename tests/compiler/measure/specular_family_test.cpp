@@ -161,7 +161,7 @@ TEST_CASE("family: a few pictures give all others of a model without a law", "[s
   CHECK(exact->coordinate_kind == SpecularCoordinate::kRoot);
   CHECK(exact->picture_count() <= 5);
   CHECK(family_deviation(fresnel, "disguised/law", *exact) <
-        4e-6);  // twice what points of the probe are held to
+        4e-6);  // twice the tolerance of points of the probe
 }
 
 TEST_CASE("family: a law that bends sharply has no family") {

@@ -122,8 +122,8 @@ TEST_CASE("widths: clamped widths are found, and their rows marked") {
   const Table table = strange_sweep({0.0, 0.13, 0.7}, "strange/ggx", "mitsuba/ggx-plain", samples);
   CHECK_THAT(comment(table, "source_effective_alpha"), Contains("0.13") && Contains(" to 0.69"));
   for (const TableRow& row : table.rows) {
-    const bool held = row.alpha1 < 0.13 || row.alpha1 > 0.7;
-    CHECK(row.status == (held ? RowStatus::kClamped : RowStatus::kOk));
+    const bool clamped = row.alpha1 < 0.13 || row.alpha1 > 0.7;
+    CHECK(row.status == (clamped ? RowStatus::kClamped : RowStatus::kOk));
     CHECK(row.alpha2 == Approx(std::clamp(row.alpha1, 0.13, 0.7)).epsilon(1e-5));
   }
 }

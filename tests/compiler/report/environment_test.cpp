@@ -231,7 +231,7 @@ TEST_CASE("environment: an EXR file is read as it was written, grey as three cha
   const Environment from_grey = load_environment(folder.path() / "grey.exr");
   CHECK(from_grey.map.values.size() == 24);
   CHECK(from_grey.map.values[0] == 0.5f);
-  CHECK(from_grey.map.values[10] == 0.0f);  // held at 0
+  CHECK(from_grey.map.values[10] == 0.0f);  // clamped to 0
 }
 
 TEST_CASE("environment: files that do not hold a map are refused") {

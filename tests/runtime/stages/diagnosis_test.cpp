@@ -63,7 +63,7 @@ TEST_CASE("diagnosis: metallic is sharp where the picture depends on it and wide
   CHECK(diagnosis_of(plain(kClean), black).residual < 1e-3f);
 }
 
-TEST_CASE("diagnosis: clamped where a base color or a parameter was held") {
+TEST_CASE("diagnosis: clamped where a base color or a parameter was clamped") {
   const SpecularMaterial bright{{1.0f, 1.0f, 1.0f}, {1.0f, 1.0f, 1.0f}, 0.5f};  // twice what arrives
   CHECK(diagnosis_of(plain(kClean), bright).is_clamped);
   CHECK(diagnosis_of(plain(kClean), {{0.5f, 0.5f, 0.5f}, {0.04f, 0.04f, 1.5f}, 0.5f}).is_clamped);

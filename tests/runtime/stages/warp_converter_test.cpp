@@ -115,7 +115,7 @@ TEST_CASE("warp converter: every instruction set gives the same bits, in place t
   }
 }
 
-TEST_CASE("warp converter: NaN stays NaN, infinity and negative values are held") {
+TEST_CASE("warp converter: NaN stays NaN, infinity and negative values are clamped") {
   constexpr float kInfinity = std::numeric_limits<float>::infinity(),
                   kNan = std::numeric_limits<float>::quiet_NaN();
   const bool quadratic = GENERATE(false, true);
@@ -154,10 +154,10 @@ TEST_CASE("warp converter: materials go by parameter, grey specular stands for t
   MaterialRows<float> out;
   in[Parameter::kDiffuse] = {{&diffuse[0], &diffuse[1], &diffuse[2]}, 3};
   in[Parameter::kSpecular] = {{&specular}, 1};
-  in[Parameter::kWidth] = {{&alpha}, 1};
+  in[Parameter::kRoughness] = {{&alpha}, 1};
   out[Parameter::kDiffuse] = {{&result[0], &result[1], &result[2]}, 3};
   out[Parameter::kSpecular] = {{&result[3], &result[4], &result[5]}, 3};
-  out[Parameter::kWidth] = {{&result[6]}, 1};
+  out[Parameter::kRoughness] = {{&result[6]}, 1};
   CHECK(converter->convert(1, in, out) == 0);
   const WarpTexel expected =
       evaluate_warp(fit.warp, {diffuse[0], diffuse[1], diffuse[2], specular, specular, specular, alpha});
@@ -172,7 +172,7 @@ TEST_CASE("warp converter: a metallic source goes by equation (2) first") {
   fit.warp = random_warp(2, 8);
   const auto converter = make_warp_converter(fit, MetallicWorkflow{});
   CHECK(converter->sources() ==
-        std::vector<Parameter>{Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic});
+        std::vector<Parameter>{Parameter::kRoughness, Parameter::kBaseColor, Parameter::kMetallic});
   WarpRows rows(kCount), found(kCount);
   std::mt19937 engine(4);
   for (auto& row : rows.row)
@@ -181,11 +181,11 @@ TEST_CASE("warp converter: a metallic source goes by equation (2) first") {
   MaterialRows<float> out;
   in[Parameter::kBaseColor] = {{rows.row[0].data(), rows.row[1].data(), rows.row[2].data()}, 3};
   in[Parameter::kMetallic] = {{rows.row[3].data()}, 1};
-  in[Parameter::kWidth] = {{rows.row[4].data()}, 1};
+  in[Parameter::kRoughness] = {{rows.row[4].data()}, 1};
   const auto to = found.targets();
   out[Parameter::kDiffuse] = {{to[0], to[1], to[2]}, 3};
   out[Parameter::kSpecular] = {{to[3], to[4], to[5]}, 3};
-  out[Parameter::kWidth] = {{to[6]}, 1};
+  out[Parameter::kRoughness] = {{to[6]}, 1};
   CHECK(converter->convert(kCount, in, out) == 0);
   for (std::size_t i = 0; i < kCount; ++i) {
     const float metallic = rows.row[3][i];

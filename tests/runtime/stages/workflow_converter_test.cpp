@@ -14,9 +14,10 @@ using namespace workflow_test;
 namespace {
 
 constexpr std::size_t kTexels = 700;  // more than a block
-const std::array<Parameter, 3> kSourceOrder = {Parameter::kDiffuse, Parameter::kSpecular, Parameter::kWidth};
+const std::array<Parameter, 3> kSourceOrder = {Parameter::kDiffuse, Parameter::kSpecular,
+                                               Parameter::kRoughness};
 const std::array<Parameter, 3> kTargetOrder = {Parameter::kBaseColor, Parameter::kMetallic,
-                                               Parameter::kWidth};
+                                               Parameter::kRoughness};
 
 // Rows of a material, and where the parameters of `order` lie among them.
 template <std::size_t Count>
@@ -103,11 +104,11 @@ TEST_CASE("workflow converter: a grey diffuse row becomes three, of which it is 
   }
   const std::vector<float> given = grey;
   MaterialRows<const float> in;
-  in[Parameter::kWidth] = {{width.data()}, 1};
+  in[Parameter::kRoughness] = {{width.data()}, 1};
   in[Parameter::kSpecular] = {{specular.data()}, 1};
   in[Parameter::kDiffuse] = {{grey.data()}, 1};
   MaterialRows<float> out;
-  out[Parameter::kWidth] = {{width.data()}, 1};
+  out[Parameter::kRoughness] = {{width.data()}, 1};
   out[Parameter::kSpecular] = {{specular_out[0].data(), specular_out[1].data(), specular_out[2].data()}, 3};
   out[Parameter::kDiffuse] = {{grey.data(), green.data(), blue.data()}, 3};
   CHECK(converter->convert(kCount, in, out) == 0);

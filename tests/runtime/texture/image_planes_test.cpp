@@ -76,7 +76,7 @@ std::array<float, 4> converted(const Converter& converter, float roughness, std:
 MapStatistics convert(const std::string& roughness, const std::string& specular, const fs::path& folder,
                       const Converter& converter) {
   TextureSetRequest request;
-  request.parameters[Parameter::kWidth].source = parameter_source("--roughness", roughness);
+  request.parameters[Parameter::kRoughness].source = parameter_source("--roughness", roughness);
   request.parameters[Parameter::kSpecular].source = parameter_source("--specular", specular);
   TextureSet set = open_texture_set(request);
   TargetChoice choice;

@@ -54,7 +54,7 @@ std::string mutated(std::string bytes, int number) {
 void convert(const std::filesystem::path& file, const std::filesystem::path& folder,
              const Converter& converter) {
   TextureSetRequest request;
-  request.parameters[Parameter::kWidth].source = ConstantValues{0.3f};
+  request.parameters[Parameter::kRoughness].source = ConstantValues{0.3f};
   request.parameters[Parameter::kSpecular].source = MapName{file, {}};
   TextureSet set = open_texture_set(request);
   TargetChoice choice;

@@ -33,7 +33,7 @@ const Source kGrey = ConstantValues{0.5f};
 
 TextureSet opened(Source roughness, Source specular) {
   TextureSetRequest request;
-  request.parameters[Parameter::kWidth].source = std::move(roughness);
+  request.parameters[Parameter::kRoughness].source = std::move(roughness);
   request.parameters[Parameter::kSpecular].source = std::move(specular);
   return open_texture_set(request);
 }
@@ -42,7 +42,7 @@ std::vector<std::size_t> roughness_channels(const std::filesystem::path& file,
                                             const std::vector<std::string>& names = {}) {
   std::vector<std::size_t> channels;
   const TextureSet set = opened(MapName{file, names}, kGrey);
-  for (const ChannelPlace& place : set.parameters.at(Parameter::kWidth).channels)
+  for (const ChannelPlace& place : set.parameters.at(Parameter::kRoughness).channels)
     channels.push_back(place.channel);
   return channels;
 }
@@ -86,7 +86,7 @@ TEST_CASE("texture set: factors are one or three numbers from 0") {
     CHECK_THROWS_WITH(parse_factors("--specular-factor", bad), Contains("--specular-factor: invalid value "));
   const Files files;
   TextureSetRequest request;
-  request.parameters[Parameter::kWidth].source = MapName{files.image("r.exr", {"Y"}), {}};
+  request.parameters[Parameter::kRoughness].source = MapName{files.image("r.exr", {"Y"}), {}};
   request.parameters[Parameter::kSpecular] = {kGrey, {1.0f, 1.0f, 1.0f}, std::nullopt};
   CHECK_THROWS_WITH(open_texture_set(request), Contains("--specular-factor: has 3 values (give one"));
 }
@@ -106,7 +106,7 @@ TEST_CASE("texture set: a packed file is opened once") {
   const TextureSet set =
       opened(MapName{packed, {"A"}}, MapName{files.folder.path() / "." / "packed.exr", {"R", "G", "B"}});
   CHECK(set.maps.size() == 1);
-  CHECK(set.parameters.at(Parameter::kWidth).channels == std::vector<ChannelPlace>{{0, 3}});
+  CHECK(set.parameters.at(Parameter::kRoughness).channels == std::vector<ChannelPlace>{{0, 3}});
   CHECK(set.parameters.at(Parameter::kSpecular).channels ==
         std::vector<ChannelPlace>{{0, 0}, {0, 1}, {0, 2}});
 }
@@ -155,7 +155,7 @@ TEST_CASE("texture set: colors in whole numbers are read as sRGB, unless the fil
   write_image(linear, spec, noise);
   CHECK(opened(MapName{roughness, {}}, MapName{linear, {}}).parameters.at(Parameter::kSpecular).transfer ==
         Transfer::kLinear);
-  CHECK(opened(MapName{png, {}}, kGrey).parameters.at(Parameter::kWidth).transfer == Transfer::kLinear);
+  CHECK(opened(MapName{png, {}}, kGrey).parameters.at(Parameter::kRoughness).transfer == Transfer::kLinear);
   CHECK(remarks(opened(MapName{roughness, {}}, MapName{files.image("s.exr", {"R", "G", "B"}), {}})).empty());
 }
 

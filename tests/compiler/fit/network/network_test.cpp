@@ -22,7 +22,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::array<Activation, 3> kActivations = {Activation::kRelu, Activation::kTanh, Activation::kSilu};
+constexpr std::array<Activation, 3> kTestedActivations = {Activation::kRelu, Activation::kTanh,
+                                                          Activation::kSilu};
 
 // Uniform in [low, high), the same with every standard library.
 class Uniform {
@@ -77,7 +78,7 @@ double unseen_rms(const Network& network, const Samples& samples) {
 }  // namespace
 
 TEST_CASE("network batch: Jacobian and gradient agree with finite differences for every activation") {
-  for (const Activation activation : kActivations) {
+  for (const Activation activation : kTestedActivations) {
     CAPTURE(activation_name(activation));
     const NetworkShape shape{activation, {3, 5, 4, 2}};
     const auto count = static_cast<Index>(shape.parameter_count());
@@ -108,7 +109,7 @@ TEST_CASE("network batch: Jacobian and gradient agree with finite differences fo
 }
 
 TEST_CASE("network batch: outputs are those of the interpreter's formula") {
-  for (const Activation activation : kActivations) {
+  for (const Activation activation : kTestedActivations) {
     const NetworkShape shape{activation, {6, 9, 7, 4}};
     Uniform uniform(3);
     const VectorXd parameters = uniform_matrix(uniform, static_cast<Index>(shape.parameter_count()), 1, 1.5);
@@ -129,7 +130,7 @@ TEST_CASE("network batch: outputs are those of the interpreter's formula") {
 
 TEST_CASE("network training: reported errors are those of the stored network") {
   const Samples samples = metallic_samples(60, 1);
-  for (const Activation activation : kActivations) {
+  for (const Activation activation : kTestedActivations) {
     TrainingOptions options;
     options.hidden = {6};
     options.activation = activation;

@@ -74,7 +74,6 @@ using Model = std::unique_ptr<svm_model, ModelDeleter>;
 // Converts an expansion to a libsvm model through its file format.
 Model model_of(const KernelExpansion& expansion) {
   const TemporaryFolder folder;
-  using number_text;
   std::string text = "svm_type epsilon_svr\nkernel_type rbf\ngamma " + number_text(expansion.gamma) +
                      "\nnr_class 2\ntotal_sv " + std::to_string(expansion.count()) + "\nrho " +
                      number_text(-expansion.bias) + "\nSV\n";
