@@ -176,14 +176,12 @@ class Builder {
   void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) {
     const ItemPaths paths = paths_of(folders_, item.id);
     if (has_table(item) && !fresh.table) {
-      const auto* network = std::get_if<NetworkItem>(&item.kind);
-      const std::string text = network != nullptr ? material_table_text(samples_of(*network, item.seed))
-                                                  : table_text(table_of(item));
+      const std::string text = table_text(table_of(item));
       write_file(paths.table, text);
       record->table = sha256(text);
     }
     if (fresh.header) return;
-    AnyFit fit = fresh.fit ? load_any_fit(paths.fit) : fit_of(item, paths);
+    AnyFit fit = fresh.fit ? load_any_fit(paths.fit) : fit_of(item, paths.table);
     if (!fresh.fit) {
       if (auto* of_width = std::get_if<Fit>(&fit)) add_converter(of_width);
       const std::string text = std::visit([](const auto& made) { return fit_to_json(made); }, fit);
@@ -217,19 +215,17 @@ class Builder {
     return run_sweep(renderer_, options, {1, {}, execution_.cancelled});
   }
 
-  AnyFit fit_of(const ManifestItem& item, const ItemPaths& paths) const {
+  AnyFit fit_of(const ManifestItem& item, const fs::path& table) const {
     if (const auto* finished = std::get_if<FinishedItem>(&item.kind)) return finished->fit;
     if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
-    if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, paths);
-    const std::string bytes = read_file(paths.table);
+    if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item);
+    const std::string bytes = read_file(table);
     FitOptions options;
     options.id = item.id;
     options.regression.seed = item.seed;
     options.regression.jobs = 1;
     options.accept_light = item.accept_light;
-    return fit_table(parse_table(bytes, paths.table.string()), bytes, options,
-                     [&](double) { require_time(); })
-        .fit;
+    return fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;
   }
 
   MaterialTable samples_of(const NetworkItem& item, std::uint64_t seed) const {
@@ -243,19 +239,20 @@ class Builder {
     options.count = item.count;
     options.seed = seed;
     options.varied = item.varied;
-    return run_material_sample(renderer_, options, {1, {}, execution_.cancelled});
+    return run_material_sample(renderer_, options, {execution_.jobs, {}, execution_.cancelled});
   }
 
-  // The item defines the workflows of both ends; the F0 of its dielectrics must be that of the samples.
-  WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item, const ItemPaths& paths) const {
-    const std::string bytes = read_file(paths.table);
+  // The item defines the workflows of both ends; the F0 of its dielectrics must be that of the samples. These
+  // are megabytes that `remapc sample` makes again, so they become no file; the fit holds their hash.
+  WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item) const {
+    const std::string bytes = material_table_text(samples_of(network, item.seed));
     MaterialNetworkOptions options;
     options.id = item.id;
     options.hidden = network.hidden;
     options.activation = network.activation;
     options.seed = item.seed;
     options.jobs = 1;
-    WorkflowFit fit = fit_material_network(parse_material_table(bytes, paths.table.string()), bytes, options,
+    WorkflowFit fit = fit_material_network(parse_material_table(bytes, item.id + ".csv"), bytes, options,
                                            [&](double) { require_time(); });
     const double own = network.fit.conversion.metallic.dielectric_f0,
                  sampled = fit.conversion.metallic.dielectric_f0;

@@ -22,8 +22,7 @@ ItemPaths paths_of(const BuildFolders& folders, const std::string& id) {
 }
 
 bool has_table(const ManifestItem& item) {
-  return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind) ||
-         std::holds_alternative<NetworkItem>(item.kind);
+  return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind);
 }
 
 std::string recipe_hash(const ManifestItem& item, const Lock& lock) {

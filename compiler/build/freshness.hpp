@@ -21,7 +21,7 @@ struct ItemPaths {
 };
 ItemPaths paths_of(const BuildFolders& folders, const std::string& id);
 
-// Whether items of this kind have a table.
+// Whether items of this kind keep a table: of a network, only the fit is kept.
 bool has_table(const ManifestItem& item);
 
 // Returns the SHA-256 of a file; empty for a missing one.

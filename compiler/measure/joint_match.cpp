@@ -119,9 +119,10 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
   Square gram(const double* values) const {
     Square products(count_ + 1);
     const std::vector<RoleValues> points = matcher_.points_of(values, guess_);
+    std::vector<PictureTangents> pictures = matcher_.target_.at(points, matcher_.wanted_);
     for (std::size_t c = 0; c < points.size(); ++c) {
       const JointChannel& channel = matcher_.channels_[c];
-      PictureTangents tangents = matcher_.target_.at(points[c], matcher_.wanted_);
+      PictureTangents& tangents = pictures[c];
       for (std::size_t i = 0; i < channel.picture.size(); ++i) tangents.picture[i] -= channel.picture[i];
       std::vector<const float*> columns(count_ + 1, nullptr);  // null for the unknowns of other channels
       for (std::size_t u = 0; u < count_; ++u)

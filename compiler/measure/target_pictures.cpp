@@ -85,47 +85,75 @@ BankPictures::BankPictures(const PictureTaker& picture_taker, const ProbedModel&
     diffuse_[i] = static_cast<float>((static_cast<double>(diffuse_[i]) - dark[i]) * scale);
 }
 
-PictureTangents BankPictures::at(const RoleValues& point, const std::vector<bool>& wanted) const {
-  const Window window = Window::around(bank_, point.alpha);
-  const std::vector<double> weights = bank_.family().weights_at(point.specular);
-  const std::vector<double> slopes = bank_.family().slopes_at(point.specular);
-  const std::size_t pixels = diffuse_.size();
-  PictureTangents result{std::vector<float>(pixels),
-                         {std::vector<float>(pixels), std::vector<float>(pixels),
-                          wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}};
-  std::vector<float>&by_alpha = result.by[kAlphaCoordinate], &by_specular = result.by[kSpecularCoordinate];
+std::vector<PictureTangents> BankPictures::at(const std::vector<RoleValues>& points,
+                                              const std::vector<bool>& wanted) const {
+  std::vector<PictureTangents> results;
+  results.reserve(points.size());
+  for (auto begin = points.begin(); begin != points.end();) {
+    const auto end = std::find_if(begin, points.end(),
+                                  [&](const RoleValues& point) { return point.alpha != begin->alpha; });
+    add_at_width({begin, end}, wanted, &results);
+    begin = end;
+  }
+  return results;
+}
+
+void BankPictures::add_at_width(std::span<const RoleValues> points, const std::vector<bool>& wanted,
+                                std::vector<PictureTangents>* results) const {
+  const double alpha = points.front().alpha;
+  const Window window = Window::around(bank_, alpha);
   std::array<const std::vector<std::vector<float>>*, kInterpolationNodes> nodes{};
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) nodes[i] = &bank_.pictures(window.first + i);
+  const std::size_t pixels = diffuse_.size(), members = nodes.front()->size(), first = results->size();
+  std::vector<std::vector<double>> weights, slopes;
+  for (const RoleValues& point : points) {
+    weights.push_back(bank_.family().weights_at(point.specular));
+    slopes.push_back(bank_.family().slopes_at(point.specular));
+    results->push_back({std::vector<float>(pixels),
+                        {std::vector<float>(pixels), std::vector<float>(pixels),
+                         wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}});
+  }
+  std::vector<PixelBlock> interpolated(members), interpolated_rise(members);  // shared by the points
   for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
     const std::size_t count = std::min(kBlockPixels, pixels - start);
-    PixelBlock picture{}, slope{}, rise{};
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      PixelBlock interpolated{}, interpolated_rise{};
+    for (std::size_t k = 0; k < members; ++k) {
+      interpolated[k] = interpolated_rise[k] = {};
       for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
         const float* values = &(*nodes[i])[k][start];
-        add_scaled(window.basis.value[i], values, count, &interpolated);
-        add_scaled(window.basis.derivative[i], values, count, &interpolated_rise);
-      }
-      for (std::size_t i = 0; i < count; ++i) {
-        picture[i] += weights[k] * interpolated[i];
-        slope[i] += slopes[k] * interpolated[i];
-        rise[i] += weights[k] * interpolated_rise[i];
+        add_scaled(window.basis.value[i], values, count, &interpolated[k]);
+        add_scaled(window.basis.derivative[i], values, count, &interpolated_rise[k]);
       }
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      result.picture[start + i] = static_cast<float>(picture[i] + point.diffuse * diffuse_[start + i]);
-      by_specular[start + i] = static_cast<float>(slope[i]);
-      by_alpha[start + i] = static_cast<float>(rise[i] / point.alpha);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      PixelBlock picture{}, slope{}, rise{};
+      for (std::size_t k = 0; k < members; ++k)
+        for (std::size_t i = 0; i < count; ++i) {
+          picture[i] += weights[p][k] * interpolated[k][i];
+          slope[i] += slopes[p][k] * interpolated[k][i];
+          rise[i] += weights[p][k] * interpolated_rise[k][i];
+        }
+      PictureTangents& result = (*results)[first + p];
+      for (std::size_t i = 0; i < count; ++i) {
+        result.picture[start + i] = static_cast<float>(picture[i] + points[p].diffuse * diffuse_[start + i]);
+        result.by[kSpecularCoordinate][start + i] = static_cast<float>(slope[i]);
+        result.by[kAlphaCoordinate][start + i] = static_cast<float>(rise[i] / alpha);
+      }
     }
   }
-  return result;
 }
 
 RenderedPictures::RenderedPictures(const PictureTaker& picture_taker, const ProbedModel& target,
                                    const Range& alphas, const std::vector<std::string>& others)
     : TargetPictures(target, alphas, others), picture_taker_(picture_taker), target_(target) {}
 
-PictureTangents RenderedPictures::at(const RoleValues& point, const std::vector<bool>& wanted) const {
+std::vector<PictureTangents> RenderedPictures::at(const std::vector<RoleValues>& points,
+                                                  const std::vector<bool>& wanted) const {
+  std::vector<PictureTangents> results;
+  for (const RoleValues& point : points) results.push_back(at_point(point, wanted));
+  return results;
+}
+
+PictureTangents RenderedPictures::at_point(const RoleValues& point, const std::vector<bool>& wanted) const {
   PictureTangents result{picture_taker_.take(target_, point), {}};
   for (std::size_t c = 0; c < coordinates().size(); ++c) {
     result.by.emplace_back();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,10 @@ class TargetPictures {
   double value(const RoleValues& point, std::size_t coordinate) const;
   void set_value(RoleValues* point, std::size_t coordinate, double value) const;
 
-  // `wanted`: the coordinates by which the picture is differentiated. Thread-safe.
-  virtual PictureTangents at(const RoleValues& point, const std::vector<bool>& wanted) const = 0;
+  // One picture for each of `points`; successive points of one width are cheaper. `wanted`: the coordinates
+  // by which the pictures are differentiated. Thread-safe.
+  virtual std::vector<PictureTangents> at(const std::vector<RoleValues>& points,
+                                          const std::vector<bool>& wanted) const = 0;
 
  protected:
   // The coordinates are width, specular and diffuse of `target`, and its parameters named in `others`.
@@ -50,9 +53,13 @@ class BankPictures final : public TargetPictures {
  public:
   BankPictures(const PictureTaker& picture_taker, const ProbedModel& target, const TargetBank& bank);
 
-  PictureTangents at(const RoleValues& point, const std::vector<bool>& wanted) const override;
+  std::vector<PictureTangents> at(const std::vector<RoleValues>& points,
+                                  const std::vector<bool>& wanted) const override;
 
  private:
+  void add_at_width(std::span<const RoleValues> points, const std::vector<bool>& wanted,
+                    std::vector<PictureTangents>* results) const;
+
   const TargetBank& bank_;
   std::vector<float> diffuse_;  // added by diffuse 1
 };
@@ -65,9 +72,12 @@ class RenderedPictures final : public TargetPictures {
   RenderedPictures(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas,
                    const std::vector<std::string>& others = {});
 
-  PictureTangents at(const RoleValues& point, const std::vector<bool>& wanted) const override;
+  std::vector<PictureTangents> at(const std::vector<RoleValues>& points,
+                                  const std::vector<bool>& wanted) const override;
 
  private:
+  PictureTangents at_point(const RoleValues& point, const std::vector<bool>& wanted) const;
+
   const PictureTaker& picture_taker_;
   ProbedModel target_;
 };

@@ -94,6 +94,51 @@ std::string option_description(const CLI::Option& option) {
   return remarks.empty() ? text : text + ")";
 }
 
+using Options = std::vector<const CLI::Option*>;
+
+Options positionals(const CLI::App& app) {
+  return app.get_options(
+      [](const CLI::Option* option) { return option->get_positional() && !option->get_group().empty(); });
+}
+
+std::string usage(const CLI::App& app, const std::string& name) {
+  std::string text = "Usage: " + name;
+  if (!app.get_subcommands([](const CLI::App*) { return true; }).empty()) return text + " COMMAND [options]";
+  for (const CLI::Option* option : positionals(app)) {
+    const std::string word =
+        option->get_name(true, false) +
+        (option->get_expected_max() >= CLI::detail::expected_max_vector_size ? "..." : "");
+    text += option->get_required() ? " " + word : " [" + word + "]";
+  }
+  return text + " [options]";
+}
+
+// In the order of their first options; help next to last, rare groups last.
+std::vector<std::string> groups(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    if (const std::string& group = option->get_group();
+        option->nonpositional() && !group.empty() &&
+        std::find(names.begin(), names.end(), group) == names.end())
+      names.push_back(group);
+  std::stable_sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+    const auto rank = [](const std::string& name) { return is_rare(name) ? 2 : name == kHelpGroup ? 1 : 0; };
+    return rank(a) < rank(b);
+  });
+  return names;
+}
+
+Options options_of(const CLI::App& app, const std::string& group) {
+  return app.get_options([&group](const CLI::Option* option) {
+    return option->nonpositional() && option->get_group() == group;
+  });
+}
+
+std::string option_names(const CLI::Option& option) {
+  return option.nonpositional() ? replaced(option.get_name(false, true), ",", ", ")
+                                : option.get_name(true, false);
+}
+
 class HelpFormatter : public CLI::FormatterBase {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
@@ -117,31 +162,11 @@ class HelpFormatter : public CLI::FormatterBase {
   }
 
  private:
-  using Options = std::vector<const CLI::Option*>;
-
-  static std::string usage(const CLI::App& app, const std::string& name) {
-    std::string text = "Usage: " + name;
-    if (!app.get_subcommands([](const CLI::App*) { return true; }).empty())
-      return text + " COMMAND [options]";
-    for (const CLI::Option* option : positionals(app)) {
-      const std::string word =
-          option->get_name(true, false) +
-          (option->get_expected_max() >= CLI::detail::expected_max_vector_size ? "..." : "");
-      text += option->get_required() ? " " + word : " [" + word + "]";
-    }
-    return text + " [options]";
-  }
-
-  static Options positionals(const CLI::App& app) {
-    return app.get_options(
-        [](const CLI::Option* option) { return option->get_positional() && !option->get_group().empty(); });
-  }
-
   static std::string arguments(const CLI::App& app) {
     const Options options = positionals(app);
     std::string text = options.empty() ? "" : "\nArguments:\n";
     for (const CLI::Option* option : options)
-      text += entry(option->get_name(true, false), option_description(*option));
+      text += entry(option_names(*option), option_description(*option));
     return text;
   }
 
@@ -161,34 +186,10 @@ class HelpFormatter : public CLI::FormatterBase {
     return text;
   }
 
-  // In the order of their first options; help next to last, rare groups last.
-  static std::vector<std::string> groups(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : app.get_options())
-      if (const std::string& group = option->get_group();
-          option->nonpositional() && !group.empty() &&
-          std::find(names.begin(), names.end(), group) == names.end())
-        names.push_back(group);
-    std::stable_sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
-      const auto rank = [](const std::string& name) {
-        return is_rare(name) ? 2 : name == kHelpGroup ? 1 : 0;
-      };
-      return rank(a) < rank(b);
-    });
-    return names;
-  }
-
-  static Options options_of(const CLI::App& app, const std::string& group) {
-    return app.get_options([&group](const CLI::Option* option) {
-      return option->nonpositional() && option->get_group() == group;
-    });
-  }
-
   static std::string entries(const Options& options) {
     std::string text;
     for (const CLI::Option* option : options)
-      text += entry(replaced(option->get_name(false, true), ",", ", ") + value_name(*option),
-                    option_description(*option));
+      text += entry(option_names(*option) + value_name(*option), option_description(*option));
     return text;
   }
 };
@@ -211,7 +212,32 @@ void lay_out(CLI::App& app, const std::shared_ptr<HelpFormatter>& formatter) {
     lay_out(*command, formatter);
 }
 
+Json options_json(const Options& options) {
+  Json list = Json::list();
+  for (const CLI::Option* option : options) {
+    const bool chooses = type_and_checks(*option).second.starts_with("{");
+    list.push_back({{"names", option_names(*option)},
+                    {"value", value_name(*option)},
+                    {"choices", chooses ? allowed_values(*option) : ""},
+                    {"repeats", option->get_items_expected_max() > 1},
+                    {"description", option_description(*option)}});
+  }
+  return list;
+}
+
 }  // namespace
+
+Json help_table(const CLI::App& app) {
+  Json options = Json::list(), commands = Json::list();
+  for (const std::string& group : groups(app))
+    options.push_back({{"group", group}, {"options", options_json(options_of(app, group))}});
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(help_table(*command));
+  return {{"name", command_words(app)}, {"description", app.get_description()},
+          {"group", app.get_group()},   {"usage", usage(app, command_words(app))},
+          {"footer", app.get_footer()}, {"arguments", options_json(positionals(app))},
+          {"groups", options},          {"commands", commands}};
+}
 
 void lay_out_help(CLI::App& app) { lay_out(app, std::make_shared<HelpFormatter>()); }
 

@@ -19,6 +19,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/json.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -29,6 +31,10 @@ namespace remap {
 // Gives `app` and all its commands the flags --help and --help-all and this layout. Call it after all
 // commands and options have been added; run_app() does so.
 void lay_out_help(CLI::App& app);
+
+// What the help of `app` says, as values, from which scripts/update-reference makes manual pages and the
+// completion of shells. Call it after lay_out_help().
+Json help_table(const CLI::App& app);
 
 // The words that lead to a command: `texremap convert`.
 std::string command_words(const CLI::App& command);

@@ -127,7 +127,10 @@ std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) 
 int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   lay_out_help(app);
   try {
-    app.parse(argc, argv);
+    if (argc == 2 && argv[1] == std::string_view("--help-table"))
+      std::cout << help_table(app).dump(1) << '\n';
+    else
+      app.parse(argc, argv);
   } catch (const CLI::Success& answer) {
     app.exit(answer);
   } catch (const CLI::ParseError& error) {

@@ -58,6 +58,11 @@ expect_close "$(second_row own_fit)" "$shipped"
 expect_exit 0 "$project/build/convert_buffers"
 expect_output "65536 texels, "
 
+for file in man/man1/texremap-convert.1 bash-completion/completions/remapc zsh/site-functions/_texremap \
+  fish/vendor_completions.d/remapc.fish; do
+  [[ -f $prefix/share/$file ]] || fail "$file is not installed"
+done
+
 # Each public header can be included by itself, and needs nothing that is not installed.
 for header in "$prefix"/include/remap/*.hpp; do
   [[ $header == *_to_*.hpp ]] || echo "#include \"$header\""

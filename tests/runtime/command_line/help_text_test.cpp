@@ -13,8 +13,9 @@ using namespace remap;
 
 namespace {
 
-// `tool bake`, with options of all kinds, as --help or --help-all shows it.
-std::string help_of_bake(CLI::AppFormatMode mode) {
+// What `read` makes of `tool bake`, which has options of all kinds.
+template <typename Read>
+auto of_bake(const Read& read) {
   Command app("A tool.", "tool");
   Command* bake = app.add_subcommand("bake", "Bake a map");
   std::string input, model = "svr", stroke, folder = "fits";
@@ -35,7 +36,12 @@ std::string help_of_bake(CLI::AppFormatMode mode) {
   bake->add_flag("--quiet", quiet, "Print nothing");
   bake->footer("Example:\n  tool bake table.csv");
   lay_out_help(app.app());
-  return bake->app().help("tool", mode);
+  return read(bake->app());
+}
+
+// As --help or --help-all shows it.
+std::string help_of_bake(CLI::AppFormatMode mode) {
+  return of_bake([&](const CLI::App& app) { return app.help("tool", mode); });
 }
 
 }  // namespace
@@ -106,4 +112,16 @@ TEST_CASE("help_text: long lines break at blanks, indented lines stay") {
         "0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789\n0123");
   CHECK(wrapped("a\n\n " + words + "\nb", 2) == "a\n\n   " + words + "\n  b");
   CHECK(wrapped(std::string(90, 'x') + " y", 4) == std::string(90, 'x') + "\n    y");
+}
+
+TEST_CASE("help_text: the table says what the help says") {
+  const Json table = of_bake([](const CLI::App& app) { return help_table(app); });
+  CHECK(*table.find("name")->text() == "tool bake");
+  CHECK(*table.find("usage")->text() == "Usage: tool bake table [options]");
+  CHECK(*table.find("arguments")->entries()->front().find("names")->text() == "table");
+  const Json& fit = table.find("groups")->entries()->front();
+  CHECK(*fit.find("group")->text() == "Fit");
+  const Json& model = fit.find("options")->entries()->front();
+  CHECK(*model.find("names")->text() == "--model");
+  CHECK(*model.find("choices")->text() == "auto, svr");
 }

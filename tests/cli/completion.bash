@@ -1,0 +1,39 @@
+# What bash completes, by the words of the documentation; then that zsh and fish, where they are installed, can read theirs.
+# completion.bash SOURCES PROGRAMS
+set -euo pipefail
+cd "$1"
+PATH=$2:$PATH
+faults=0
+
+# expect LINE WORDS: the words for the last one of a command line, whose other words bash has split at =.
+expect() {
+  local -a COMP_WORDS
+  read -ra COMP_WORDS <<<"$1"
+  [[ $1 != *' ' ]] || COMP_WORDS+=('')
+  local -r COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
+  "_${COMP_WORDS[0]}" "${COMP_WORDS[0]}" "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD - 1]}" 2>/dev/null
+  [[ ${COMPREPLY[*]:-} == "$2" ]] || { echo "$1: got '${COMPREPLY[*]:-}', expected '$2'" && faults=1; }
+}
+
+. docs/completions/bash/texremap
+. docs/completions/bash/remapc
+expect "texremap " "convert list path --version -h --help"
+expect "remapc re" "render renderers"
+expect "texremap convert --recur" "--recursive"
+expect "texremap convert --type " "uint8 uint16 half float"
+expect "texremap convert --type = h" "half"
+expect "texremap convert --layout = " "as-inputs separate orm arm specgloss"
+expect "texremap convert --to mitsuba/ward-" "mitsuba/ward-balanced mitsuba/ward-duer"
+expect "remapc sweep --source mitsuba/as-i" "mitsuba/as-ior"
+expect "remapc show mitsuba_ward_to_mitsuba_as_" "mitsuba_ward_to_mitsuba_as_sztrajman_2019"
+expect "remapc fit --model s" "series svr"
+expect "texremap convert --roughness " ""      # files, which bash adds
+expect "texremap convert assets" ""            # files
+expect "texremap convert --threads 4 --qui" "--quiet"
+for shell in zsh fish; do
+  command -v "$shell" >/dev/null || continue
+  for file in docs/completions/"$shell"/*; do
+    "$shell" -n "$file" || { echo "$file: $shell cannot read it" && faults=1; }
+  done
+done
+exit $faults
