@@ -261,8 +261,12 @@ TEST_CASE("pictures: those of a family and their derivatives agree with renders"
   const BankPictures interpolated(picture_taker, target, bank);
   const RenderedPictures rendered(picture_taker, target, kAlphas);
   const std::vector<bool> wanted(3, true);
-  for (const RoleValues& point : {RoleValues{0.2, 0.3, 0.1}, {0.7, 0.9, 0.0}, {0.11, 0.02, 0.5}}) {
-    const PictureTangents a = interpolated.at(point, wanted), b = rendered.at(point, wanted);
+  const std::vector<RoleValues> points = {
+      {0.2, 0.3, 0.1}, {0.2, 0.6, 0.4}, {0.7, 0.9, 0.0}, {0.11, 0.02, 0.5}};
+  const std::vector<PictureTangents> of_bank = interpolated.at(points, wanted),
+                                     of_renders = rendered.at(points, wanted);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const PictureTangents &a = of_bank.at(p), &b = of_renders.at(p);
     const auto close = [](const std::vector<float>& found, const std::vector<float>& expected) {
       double worst = 0.0, largest = 0.0;
       for (std::size_t i = 0; i < found.size(); ++i) {
