@@ -6,7 +6,7 @@
 
 #include "convert/converter_file.hpp"
 #include "convert/shipped_text.hpp"
-#include "core/files.hpp"
+#include "core/read_file.hpp"
 #include "remap/error.hpp"
 #include "stages/brdf_stage.hpp"
 

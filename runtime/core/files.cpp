@@ -1,13 +1,11 @@
 #include "core/files.hpp"
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <mutex>
 #include <set>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/open_file.hpp"
@@ -20,53 +18,8 @@ namespace {
 
 constexpr std::string_view kUnfinished = ".unfinished-";
 
-[[noreturn]] void fail_to_read(const fs::path& path, const std::string& reason) {
-  throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + reason);
-}
-
 [[noreturn]] void fail_to_write(const fs::path& path, const std::string& reason) {
   throw Error(ErrorKind::kOutput, path.string() + ": cannot be written: " + reason);
-}
-
-// What is not a regular file, in words.
-std::string kind_text(mode_t mode) {
-  if (S_ISDIR(mode)) return "is a folder, not a file";
-  if (S_ISFIFO(mode)) return "is a named pipe, not a file (write its content to a file)";
-  if (S_ISSOCK(mode)) return "is a socket, not a file (write its content to a file)";
-  return "is a device, not a file (give a regular file)";
-}
-
-// Whether the shell of the caller has opened what this name leads to.
-bool is_handed_down(const fs::path& path) {
-  const std::string name = path.lexically_normal().string();
-  return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
-}
-
-void require_readable(const fs::path& path, const struct stat& found) {
-  if (S_ISREG(found.st_mode) || (S_ISFIFO(found.st_mode) && is_handed_down(path))) return;
-  throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(found.st_mode));
-}
-
-[[noreturn]] void fail_of_size(const fs::path& path, std::uintmax_t largest) {
-  const bool megabytes = largest >= 1 << 20;
-  throw Error(ErrorKind::kInput,
-              path.string() + ": has more than " + std::to_string(megabytes ? largest >> 20 : largest) +
-                  (megabytes ? " MB" : " bytes") + ", the most that is read of such a file");
-}
-
-// Reads to the end. A signal does not end the reading; the second one of interruption.hpp ends the process.
-std::string content_of(const OpenFile& file, const fs::path& path, std::uintmax_t largest) {
-  std::string content;
-  std::array<char, 1 << 16> part;
-  for (;;) {
-    const ssize_t count = ::read(file.get(), part.data(), part.size());
-    if (count == 0) return content;
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0)
-      throw Error(ErrorKind::kInput, path.string() + ": reading failed: " + std::strerror(errno));
-    content.append(part.data(), static_cast<std::size_t>(count));
-    if (content.size() > largest) fail_of_size(path, largest);
-  }
 }
 
 // The mark in the name of an unfinished file; empty for another name.
@@ -116,27 +69,6 @@ std::string replace(const fs::path& unfinished, const fs::path& path, Flush flus
 }
 
 }  // namespace
-
-void require_regular_file(const fs::path& path) {
-  struct stat found {};
-  if (::stat(path.c_str(), &found) != 0) fail_to_read(path, std::strerror(errno));
-  if (!S_ISREG(found.st_mode))
-    throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(found.st_mode));
-}
-
-std::string read_file(const fs::path& path, std::uintmax_t largest) {
-  struct stat found {};
-  if (::stat(path.c_str(), &found) != 0) fail_to_read(path, std::strerror(errno));
-  require_readable(path, found);
-  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
-  // Looked at again, since the name may lead elsewhere by now.
-  if (!file.is_open() || ::fstat(file.get(), &found) != 0) fail_to_read(path, std::strerror(errno));
-  require_readable(path, found);
-  if (S_ISREG(found.st_mode) && static_cast<std::uintmax_t>(found.st_size) > largest)
-    fail_of_size(path, largest);
-  ::fcntl(file.get(), F_SETFL, 0);  // reads wait for the writer again
-  return content_of(file, path, largest);
-}
 
 fs::path unfinished_name(const fs::path& path) {
   remove_abandoned_once(folder_of(path));

@@ -1,25 +1,13 @@
-// Reads and writes files. A result appears under its final name complete or not at all.
+// Writes files. A result appears under its final name complete or not at all.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "core/read_file.hpp"
+
 namespace remap {
-
-// The most bytes that read_file() reads unless it is told otherwise: 100 times the largest file of text that
-// this project writes, and little enough for any machine that it runs on.
-inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
-
-// Throws kInput unless `path` leads to a regular file. A reader that opens a pipe waits for a writer, and a
-// device has no end, so whoever hands a path that a user named to a library calls this first.
-void require_regular_file(const std::filesystem::path& path);
-
-// The whole file as bytes. Apart from regular files it reads only pipes that the caller's shell has opened
-// (/dev/stdin, /dev/fd/N, /proc/self/fd/N), which end when their writer does. Throws kInput with the reason
-// of the system if it cannot be read, and for more than `largest` bytes.
-std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = kLargestFile);
 
 // A hidden name in the folder of `path` for an unfinished file: `.STEM.unfinished-MARK.EXTENSION` with the
 // mark of this process (process_mark.hpp), and the extension by which image writers choose the format. The
