@@ -9,7 +9,7 @@ namespace remap {
 namespace {
 
 constexpr Eigen::Index kCentres = 80;
-constexpr double kRoughness = 1.2;  // in RMS radii
+constexpr double kWidth = 1.2;  // in RMS radii
 constexpr int kSteps = 25;
 constexpr double kFirstSigma = 0.4, kLastSigma = 0.05;
 constexpr int kScalingRounds = 8;
@@ -118,12 +118,12 @@ AffineMap affine_from_strokes(const PointSets& sets) {
 
 SmoothWarp register_points(const PointSets& sets, const AffineMap& start) {
   const Points& points = sets.source.points;
-  SmoothWarp warp{start, farthest_points(points, kCentres), {}, kRoughness};
+  SmoothWarp warp{start, farthest_points(points, kCentres), {}, kWidth};
   const Eigen::Index n = points.cols(), centres = warp.centres.rows(), unknowns = centres + n + 1;
   warp.weights = Eigen::MatrixXd::Zero(centres, n);
   Eigen::MatrixXd design(points.rows(), unknowns);
-  design << gaussians(points, warp.centres, kRoughness), points, Eigen::VectorXd::Ones(points.rows());
-  const Eigen::MatrixXd kernel = gaussians(warp.centres, warp.centres, kRoughness);
+  design << gaussians(points, warp.centres, kWidth), points, Eigen::VectorXd::Ones(points.rows());
+  const Eigen::MatrixXd kernel = gaussians(warp.centres, warp.centres, kWidth);
   Points moved = images_of(start, points);
   for (int step = 0; step < kSteps; ++step) {
     const double share = static_cast<double>(step) / static_cast<double>(kSteps - 1);

@@ -9,8 +9,8 @@
 #include <vector>
 
 int main() try {
-  constexpr std::size_t kRoughness = 256, kHeight = 256;
-  std::vector<std::uint8_t> texels(kRoughness * kHeight * 4);
+  constexpr std::size_t kWidth = 256, kHeight = 256;
+  std::vector<std::uint8_t> texels(kWidth * kHeight * 4);
   for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<std::uint8_t>(i * 7 / 256);
 
   // Finds the path of least expected error between the two models, as texremap does.
@@ -20,10 +20,10 @@ int main() try {
 
   const auto channel = [&](std::size_t c) {
     return remap::ChannelView{reinterpret_cast<std::byte*>(texels.data() + c), remap::PixelType::kUint8, 4,
-                              static_cast<std::ptrdiff_t>(4 * kRoughness)};
+                              static_cast<std::ptrdiff_t>(4 * kWidth)};
   };
   remap::MapConversion maps;
-  maps.width = kRoughness;
+  maps.width = kWidth;
   maps.height = kHeight;
   for (std::size_t c = 0; c < 3; ++c) {
     maps.sources[remap::Parameter::kSpecular].channels.push_back(channel(c));

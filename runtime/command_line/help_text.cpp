@@ -9,7 +9,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kRoughness = 80, kDescriptionColumn = 26;
+constexpr std::size_t kWidth = 80, kDescriptionColumn = 26;
 constexpr const char* kHelpGroup = "Help";
 
 bool is_rare(const std::string& group) { return group.starts_with("Rare"); }
@@ -34,7 +34,7 @@ std::string wrapped_line(std::string_view line, std::size_t indent) {
   while (!line.empty()) {
     const std::string_view word = line.substr(0, line.find(' '));
     line.remove_prefix(std::min(word.size() + 1, line.size()));
-    if (column > indent && column + 1 + word.size() > kRoughness) {
+    if (column > indent && column + 1 + word.size() > kWidth) {
       result += "\n" + std::string(indent, ' ');
       column = indent;
     } else if (column > indent) {

@@ -48,7 +48,6 @@ Section header_section(const Medians& medians);
 
 void add_workflows();
 Section workflow_section(const Medians& medians);
-Section workflow_error_section(const Medians& medians);
 
 void add_warps();
 Section warp_section(const Medians& medians);

@@ -54,24 +54,15 @@ Section converter_section(const Medians& medians) {
   Section section{"texremap's converters as data against their compiled headers, RGB, 64 x 64, in cache", {}};
   std::map<std::string, std::vector<double>> ratios;
   for (const Pair& pair : pairs()) {
-    Row row;
-    row.what = pair.data->info().id + " at " + flags_text(pair.flags);
-    row.value = mega_items(medians, data_name(pair));
-    row.unit = "Mtexel/s";
-    row.ratio = speed_ratio(medians, data_name(pair), pair.header + "/small");
-    row.rival = "the header";
-    row.goal = 0.9;
-    if (row.ratio) ratios[pair.flags].push_back(*row.ratio);
-    section.rows.push_back(row);
+    const auto ratio = speed_ratio(medians, data_name(pair), pair.header + "/small");
+    section.rows.push_back({pair.data->info().id + " at " + flags_text(pair.flags),
+                            mega_items(medians, data_name(pair)), "Mtexel/s", ratio, "the header", 0.9});
+    if (ratio) ratios[pair.flags].push_back(*ratio);
   }
   for (auto& [flags, values] : ratios) {
     std::sort(values.begin(), values.end());
-    Row row;
-    row.what = "median of these at " + flags_text(flags);
-    row.ratio = values[values.size() / 2];
-    row.rival = "the header";
-    row.goal = 0.9;
-    section.rows.push_back(row);
+    section.rows.push_back(
+        {"median of these at " + flags_text(flags), {}, "", values[values.size() / 2], "the header", 0.9});
   }
   return section;
 }

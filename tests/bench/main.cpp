@@ -45,7 +45,6 @@ int main(int argc, char** argv) {
       network_section(medians),
       other_pass_section(medians),
       workflow_section(medians),
-      workflow_error_section(medians),
       warp_section(medians),
       header_section(medians),
       fit_section(medians)};

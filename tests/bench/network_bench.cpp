@@ -70,14 +70,10 @@ Section network_section(const Medians& medians) {
   Section section{"Exact MLP 6 x 300 x 4 against Eigen's products (GEMM) at the same flags, one core", {}};
   const auto add = [&](const std::string& what, const std::string& name, const std::string& flags) {
     const std::string rival = best_products(medians, flags);
-    Row row;
-    row.what = what + " at " + flags_text(flags);
-    row.value = mega_items(medians, name);
-    row.unit = "Mtexel/s";
-    row.ratio = speed_ratio(medians, name, rival);
-    row.rival = "Eigen, batches of " + rival.substr(rival.find('/') + 1);
-    if (flags != "o3") row.goal = 0.8;
-    section.rows.push_back(row);
+    section.rows.push_back({what + " at " + flags_text(flags), mega_items(medians, name), "Mtexel/s",
+                            speed_ratio(medians, name, rival),
+                            "Eigen, batches of " + rival.substr(rival.find('/') + 1),
+                            flags != "o3" ? std::optional(0.8) : std::nullopt});
   };
   for (const Build<NetworkPass>& build : network_builds())
     add(build.code.substr(build.code.find('_') + 1), build.code + "_" + build.flags, build.flags);

@@ -38,13 +38,9 @@ std::optional<double> goal(const std::string& code, const std::string& flags) {
 
 Row pass_row(const Medians& medians, const std::string& what, const std::string& name,
              const std::string& maps) {
-  Row row;
-  row.what = what;
-  row.value = mega_items(medians, name + "/" + maps);
-  row.unit = "Mtexel/s";
-  row.ratio = speed_ratio(medians, name + "/" + maps, "memcpy/" + maps);
-  row.rival = "memcpy";
-  return row;
+  return {what,       mega_items(medians, name + "/" + maps),
+          "Mtexel/s", speed_ratio(medians, name + "/" + maps, "memcpy/" + maps),
+          "memcpy",   {}};
 }
 
 Maps::Maps(std::size_t count) : texels(count) {

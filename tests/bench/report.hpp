@@ -31,7 +31,7 @@ struct Row {
   std::string unit;  // of value
   std::optional<double> ratio;
   std::string rival;  // ratio is of what
-  std::optional<double> goal;
+  std::optional<double> goal = std::nullopt;
   bool goal_is_ratio = true;  // otherwise of value, which should not exceed it
 };
 

@@ -87,22 +87,22 @@ void add_warps() {
 Section warp_section(const Medians& medians) {
   Section section{"Appearance warps, 512 x 512, one core", {}};
   for (const Case& one : kCases) {
-    Row fit;
-    fit.what = "strokes to the compiled table, " + std::string(one.what);
-    fit.value = medians.seconds("warp/" + std::string(one.name) + "/fit");
-    fit.unit = "s";
-    fit.goal = one.seconds_goal;
-    fit.goal_is_ratio = false;
-    section.rows.push_back(fit);
-    for (const remap::InstructionSet set : available_sets()) {
-      Row pass;
-      pass.what = "pass, " + std::string(one.what) + ", " + std::string(instruction_set_name(set));
-      pass.value = mega_items(medians, pass_name(one, set));
-      pass.unit = "Mtexel/s";
-      pass.goal = speed_goal(set);
-      pass.goal_is_ratio = false;
-      section.rows.push_back(pass);
-    }
+    const std::string what = one.what;
+    section.rows.push_back({"strokes to the compiled table, " + what,
+                            medians.seconds("warp/" + std::string(one.name) + "/fit"),
+                            "s",
+                            {},
+                            "",
+                            one.seconds_goal,
+                            false});
+    for (const remap::InstructionSet set : available_sets())
+      section.rows.push_back({"pass, " + what + ", " + std::string(instruction_set_name(set)),
+                              mega_items(medians, pass_name(one, set)),
+                              "Mtexel/s",
+                              {},
+                              "",
+                              speed_goal(set),
+                              false});
   }
   return section;
 }

@@ -1,5 +1,4 @@
-// Headers of workflow conversions: how fast, and how exact on the materials that both workflows can say.
-#include <cmath>
+// Headers of workflow conversions: how fast.
 #include <cstring>
 #include <random>
 
@@ -74,45 +73,6 @@ std::optional<double> speed_goal(const std::string& code, const std::string& fla
   return is_to_metallic(code) ? 50.0 : 0.8;
 }
 
-struct FamilyError {
-  double metallic = 0.0, base_color = 0.0;
-};
-
-// Uniform random metallic materials to 8-bit specular maps and back.
-FamilyError family_error(const remap::WorkflowConversion& there, const remap::WorkflowConversion& back) {
-  constexpr int kCount = 100000;
-  std::mt19937 random(2);
-  FamilyError sum;
-  for (int i = 0; i < kCount; ++i) {
-    const remap::MetallicMaterial truth = workflow_test::random_metallic(random);
-    remap::SpecularMaterial stored = to_specular(there, truth);
-    for (float& value : stored.diffuse) value = static_cast<float>(workflow_test::in_8_bits(value));
-    for (float& value : stored.specular) value = static_cast<float>(workflow_test::in_8_bits(value));
-    const remap::MetallicMaterial result = to_metallic(back, stored);
-    sum.metallic += std::pow(result.metallic - truth.metallic, 2) / kCount;
-    for (std::size_t c = 0; c < 3; ++c)
-      sum.base_color +=
-          std::pow(remap::linear_to_srgb(result.base_color[c]) - remap::linear_to_srgb(truth.base_color[c]),
-                   2) /
-          (3.0 * kCount);
-  }
-  return {std::sqrt(sum.metallic), std::sqrt(sum.base_color)};
-}
-
-void add_errors(Section* section, const std::string& name, const FamilyError& error, bool has_goal) {
-  const auto add = [&](const std::string& what, double value, double goal) {
-    Row row;
-    row.what = name + ": " + what;
-    row.value = value;
-    row.unit = "rms";
-    row.goal_is_ratio = false;
-    if (has_goal) row.goal = goal;
-    section->rows.push_back(row);
-  };
-  add("metallic", error.metallic, 0.002);
-  add("base color, sRGB", error.base_color, 0.0015);
-}
-
 }  // namespace
 
 void add_workflows() {
@@ -140,20 +100,6 @@ Section workflow_section(const Medians& medians) {
     section.rows.push_back(pass_row(medians, what + ", 64 x 64, in cache", name, "small"));
     section.rows.back().ratio.reset();
   }
-  return section;
-}
-
-Section workflow_error_section(const Medians& medians) {
-  Section section{"Metallic materials as 8-bit specular maps and back, 100 000 uniform ones", {}};
-  if (!medians.seconds("memcpy/materials")) return section;  // filtered out
-  using namespace remap;
-  const auto plain = [](const WorkflowFormula& formula) { return workflow_test::plain(formula); };
-  const auto gltf = [](const WorkflowFormula& formula) { return workflow_test::gltf(formula); };
-  const auto there = plain(Equation2{}), there_gltf = gltf(Equation2{});
-  add_errors(&section, "projection", family_error(there, plain(Projection{kCleanPrior})), true);
-  add_errors(&section, "equation (3), weighted", family_error(there, plain(Equation3{MetallicMean::kAlbedo})),
-             false);
-  add_errors(&section, "glTF, projection", family_error(there_gltf, gltf(Projection{kCleanPrior})), false);
   return section;
 }
 

@@ -51,12 +51,7 @@ nlohmann::json published_manifest() {
   return items;
 }
 
-std::vector<std::string> build_of(const Session& session, std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {
-      "build", "--json", "--fits", session.path("fits"), "-o", session.path("generated")};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
+Words build_of(const Words& more = {}) { return "build --json --fits fits -o generated" + more; }
 
 std::vector<std::string> built_ids(const ProcessResult& result) {
   require_success(result);
@@ -73,16 +68,15 @@ void append(const std::string& path, const std::string& text) { std::ofstream(pa
 TEST_CASE("remapc build: makes the items of the manifest, and none twice", "[slow]") {
   const Session session;
   session.write("fits/manifest.json", manifest());
-  CHECK(built_ids(session.remapc(build_of(session))) ==
+  CHECK(built_ids(session.remapc(build_of())) ==
         std::vector<std::string>{"a_b_to_mitsuba_ward", "a_b_to_mitsuba_ward_duer",
                                  "mitsuba_ward_duer_to_mitsuba_ward", "mitsuba_ward_to_a_b",
                                  "mitsuba_ward_to_mitsuba_ward_duer"});
-  CHECK(built_ids(session.remapc(build_of(session))).empty());
-  CHECK(session.remapc(build_of(session, {"--check"})).exit_code == 0);
-  const std::vector<std::string> emit = {
-      "emit", "--all", "--check", "--fits", session.path("fits"), "-o", session.path("generated")};
+  CHECK(built_ids(session.remapc(build_of())).empty());
+  CHECK(session.remapc(build_of("--check")).exit_code == 0);
+  const Words emit = "emit --all --check --fits fits -o generated";
   CHECK(session.remapc(emit).exit_code == 0);
-  const std::string report = read_file(session.path("fits/README.md"));
+  const std::string report = session.content("fits/README.md");
   // The compared pair comes before the published one, whose heading carries the mark.
   const std::size_t measured = report.find("| mitsuba/ward, mitsuba/ward-duer | [");
   const std::size_t published = report.find("[a/b to mitsuba/ward](a_b_to_mitsuba_ward.json)");
@@ -90,37 +84,36 @@ TEST_CASE("remapc build: makes the items of the manifest, and none twice", "[slo
   CHECK(measured < published);
   CHECK(published != std::string::npos);
   CHECK(report.find("marks 3 of 5 converters") != std::string::npos);
-  const std::string figures = read_file(session.path("fits/converters.csv"));
+  const std::string figures = session.content("fits/converters.csv");
   CHECK(figures.starts_with("converter,kind,source,target,warning,image_error,"));
   CHECK(std::count(figures.begin(), figures.end(), '\n') == 6);
   CHECK(figures.find("\na_b_to_mitsuba_ward,parametric,a/b,mitsuba/ward,pictures never compared,,") !=
         std::string::npos);
   CHECK(figures.find("Published in nobody 2020. As printed.\n") != std::string::npos);
   CHECK(figures.find("\"Composed of a_b_to_mitsuba_ward, then") != std::string::npos);  // quoted: has a comma
-  const ProcessResult card =
-      session.remapc({"show", "mitsuba_ward_to_mitsuba_ward_duer", "--fits", session.path("fits")});
+  const ProcessResult card = session.remapc("show mitsuba_ward_to_mitsuba_ward_duer --fits fits");
   CHECK(card.output.find("Round trip through mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
         std::string::npos);
 
   // A header that was edited is remade alone.
   append(session.path("generated/mitsuba_ward_to_mitsuba_ward_duer.hpp"), "// mine\n");
-  const ProcessResult check = session.remapc(build_of(session, {"--check"}));
+  const ProcessResult check = session.remapc(build_of("--check"));
   CHECK(check.exit_code == 1);
   CHECK(check.output.find("was changed after the last build") != std::string::npos);
-  const std::string fit = read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json"));
-  const ProcessResult again = session.remapc(build_of(session));
+  const std::string fit = session.content("fits/mitsuba_ward_to_mitsuba_ward_duer.json");
+  const ProcessResult again = session.remapc(build_of());
   CHECK(built_ids(again) == std::vector<std::string>{"mitsuba_ward_to_mitsuba_ward_duer"});
   CHECK_FALSE(nlohmann::json::parse(again.output)["built"][0]["fit"].get<bool>());
-  CHECK(read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json")) == fit);
+  CHECK(session.content("fits/mitsuba_ward_to_mitsuba_ward_duer.json") == fit);
 
   // A deleted fit is remade from its table, with the same bytes.
   std::filesystem::remove(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json"));
-  CHECK(built_ids(session.remapc(build_of(session))).size() == 1);
-  CHECK(read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json")) == fit);
+  CHECK(built_ids(session.remapc(build_of())).size() == 1);
+  CHECK(session.content("fits/mitsuba_ward_to_mitsuba_ward_duer.json") == fit);
 
   // Another recipe of the sweeps remakes both pairs, and the chain that uses one of them.
   session.write("fits/manifest.json", manifest(56));
-  CHECK(built_ids(session.remapc(build_of(session))) ==
+  CHECK(built_ids(session.remapc(build_of())) ==
         std::vector<std::string>{"a_b_to_mitsuba_ward_duer", "mitsuba_ward_duer_to_mitsuba_ward",
                                  "mitsuba_ward_to_mitsuba_ward_duer"});
 }
@@ -134,31 +127,29 @@ TEST_CASE("remapc build: converters.json that is not of the last build is made a
   require_success(session.remapc(session.fit("t.csv")));  // of no item of the manifest
   const std::string list = session.path("generated/converters.json"), id = "a_b_to_mitsuba_ward";
   const auto is_current = [&] {
-    return session
-               .remapc({"emit", "--all", "--check", "--fits", session.path("fits"), "-o",
-                        session.path("generated")})
-               .output.find("converters.json") == std::string::npos;
+    return session.remapc("emit --all --check --fits fits -o generated").output.find("converters.json") ==
+           std::string::npos;
   };
-  CHECK(built_ids(session.remapc(build_of(session))) == std::vector<std::string>{id});
+  CHECK(built_ids(session.remapc(build_of())) == std::vector<std::string>{id});
   const std::string text = read_file(list);
   CHECK(text.find("mitsuba_ward_to_mitsuba_as") != std::string::npos);
   CHECK(is_current());
 
   // What was changed by hand is made again.
   append(list, "\n");
-  const ProcessResult check = session.remapc(build_of(session, {"--check"}));
+  const ProcessResult check = session.remapc(build_of("--check"));
   CHECK(check.exit_code == 1);
   CHECK(check.output.find("converters.json: is out of date with the fits") != std::string::npos);
-  CHECK(built_ids(session.remapc(build_of(session))).empty());
+  CHECK(built_ids(session.remapc(build_of())).empty());
   CHECK(read_file(list) == text);
 
   // A converter that is made again as it was leaves the file as it is; one with another recipe does not.
   std::filesystem::remove(session.path("generated/" + id + ".hpp"));
-  CHECK(built_ids(session.remapc(build_of(session))) == std::vector<std::string>{id});
+  CHECK(built_ids(session.remapc(build_of())) == std::vector<std::string>{id});
   CHECK(read_file(list) == text);
   items["published"][0]["slope"]["c0"] = 0.6;
   session.write("fits/manifest.json", items.dump());
-  CHECK(built_ids(session.remapc(build_of(session))) == std::vector<std::string>{id});
+  CHECK(built_ids(session.remapc(build_of())) == std::vector<std::string>{id});
   CHECK(read_file(list) != text);
   CHECK(is_current());
 }
@@ -170,12 +161,11 @@ TEST_CASE("remapc build: a table that was changed after its fit is reported") {
       R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": []})");
   session.write("fits/tables/t.csv", made_table(14, 4));
   require_success(session.remapc(session.fit("fits/tables/t.csv")));
-  CHECK(session.remapc(build_of(session, {"--check"})).output.find("out of date with the fits") !=
-        std::string::npos);
-  CHECK(built_ids(session.remapc(build_of(session))).empty());
-  CHECK(session.remapc(build_of(session, {"--check"})).exit_code == 0);
+  CHECK(session.remapc(build_of("--check")).output.find("out of date with the fits") != std::string::npos);
+  CHECK(built_ids(session.remapc(build_of())).empty());
+  CHECK(session.remapc(build_of("--check")).exit_code == 0);
   append(session.path("fits/tables/t.csv"), "0.5,0.5,0.4,0.4,0,ok\n");
-  const ProcessResult check = session.remapc(build_of(session, {"--check"}));
+  const ProcessResult check = session.remapc(build_of("--check"));
   CHECK(check.exit_code == 1);
   CHECK(check.output.find("t.csv was changed after the fit") != std::string::npos);
 }
@@ -188,32 +178,31 @@ TEST_CASE("remapc build: items that left the manifest are reported, and removed 
   auto items = quick_manifest();
   items["chains"] = nlohmann::json::array();
   session.write("fits/manifest.json", items.dump());
-  require_success(session.remapc(build_of(session)));
+  require_success(session.remapc(build_of()));
   items["published"] = items["sweeps"] = nlohmann::json::array();
   session.write("fits/manifest.json", items.dump());
-  const ProcessResult check = session.remapc(build_of(session, {"--check"}));
+  const ProcessResult check = session.remapc(build_of("--check"));
   CHECK(check.exit_code == 1);
   for (const std::string& id : swept)
     CHECK(check.output.find(id + ": no longer in the manifest (`remapc build --prune`") != std::string::npos);
 
   // They are reported until they are removed; files that were changed by hand stay.
   for (int i = 0; i < 2; ++i) {
-    const auto report = nlohmann::json::parse(session.remapc(build_of(session)).output);
+    const auto report = nlohmann::json::parse(session.remapc(build_of()).output);
     CHECK(report["vanished"].size() == 3);
     CHECK(report["pruned"].empty());
   }
-  for (const std::string& id : swept)
-    CHECK(read_file(session.path("fits/README.md")).find(id) != std::string::npos);
+  for (const std::string& id : swept) CHECK(session.content("fits/README.md").find(id) != std::string::npos);
   append(session.path("generated/" + published + ".hpp"), "// mine\n");
-  const auto pruned = nlohmann::json::parse(session.remapc(build_of(session, {"--prune"})).output);
+  const auto pruned = nlohmann::json::parse(session.remapc(build_of("--prune")).output);
   CHECK(pruned["pruned"] == swept);
   CHECK(pruned["vanished"] == std::vector<std::string>{published});
   for (const std::string& id : swept) {
     for (const std::string& file :
          {"fits/" + id + ".json", "fits/tables/" + id + ".csv", "generated/" + id + ".hpp"})
       CHECK_FALSE(std::filesystem::exists(session.path(file)));
-    CHECK(read_file(session.path("fits/README.md")).find(id + ".json") == std::string::npos);
-    CHECK(read_file(session.path("generated/converters.json")).find("\"" + id + "\"") == std::string::npos);
+    CHECK(session.content("fits/README.md").find(id + ".json") == std::string::npos);
+    CHECK(session.content("generated/converters.json").find("\"" + id + "\"") == std::string::npos);
   }
 }
 
@@ -222,7 +211,7 @@ TEST_CASE("remapc build: items that fail do not stop the others, and all are nam
   auto items = quick_manifest();
   items["sweeps"][0]["models"] = {"mitsuba/ward", "mitsuba/ward-duer", "mitsuba/wart"};
   session.write("fits/manifest.json", items.dump());
-  const ProcessResult failed = session.remapc(build_of(session));
+  const ProcessResult failed = session.remapc(build_of());
   CHECK(failed.exit_code == 2);
   CHECK_THAT(failed.last_error(), Catch::Matchers::Contains("4 of 8 items failed") &&
                                       Catch::Matchers::Contains("mitsuba_ward_to_mitsuba_wart: ") &&
@@ -230,15 +219,13 @@ TEST_CASE("remapc build: items that fail do not stop the others, and all are nam
   CHECK(std::filesystem::exists(session.path("generated/a_b_to_mitsuba_ward_duer.hpp")));
   CHECK_FALSE(std::filesystem::exists(session.path("generated/converters.json")));
   session.write("fits/manifest.json", quick_manifest().dump());
-  CHECK(built_ids(session.remapc(build_of(session))).empty());
+  CHECK(built_ids(session.remapc(build_of())).empty());
 }
 
 TEST_CASE("remapc build: an interrupted build continues where it stopped", "[slow]") {
   const Session session;
   session.write("fits/manifest.json", quick_manifest(200).dump());
-  std::vector<std::string> words = build_of(session, {"--jobs", "1"});
-  words.insert(words.begin(), REMAPC_PROGRAM);
-  Process process(words);
+  Process process = session.start(REMAPC_PROGRAM + build_of("--jobs 1"));
   while (process.is_running() && !std::filesystem::exists(session.path("fits/manifest.lock")))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   process.send(SIGINT);
@@ -248,18 +235,15 @@ TEST_CASE("remapc build: an interrupted build continues where it stopped", "[slo
   CHECK(cut.last_error().find("interrupted") != std::string::npos);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(session.path("fits")))
     CHECK(entry.path().filename().string().front() != '.');
-  built_ids(session.remapc(build_of(session)));
-  CHECK(session.remapc(build_of(session, {"--check"})).exit_code == 0);
+  built_ids(session.remapc(build_of()));
+  CHECK(session.remapc(build_of("--check")).exit_code == 0);
 }
 
 TEST_CASE("remapc fit --swap: the table's target becomes the source") {
   const Session session;
   session.write("t.csv", made_table(24, 6));
-  std::vector<std::string> swap = session.fit("t.csv", "swapped");
-  swap.push_back("--swap");
-  require_success(session.remapc(swap));
-  const auto swapped =
-      nlohmann::json::parse(read_file(session.path("swapped/mitsuba_as_to_mitsuba_ward.json")));
+  require_success(session.remapc(session.fit("t.csv", "swapped") + "--swap"));
+  const auto swapped = nlohmann::json::parse(session.content("swapped/mitsuba_as_to_mitsuba_ward.json"));
   CHECK(swapped["source"]["specular"] == "f0");
   CHECK(swapped["table"]["comments"]["roles"] == "swapped");
 }
@@ -269,8 +253,7 @@ TEST_CASE("remapc invert: the inverse says what it is of, and how near it is", "
   session.write("t.csv", made_table(24, 6));
   require_success(session.remapc(session.fit("t.csv")));
   const ProcessResult inverted =
-      require_success(session.remapc({"invert", session.path("fits/mitsuba_ward_to_mitsuba_as.json"), "-o",
-                                      session.path("inverse"), "--json"}));
+      require_success(session.remapc("invert fits/mitsuba_ward_to_mitsuba_as.json -o inverse --json"));
   const auto json = nlohmann::json::parse(inverted.output);
   CHECK(json["inverse_of"] == "mitsuba_ward_to_mitsuba_as");
   CHECK(json["alpha_error"]["max"].get<double>() < 2e-3);
@@ -279,18 +262,15 @@ TEST_CASE("remapc invert: the inverse says what it is of, and how near it is", "
 TEST_CASE("remapc chain: composes one fit") {
   const Session session;
   session.write("fits/manifest.json", published_manifest().dump());
-  require_success(session.remapc(build_of(session)));
-  const ProcessResult made =
-      require_success(session.remapc({"chain", "a_b_to_mitsuba_ward", "mitsuba_ward_to_mitsuba_ward_duer",
-                                      "--fits", session.path("fits"), "-o", session.path("mine"), "--json"}));
+  require_success(session.remapc(build_of()));
+  const ProcessResult made = require_success(session.remapc(
+      "chain a_b_to_mitsuba_ward mitsuba_ward_to_mitsuba_ward_duer --fits fits -o mine --json"));
   CHECK(nlohmann::json::parse(made.output)["lowered_within"]["alpha"].get<double>() <= 1e-5);
-  CHECK(read_file(session.path("mine/a_b_to_mitsuba_ward_duer.json")) ==
-        read_file(session.path("fits/a_b_to_mitsuba_ward_duer.json")));
-  const ProcessResult shown = session.remapc({"show", session.path("mine/a_b_to_mitsuba_ward_duer.json")});
+  CHECK(session.content("mine/a_b_to_mitsuba_ward_duer.json") ==
+        session.content("fits/a_b_to_mitsuba_ward_duer.json"));
+  const ProcessResult shown = session.remapc("show mine/a_b_to_mitsuba_ward_duer.json");
   CHECK(shown.output.find("Composed of a_b_to_mitsuba_ward, then") != std::string::npos);
-  CHECK(
-      session.remapc({"emit", session.path("mine/a_b_to_mitsuba_ward_duer.json"), "-o", session.path("mine")})
-          .exit_code == 0);
+  CHECK(session.remapc("emit mine/a_b_to_mitsuba_ward_duer.json -o mine").exit_code == 0);
   CHECK(made.output.find("colored") != std::string::npos);
 }
 
@@ -300,27 +280,22 @@ TEST_CASE("remapc build: tables of real renderers are reused without the rendere
                 R"({"format": "remap-manifest", "version": 1, "published": [], "inverses": [], "chains": [],
   "sweeps": [{"pairs": [["fake/ggx", "mitsuba/ggx"]], "objective": "natural", "resolution": 48,
     "alpha": [0.05, 0.6], "roughness_samples": 12, "specular_samples": 3, "seed": 1}]})");
-  const auto with_worker = [&](std::vector<std::string> more) {
-    more.insert(more.end(), {"--no-cache", "--worker", std::string("fake=") + REMAP_FAKE_WORKER});
-    return session.remapc(build_of(session, more));
-  };
-  CHECK(built_ids(with_worker({})) ==
+  CHECK(built_ids(session.remapc(build_of("--no-cache --worker fake=" REMAP_FAKE_WORKER))) ==
         std::vector<std::string>{"fake_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_fake_ggx"});
-  const std::string table = read_file(session.path("fits/tables/fake_ggx_to_mitsuba_ggx.csv"));
+  const std::string table = session.content("fits/tables/fake_ggx_to_mitsuba_ggx.csv");
 
   // Without the worker: nothing is out of date; --force reuses the tables; a changed table is an error.
-  const std::vector<std::string> elsewhere = {"--worker", "fake=/nowhere/to-be-found"};
-  CHECK(built_ids(session.remapc(build_of(session, elsewhere))).empty());
-  std::vector<std::string> forced = elsewhere;
-  forced.emplace_back("--force");
-  const ProcessResult again = session.remapc(build_of(session, forced));
+  const Words elsewhere = "--worker fake=/nowhere/to-be-found";
+  CHECK(built_ids(session.remapc(build_of(elsewhere))).empty());
+  const Words forced = elsewhere + "--force";
+  const ProcessResult again = session.remapc(build_of(forced));
   REQUIRE(built_ids(again).size() == 2);
-  CHECK(read_file(session.path("fits/tables/fake_ggx_to_mitsuba_ggx.csv")) == table);
+  CHECK(session.content("fits/tables/fake_ggx_to_mitsuba_ggx.csv") == table);
   const auto built = nlohmann::json::parse(again.output)["built"];
   CHECK(built[0]["table"] == false);
   CHECK_THAT(built[0]["kept_table"].get<std::string>(), Catch::Matchers::Contains("fake"));
   append(session.path("fits/tables/fake_ggx_to_mitsuba_ggx.csv"), "# changed\n");
-  const ProcessResult refused = session.remapc(build_of(session, forced));
+  const ProcessResult refused = session.remapc(build_of(forced));
   CHECK(refused.exit_code == 1);
   CHECK_THAT(refused.last_error(), Catch::Matchers::Contains("fake_ggx_to_mitsuba_ggx: worker fake"));
 }

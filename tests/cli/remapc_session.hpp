@@ -15,42 +15,30 @@
 
 namespace remap {
 
-// remapc in a folder of its own.
-class Session {
+class Session : public CommandFolder {
  public:
-  ProcessResult remapc(std::vector<std::string> arguments, const ProcessLimits& limits = {}) const {
-    arguments.insert(arguments.begin(), REMAPC_PROGRAM);
-    return run(arguments, limits);
+  ProcessResult remapc(const Words& words, const ProcessLimits& limits = {}) const {
+    return run(REMAPC_PROGRAM + words, limits);
   }
   // Runs remap-study.
-  ProcessResult study(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), REMAP_STUDY);
-    return run(arguments);
-  }
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-  void write(const std::string& name, const std::string& content) const {
-    write_file(folder_.path() / name, content);
-  }
+  ProcessResult study(const Words& words) const { return run(REMAP_STUDY + words); }
+  void write(const std::string& name, const std::string& content) const { write_file(path(name), content); }
   std::size_t file_count() const {
     return static_cast<std::size_t>(
-        std::distance(std::filesystem::recursive_directory_iterator(folder_.path()), {}));
+        std::distance(std::filesystem::recursive_directory_iterator(path("")), {}));
   }
 
   // A fit of a table, by the quickest regression.
-  std::vector<std::string> fit(const std::string& table, const std::string& folder = "fits") const {
-    return {"fit", path(table), "--model", "parametric", "-o", path(folder)};
+  Words fit(const std::string& table, const std::string& folder = "fits") const {
+    return "fit " + table + " --model parametric -o " + folder;
   }
 
   // A small sweep, ward to as.
-  std::vector<std::string> sweep(const std::string& table) const {
-    return split_words(
-        "sweep --source mitsuba/ward --target mitsuba/as --resolution 64 --roughness-samples 12 "
-        "--specular-samples 3 -o " +
-        path(table));
+  Words sweep(const std::string& table) const {
+    return "sweep --source mitsuba/ward --target mitsuba/as --resolution 64 --roughness-samples 12 "
+           "--specular-samples 3 -o " +
+           table;
   }
-
- private:
-  TemporaryFolder folder_;
 };
 
 inline const std::string kHeader = "alpha1,specular1,alpha2,specular2,error,status\n";

@@ -12,13 +12,13 @@ using namespace remap;
 namespace {
 
 // The arguments of a study of two pairs that takes a second.
-std::vector<std::string> small_study(const std::vector<std::string>& more = {},
+std::vector<std::string> small_study(const Words& more = {},
                                      const std::string& fits = REMAP_SOURCE_DIR "/fits") {
-  std::vector<std::string> arguments = split_words(
-      "environments --pair mitsuba/ward:mitsuba/as --pair mitsuba/beckmann:mitsuba/ggx --alphas 0.2,0.5 "
-      "--resolution 16 --samples 64 --fits " +
-      fits);
-  arguments.insert(arguments.end(), more.begin(), more.end());
+  Words arguments =
+      ("environments --pair mitsuba/ward:mitsuba/as --pair mitsuba/beckmann:mitsuba/ggx --alphas 0.2,0.5 "
+       "--resolution 16 --samples 64 --fits " +
+       fits);
+  arguments += more;
   return arguments;
 }
 
@@ -36,7 +36,7 @@ float contrast(const std::string& path) {
 // What gnuplot draws, where it is installed.
 void check_plot(const Session& session, const ProcessResult& result, const std::string& name) {
   if (has_program("gnuplot"))
-    CHECK_THAT(read_file(session.path("study/" + name)), Catch::Contains("</svg>"));
+    CHECK_THAT(session.content("study/" + name), Catch::Contains("</svg>"));
   else
     CHECK_THAT(result.errors, Catch::Contains(name + " was not drawn"));
 }
@@ -48,16 +48,16 @@ TEST_CASE("remap-study environments: writes tables and a summary", "[needs][slow
   // Only the first pair has a fit.
   const std::string fit = "mitsuba_ward_to_mitsuba_as.json";
   session.write("fits/" + fit, read_file(std::filesystem::path(REMAP_SOURCE_DIR "/fits") / fit));
-  const ProcessResult result = require_success(session.study(
-      small_study({"-o", session.path("study"), "--pictures", "--least-error"}, session.path("fits"))));
+  const ProcessResult result =
+      require_success(session.study(small_study("-o study --pictures --least-error", session.path("fits"))));
   CHECK(result.output.find("Spheres under sky, overcast, studio, mean luminance 1; alpha 0.2, 0.5, ") == 0);
   CHECK(result.output.find("shipped (1 of 2 pairs)") != std::string::npos);
   CHECK(result.output.find("With `natural`, no pair is worse than copying.") != std::string::npos);
   CHECK(result.output.find("mitsuba/beckmann -> mitsuba/ggx has no fit") != std::string::npos);
   // 5 comments, the header; 9 pairs of models and methods, 2 alphas, 3 environments.
-  CHECK(line_count(read_file(session.path("study/environments.csv"))) == 6 + 9 * 2 * 3);
+  CHECK(line_count(session.content("study/environments.csv")) == 6 + 9 * 2 * 3);
   // Means of 5 methods over all pairs, and of the 9.
-  CHECK(line_count(read_file(session.path("study/environments_summary.csv"))) == 6 + 5 + 9);
+  CHECK(line_count(session.content("study/environments_summary.csv")) == 6 + 5 + 9);
   check_plot(session, result, "environments.svg");
   for (const std::string name : {"sky", "overcast", "studio"})
     CHECK(contrast(session.path("study/spheres_" + name + ".png")) > 0.5f);
@@ -65,7 +65,7 @@ TEST_CASE("remap-study environments: writes tables and a summary", "[needs][slow
 
 TEST_CASE("remap-study environments: --json has the means of each method and pair", "[slow]") {
   const Session session;
-  const ProcessResult result = require_success(session.study(small_study({"--json"})));
+  const ProcessResult result = require_success(session.study(small_study("--json")));
   for (const std::string key : {"\"noise_percent\": ", "\"copy\": {", "\"shipped\": {",
                                 "\"rmse_percent\": ", "\"worse_than_copy\": [", "\"target\": \"mitsuba/as\""})
     CHECK(result.output.find(key) != std::string::npos);
@@ -74,24 +74,19 @@ TEST_CASE("remap-study environments: --json has the means of each method and pai
 
 TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes", "[needs][slow]") {
   const Session session;
-  const std::vector<std::string> small = {
-      "workflows",    "--count", "2",      "--alphas",           "0.2,0.5",        "--samples", "64",
-      "--resolution", "16",      "--fits", session.path("none"), "--family-count", "50"};
+  const Words small =
+      "workflows --count 2 --alphas 0.2,0.5 --samples 64 --resolution 16 --fits none --family-count 50";
   session.write("none/remark.txt", "");
-  std::vector<std::string> full = small;
-  full.insert(full.end(), {"-o", session.path("study"), "--pictures"});
-  const ProcessResult result = require_success(session.study(full));
+  const ProcessResult result = require_success(session.study(small + "-o study --pictures"));
   CHECK(result.output.find("6 materials at alpha 0.2, 0.5 under 3 environments") == 0);
   CHECK(result.output.find("Note: the group ngan has no materials") != std::string::npos);
   CHECK(result.output.find("Note: the fits contain no network") != std::string::npos);
   // 5 comments, the header; 6 materials by 7 methods plain and 5 of glTF.
-  CHECK(line_count(read_file(session.path("study/workflows.csv"))) == 6 + 6 * (7 + 5));
-  CHECK(line_count(read_file(session.path("study/workflows_summary.csv"))) == 6 + (7 + 5) * 4);
+  CHECK(line_count(session.content("study/workflows.csv")) == 6 + 6 * (7 + 5));
+  CHECK(line_count(session.content("study/workflows_summary.csv")) == 6 + (7 + 5) * 4);
   check_plot(session, result, "workflows.svg");
   CHECK(contrast(session.path("study/workflows_sky.png")) > 0.5f);
-  std::vector<std::string> json = small;
-  json.emplace_back("--json");
-  const std::string figures = session.study(json).output;
+  const std::string figures = session.study(small + "--json").output;
   for (const std::string key :
        {"\"gltf\": {", "\"projection\": {", "\"worst_ssim\": ", "\"uniform, 8-bit\": {"})
     CHECK(figures.find(key) != std::string::npos);

@@ -31,16 +31,8 @@ void keep_diffuse_alone(const Session& session, const std::string& folder) {
   std::filesystem::remove(session.path(folder + "/skin_roughness.exr"));
 }
 
-nlohmann::json report_of(const Session& session, std::vector<std::string> more) {
-  more.push_back("--json");
-  const ProcessResult result = require_success(session.remapc(warp_words(session, more)));
-  return nlohmann::json::parse(result.output);
-}
-
-std::vector<std::string> first_words(const Session& session, std::size_t pairs) {
-  std::vector<std::string> words = mask_words(session);
-  words.resize(3 * pairs);
-  return words;
+nlohmann::json report_of(const Session& session, const Words& more) {
+  return nlohmann::json::parse(require_success(run_warp(session, more + "--json")).output);
 }
 
 }  // namespace
@@ -53,7 +45,7 @@ TEST_CASE("remapc warp: a material without finite values is refused") {
     texel.fill(std::numeric_limits<float>::quiet_NaN());
     return texel;
   });
-  const ProcessResult result = session.remapc(warp_words(session, mask_words(session)));
+  const ProcessResult result = run_warp(session, mask_words());
   check_failure(result, 1, "wood: contains no texel with finite values");
   CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
 }
@@ -62,7 +54,7 @@ TEST_CASE("remapc warp: one or two strokes do not determine all directions, with
   const Session session;
   write_materials(session);
   for (const std::size_t pairs : {std::size_t{1}, std::size_t{2}}) {
-    const auto json = report_of(session, first_words(session, pairs));
+    const auto json = report_of(session, mask_words(pairs));
     CHECK(json["diagnostics"]["fixed_directions"] == pairs - 1);
     const std::string warnings = json["warnings"].dump();
     CAPTURE(warnings);
@@ -74,7 +66,7 @@ TEST_CASE("remapc warp: one or two strokes do not determine all directions, with
 TEST_CASE("remapc warp: a region marked twice with different partners gives a warning") {
   const Session session;
   write_materials(session);
-  std::vector<std::string> words = mask_words(session);
+  Words words = mask_words();
   // Marks the first corner again, as the partner of the template's opposite corner, by other texels, because
   // strokes within other strokes are refused.
   write_image(session.path("again.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8),
@@ -82,7 +74,7 @@ TEST_CASE("remapc warp: a region marked twice with different partners gives a wa
                 const Latent at = latent(x, y, 0.1);
                 return at.u < 0.25 && at.v < 0.25 && corner_of(at) < 0 ? 1.0f : 0.0f;
               });
-  words.insert(words.end(), {"--stroke", session.path("again.png"), session.path("stone_3.png")});
+  words += "--stroke again.png stone_3.png";
   write_image(session.path("other.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8),
               [](int x, int y, int) {
                 const Latent at = latent(x, y, 0.37);
@@ -102,7 +94,7 @@ TEST_CASE("remapc warp: texels that are not finite are counted and do not affect
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) torn += latent(x, y, 0.1).u > 0.99 ? 1u : 0u;
   REQUIRE(torn > 10);
-  const auto json = report_of(session, mask_words(session));
+  const auto json = report_of(session, mask_words());
   CHECK(json["diagnostics"]["source_texels_left_out"] == torn);
   CHECK(json["warnings"].dump().find(std::to_string(torn) +
                                      " texels of the source and 0 of the template are not finite") !=
@@ -115,17 +107,17 @@ TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its co
   write_materials(session);
   write_set(session, "wood", 0.1, albedo_texel);
   keep_diffuse_alone(session, "wood");
-  const ProcessResult result = require_success(session.remapc(warp_words(session, mask_words(session))));
+  const ProcessResult result = require_success(run_warp(session, mask_words()));
   CHECK(result.errors.find("the source has a diffuse map only") != std::string::npos);
   const WarpMapFit fit = read_warp(session);
   CHECK(is_of_diffuse_alone(fit));
   CHECK(error_of(fit, albedo_texel) < 0.25);
-  const ProcessResult card = session.remapc({"show", session.path("stony.json")});
+  const ProcessResult card = session.remapc("show stony.json");
   CHECK(card.output.find("source_maps") != std::string::npos);
 
   write_set(session, "wood", 0.1, grey_albedo_texel);
   keep_diffuse_alone(session, "wood");
-  const std::string warnings = report_of(session, mask_words(session))["warnings"].dump();
+  const std::string warnings = report_of(session, mask_words())["warnings"].dump();
   CAPTURE(warnings);
   CHECK(warnings.find("the source varies in 1 dimension and the template in 2") != std::string::npos);
 }

@@ -40,14 +40,14 @@ std::string paint_image(const Session& session, const std::string& name, double 
   OIIO::ImageSpec spec = test_spec(kSize, kSize, channels, OIIO::TypeUInt8);
   spec.attribute("CompressionQuality", 85);
   write_image(session.path(name), spec, [&](int x, int y, int c) { return painted(paint, phase, x, y, c); });
-  return session.path(name);
+  return name;
 }
 
 // `remapc warp` with two images.
 ProcessResult run_painted(const Session& session, const Paint& from, const Paint& to,
                           const std::string& extension = ".png") {
-  return session.remapc(warp_words(session, {"--strokes", paint_image(session, "from" + extension, 0.1, from),
-                                             paint_image(session, "to" + extension, 0.37, to), "--json"}));
+  return run_warp(session, "--strokes " + paint_image(session, "from" + extension, 0.1, from) + " " +
+                               paint_image(session, "to" + extension, 0.37, to) + " --json");
 }
 
 }  // namespace

@@ -65,20 +65,13 @@ void write_map(const Session& session, const std::string& folder, const Profile&
 }
 
 // Boxes at the four corners, which correspond to each other.
-std::vector<std::string> corners() {
-  std::vector<std::string> words;
-  for (const char* box : {"0,0,6,6", "18,0,24,6", "0,18,6,24", "18,18,24,24"})
-    words.insert(words.end(), {"--box", box, box});
-  return words;
-}
+const std::string kCorners =
+    " --box 0,0,6,6 0,0,6,6 --box 18,0,24,6 18,0,24,6 --box 0,18,6,24 0,18,6,24 --box 18,18,24,24 "
+    "18,18,24,24";
 
 ProcessResult warp(const Session& session, const std::string& source, const std::string& target,
-                   const std::vector<std::string>& more) {
-  std::vector<std::string> words = {"warp", session.path(source), session.path(target)};
-  const std::vector<std::string> strokes = corners();
-  words.insert(words.end(), strokes.begin(), strokes.end());
-  words.insert(words.end(), more.begin(), more.end());
-  return session.remapc(words);
+                   const Words& more) {
+  return session.remapc("warp " + source + " " + target + kCorners + more);
 }
 
 // RMS distance between the positions that texels are copied from and their own positions, which are correct,
@@ -99,8 +92,7 @@ TEST_CASE("remapc warp: profiles of a list are replaced by those of another list
   const Session session;
   write_list(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
-  const ProcessResult result =
-      require_success(warp(session, "blue", "yellow", {"--copy", session.path("copied"), "--json"}));
+  const ProcessResult result = require_success(warp(session, "blue", "yellow", "--copy copied --json"));
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["diagnostics"]["dimensions"] == 2);
   CHECK(json["files"].size() == 3);
@@ -112,20 +104,18 @@ TEST_CASE("remapc warp: profiles of a list are replaced by those of another list
     for (int x = 0; x < kEdge; ++x)
       CHECK(index.at(x, y, 0) == places.at(x, y, row) * kEdge + places.at(x, y, column));
   CHECK(place_error(places) < 0.15);  // unrelated positions: 0.58
-  CHECK(read_file(session.path("copied/profiles.csv")) == read_file(session.path("yellow/profiles.csv")));
+  CHECK(session.content("copied/profiles.csv") == session.content("yellow/profiles.csv"));
   // The copy is a valid set.
-  CHECK(warp(session, "copied", "blue", {"--copy", session.path("back")}).exit_code == 0);
+  CHECK(warp(session, "copied", "blue", "--copy back").exit_code == 0);
 }
 
 TEST_CASE("remapc warp: a map of profiles is replaced by profiles of a list, and the reverse", "[slow]") {
   const Session session;
   write_map(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
-  const ProcessResult there =
-      require_success(warp(session, "blue", "yellow", {"--copy", session.path("there")}));
+  const ProcessResult there = require_success(warp(session, "blue", "yellow", "--copy there"));
   CHECK(place_error(read_image(session.path("there/template_texel.exr"))) < 0.15);
-  const ProcessResult back =
-      require_success(warp(session, "yellow", "blue", {"--copy", session.path("back")}));
+  const ProcessResult back = require_success(warp(session, "yellow", "blue", "--copy back"));
   const TestImage profiles = read_image(session.path("back/profiles.exr")),
                   places = read_image(session.path("back/template_texel.exr"));
   CHECK(place_error(places) < 0.15);

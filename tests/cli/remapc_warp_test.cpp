@@ -9,9 +9,9 @@ using namespace remap::warp_cli;
 TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel its correct reflectance") {
   const Session session;
   write_materials(session);
-  std::vector<std::string> words = mask_words(session);
+  Words words = mask_words();
   words.push_back("--json");
-  const ProcessResult result = require_success(session.remapc(warp_words(session, words)));
+  const ProcessResult result = require_success(run_warp(session, words));
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["diagnostics"]["dimensions"] == 2);
   CHECK(json["diagnostics"]["fixed_directions"] == 2);
@@ -20,7 +20,7 @@ TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel its
   const WarpMapFit fit = read_warp(session);
   CHECK(fit.id == "stony");
   CHECK(error_of(fit, source_texel) < 0.25);
-  const ProcessResult card = session.remapc({"show", session.path("stony.json")});
+  const ProcessResult card = session.remapc("show stony.json");
   CHECK(card.exit_code == 0);
   CHECK(card.output.find("warp") != std::string::npos);
 }
@@ -30,9 +30,9 @@ TEST_CASE(
     "[slow]") {
   const Session session;
   write_materials(session);
-  std::vector<std::string> words = mask_words(session);
-  words.insert(words.end(), {"--exact", "--json"});
-  const ProcessResult made = require_success(session.remapc(warp_words(session, words)));
+  Words words = mask_words();
+  words += "--exact --json";
+  const ProcessResult made = require_success(run_warp(session, words));
   const auto json = nlohmann::json::parse(made.output);
   CHECK(json["copy_rms_error"] > 0.0);
   CHECK(json["copy_rms_error"] < 0.05);
@@ -41,55 +41,53 @@ TEST_CASE(
                     Catch::Contains("not the fit of a warp"));
   CHECK(fit.copy_rms_error == json["copy_rms_error"]);
   CHECK(std::holds_alternative<CopiedNodes>(fit.warp.table.entries));
-  const std::string card = session.remapc({"show", session.path("stony.json")}).output;
+  const std::string card = session.remapc("show stony.json").output;
   CHECK(card.find("256 nodes each, nearest copied") != std::string::npos);
   CHECK(card.find("difference to an exact copy") != std::string::npos);
 
-  require_success(session.remapc({"emit", session.path("stony.json"), "-o", session.path("alone")}));
-  const std::string header = read_file(session.path("alone/stony.hpp"));
+  require_success(session.remapc("emit stony.json -o alone"));
+  const std::string header = session.content("alone/stony.hpp");
   CHECK(header.find("kCopyRmsError") != std::string::npos);
   std::filesystem::create_directories(session.path("fits"));
   std::filesystem::copy_file(session.path("stony.json"), session.path("fits/stony.json"));
   session.write("fits/manifest.json",
                 R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [],
                     "chains": []})");
-  const std::vector<std::string> folders = {"--fits", session.path("fits"), "-o", session.path("generated")};
-  const auto run_with = [&](std::vector<std::string> command) {
-    command.insert(command.end(), folders.begin(), folders.end());
+  const Words folders = "--fits fits -o generated";
+  const auto run_with = [&](Words command) {
+    command += folders;
     return session.remapc(command);
   };
-  CHECK(run_with({"emit", "--all", "--check"}).exit_code == 1);
-  CHECK(run_with({"emit", "--all"}).exit_code == 0);
-  CHECK(read_file(session.path("generated/stony.hpp")) == header);
-  CHECK(read_file(session.path("generated/converters.json")).find("stony") == std::string::npos);
+  CHECK(run_with("emit --all --check").exit_code == 1);
+  CHECK(run_with("emit --all").exit_code == 0);
+  CHECK(session.content("generated/stony.hpp") == header);
+  CHECK(session.content("generated/converters.json").find("stony") == std::string::npos);
   CHECK(run_with({"build"}).exit_code == 0);
-  CHECK(run_with({"build", "--check"}).exit_code == 0);
-  CHECK(read_file(session.path("fits/README.md")).find("[stony](stony.json)") != std::string::npos);
-  CHECK(run_with({"emit", "--all", "--check"}).exit_code == 0);
+  CHECK(run_with("build --check").exit_code == 0);
+  CHECK(session.content("fits/README.md").find("[stony](stony.json)") != std::string::npos);
+  CHECK(run_with("emit --all --check").exit_code == 0);
   session.write("generated/stony.hpp", "");
-  const ProcessResult stale = run_with({"build", "--check"});
+  const ProcessResult stale = run_with("build --check");
   CHECK(stale.exit_code == 1);
   CHECK((stale.output + stale.errors).find("stony.hpp is out of date with its fit") != std::string::npos);
-  CHECK(session.remapc({"list", "--fits", session.path("fits")}).output.find("from an exact copy") !=
-        std::string::npos);
+  CHECK(session.remapc("list --fits fits").output.find("from an exact copy") != std::string::npos);
 }
 
 TEST_CASE("remapc warp: strokes that share most of a region give a warning") {
   const Session session;
   write_materials(session);
-  const ProcessResult result = require_success(
-      session.remapc(warp_words(session, {"--box", "0,0,20,10", "0,0,20,10", "--box", "5,0,40,10",
-                                          "50,50,70,60", "--box", "0,60,30,90", "10,70,40,90"})));
+  const ProcessResult result = require_success(run_warp(
+      session, "--box 0,0,20,10 0,0,20,10 --box 5,0,40,10 50,50,70,60 --box 0,60,30,90 10,70,40,90"));
   CHECK(result.errors.find("stroke 2 covers 75 % of stroke 1 in the source") != std::string::npos);
 }
 
 TEST_CASE("remapc warp: --report writes one HTML file with its pictures", "[slow]") {
   const Session session;
   write_materials(session);
-  std::vector<std::string> words = mask_words(session);
-  words.insert(words.end(), {"--report", session.path("report.html")});
-  const ProcessResult result = require_success(session.remapc(warp_words(session, words)));
-  const std::string html = read_file(session.path("report.html"));
+  Words words = mask_words();
+  words += "--report report.html";
+  const ProcessResult result = require_success(run_warp(session, words));
+  const std::string html = session.content("report.html");
   std::size_t pictures = 0;
   for (std::size_t at = html.find("data:image/png;base64,iVBORw0KGgo"); at != std::string::npos;
        at = html.find("data:image/png;base64,iVBORw0KGgo", at + 1))
@@ -104,11 +102,10 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures", "[slow
 TEST_CASE("remapc warp: a report contains the warnings") {
   const Session session;
   write_materials(session);
-  const std::vector<std::string> few = {"--box", "0,0,20,20", "0,0,20,20", "--report"};
-  std::vector<std::string> words = few;
+  const Words few = "--box 0,0,20,20 0,0,20,20 --report";
+  Words words = few;
   words.push_back(session.path("report.html"));
-  require_success(session.remapc(warp_words(session, words)));
-  CHECK(
-      read_file(session.path("report.html")).find("class=\"warning\">strokes do not determine direction 1") !=
-      std::string::npos);
+  require_success(run_warp(session, words));
+  CHECK(session.content("report.html").find("class=\"warning\">strokes do not determine direction 1") !=
+        std::string::npos);
 }

@@ -16,14 +16,11 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::vector<std::string> sweep(const Session& session, const FakeSession& fake, const std::string& table,
-                               const std::string& fault = "", const std::string& cache = "cache") {
-  std::vector<std::string> words = split_words(
-      "sweep --source fake/ggx --target mitsuba/ggx-plain --resolution 32 --roughness-samples 5 "
-      "--specular-samples 2 --roughness-range 0.2,0.9");
-  words.insert(words.end(), {"--worker", "fake=" + fake.command(fault), "--cache", session.path(cache), "-o",
-                             session.path(table)});
-  return words;
+Words sweep(const FakeSession& fake, const std::string& table, const std::string& fault = "",
+            const std::string& cache = "cache") {
+  return "sweep --source fake/ggx --target mitsuba/ggx-plain --resolution 32 --roughness-samples 5 "
+         "--specular-samples 2 --roughness-range 0.2,0.9" +
+         Words{"--worker", "fake=" + fake.command(fault), "--cache", cache, "-o", table};
 }
 
 // Until the workers have made `count` pictures.
@@ -38,30 +35,30 @@ void wait_for_pictures(const FakeSession& fake, std::size_t count) {
 TEST_CASE("remapc sweep: a worker is the source, and the second run is from the cache", "[slow]") {
   const Session session;
   const FakeSession fake;
-  const ProcessResult first = require_success(session.remapc(sweep(session, fake, "a.csv")));
+  const ProcessResult first = require_success(session.remapc(sweep(fake, "a.csv")));
   const std::size_t pictures = fake.pictures();
   CHECK_THAT(first.errors, Contains(std::to_string(pictures) + " pictures rendered and "));
-  const std::string table = read_file(session.path("a.csv"));
+  const std::string table = session.content("a.csv");
   CHECK_THAT(table, Contains("# renderer: Fake 1; remapc "));
   CHECK_THAT(table, Contains("\n0.9,0.5,0.89999999"));  // the identity, to the float
-  const ProcessResult second = require_success(session.remapc(sweep(session, fake, "b.csv")));
+  const ProcessResult second = require_success(session.remapc(sweep(fake, "b.csv")));
   CHECK_THAT(second.errors, Contains(", 0 pictures rendered and "));
   CHECK(fake.pictures() == pictures);
-  CHECK(read_file(session.path("b.csv")) == table);
+  CHECK(session.content("b.csv") == table);
   CHECK(fake.nobody_is_left());
 }
 
 TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the same table", "[slow]") {
   const Session session;
   const FakeSession fake;
-  require_success(session.remapc(sweep(session, fake, "whole.csv")));
+  require_success(session.remapc(sweep(fake, "whole.csv")));
   const std::size_t pictures = fake.pictures();
-  auto broken = sweep(session, fake, "a.csv", "die' --after '28", "other");
-  broken.insert(broken.end(), {"--jobs", "1"});
+  auto broken = sweep(fake, "a.csv", "die' --after '28", "other");
+  broken += "--jobs 1";
   check_failure(session.remapc(broken), 1, "died with signal 9; last lines of its log: ");
   CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
-  require_success(session.remapc(sweep(session, fake, "a.csv", "", "other")));
-  CHECK(read_file(session.path("a.csv")) == read_file(session.path("whole.csv")));
+  require_success(session.remapc(sweep(fake, "a.csv", "", "other")));
+  CHECK(session.content("a.csv") == session.content("whole.csv"));
   CHECK(fake.pictures() == 2 * pictures);  // none of them twice
 }
 
@@ -69,9 +66,8 @@ TEST_CASE("remapc sweep: no worker stays behind when it is interrupted, or kille
   for (const int signal : {SIGINT, SIGKILL}) {
     const Session session;
     const FakeSession fake;
-    auto arguments = sweep(session, fake, "a.csv", "hang' --after '4");
-    arguments.insert(arguments.begin(), REMAPC_PROGRAM);
-    Process process(arguments);
+    auto arguments = sweep(fake, "a.csv", "hang' --after '4");
+    Process process = session.start(REMAPC_PROGRAM + arguments);
     wait_for_pictures(fake, 4);
     process.send(signal);
     const ProcessResult result = process.wait();
@@ -101,15 +97,12 @@ TEST_CASE("remapc: a signal that ends a run with workers leaves no process and n
   for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
     for (const bool is_sweep : {true, false}) {
       const FakeSession fake;
-      auto arguments = sweep(session, fake, "a.csv", "hang' --after '4");
+      auto arguments = sweep(fake, "a.csv", "hang' --after '4");
       if (!is_sweep)
-        arguments = {"render",       "--model",   "fake/ggx",
-                     "--set",        "alpha=0.2", "--set",
-                     "specular=0.5", "--worker",  "fake=" + fake.command("hang"),
-                     "--no-cache",   "-o",        session.path("a.exr")};
-      arguments.insert(arguments.begin(), REMAPC_PROGRAM);
+        arguments = "render --model fake/ggx --set alpha=0.2 --set specular=0.5 --no-cache -o a.exr" +
+                    Words{"--worker", "fake=" + fake.command("hang")};
       const std::size_t before = abandoned_folders();
-      Process process(arguments);
+      Process process = session.start(REMAPC_PROGRAM + arguments);
       wait_for_pictures(fake, is_sweep ? 4 : 0);
       for (int i = 0; i < 200 && fake.log_lines("process").empty(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -130,7 +123,7 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
           "[slow]") {
   const Session session;
   const FakeSession fake;
-  auto arguments = sweep(session, fake, "a.csv", "oren-nayar");
+  auto arguments = sweep(fake, "a.csv", "oren-nayar");
   for (std::string& word : arguments)
     if (word == "5") word = "8";  // alphas and, below, speculars: as many as a fit needs
   std::replace(arguments.begin(), arguments.end(), std::string("2"), std::string("3"));
@@ -139,52 +132,39 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.errors, Contains("fake/ggx to mitsuba/ggx-plain" + words) && Contains("--accept-light"));
   CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
-  arguments.insert(arguments.end(), {"--accept-light", "--json"});
+  arguments += "--accept-light --json";
   result = require_success(session.remapc(arguments));
-  CHECK_THAT(result.errors, Contains("remapc: warning: " + session.path("a.csv") + words));
+  CHECK_THAT(result.errors, Contains("remapc: warning: a.csv" + words));
   CHECK_THAT(result.output, Contains("\"irradiance_scale\": 1.") && Contains("\"diffuse_error\": 0.") &&
                                 Contains("\"light_warning\": \"the source's light"));
-  result = session.remapc({"check", session.path("a.csv")});
+  result = session.remapc("check a.csv");
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Contains("warning: light" + words));
 
-  std::string table = read_file(session.path("a.csv"));
+  std::string table = session.content("a.csv");
   table.erase(table.find("# light_accepted"), std::string("# light_accepted: yes\n").size());
   session.write("b.csv", table);
-  result = session.remapc({"check", "--json", session.path("b.csv")});
+  result = session.remapc("check --json b.csv");
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.output, Contains("\"kind\": \"light\"") && Contains("\"severity\": \"error\""));
-  CHECK(session.remapc({"check", "--accept-light", session.path("b.csv")}).exit_code == 0);
+  CHECK(session.remapc("check --accept-light b.csv").exit_code == 0);
   auto fit = session.fit("b.csv");
   CHECK_THAT(session.remapc(fit).errors, Contains("light" + words));
   fit.push_back("--accept-light");
   require_success(session.remapc(fit));
-  for (const char* form : {"--fits", "--json"}) {
-    std::vector<std::string> show = {"show", "fake_ggx_to_mitsuba_ggx_plain", "--fits", session.path("fits")};
-    if (std::string(form) == "--json") show.push_back(form);
-    result = session.remapc(show);
+  for (const std::string form : {"", " --json"}) {
+    result = session.remapc("show fake_ggx_to_mitsuba_ggx_plain --fits fits" + form);
     CHECK(result.exit_code == 0);
     CHECK_THAT(result.errors, Contains("remapc: warning: fake_ggx_to_mitsuba_ggx_plain" + words));
     CHECK_THAT(result.output, Contains("irradiance_scale"));
   }
 }
 
-TEST_CASE("remapc sweep: a cache that cannot be written is a warning", "[slow]") {
-  const Session session;
-  const FakeSession fake;
-  session.write("blocked", "x");
-  const ProcessResult result = session.remapc(sweep(session, fake, "a.csv", "", "blocked"));
-  INFO(result.errors);
-  CHECK(result.exit_code == 0);
-  CHECK_THAT(result.errors, Contains("remapc: warning: worker fake: cache: "));
-  CHECK(std::filesystem::exists(session.path("a.csv")));
-}
-
 TEST_CASE("remapc renderers: what is there is listed, and why the rest is not", "[slow]") {
   const Session session;
   const FakeSession fake;
   const ProcessResult result = require_success(session.remapc(
-      {"renderers", "--json", "--worker", "fake=" + fake.command(), "--worker", "gone=/no/such/program"}));
+      "renderers --json --worker gone=/no/such/program" + Words{"--worker", "fake=" + fake.command()}));
   CHECK_THAT(result.output, Contains("\"version\": \"Fake 1\"") && Contains("\"model\": \"fake/ggx\""));
   CHECK_THAT(result.output, Contains("worker gone, request describe: ended with exit code 127"));
 }

@@ -15,51 +15,48 @@ const std::string kManifest =
     "target": {"model": "metal", "workflow": "metallic", "dielectric_f0": 0.05, "diffuse": "plain", "roughness": "alpha"},
     "mapping": {"kind": "workflow", "formula": "projection", "prior": 1e-5}, "remarks": ["Mine."]}]})";
 
-std::vector<std::string> build_of(const Session& session) {
-  return {"build", "--json", "--fits", session.path("fits"), "-o", session.path("generated")};
-}
+const std::string kBuild = "build --json --fits fits -o generated";
 
 }  // namespace
 
 TEST_CASE("remapc with fits of workflows: build, list, show and emit take them", "[slow]") {
   const Session session;
   session.write("fits/manifest.json", kManifest);
-  const ProcessResult built = require_success(session.remapc(build_of(session)));
+  const ProcessResult built = require_success(session.remapc(kBuild));
   CHECK(nlohmann::json::parse(built.output)["built"][0]["id"] == "painted_to_metal");
-  CHECK(nlohmann::json::parse(session.remapc(build_of(session)).output)["built"].empty());
-  CHECK(read_file(session.path("fits/README.md")).find("painted_to_metal.json) | 0.05") != std::string::npos);
-  CHECK(converters_from_json(read_file(session.path("generated/converters.json")), "").empty());
+  CHECK(nlohmann::json::parse(session.remapc(kBuild).output)["built"].empty());
+  CHECK(session.content("fits/README.md").find("painted_to_metal.json) | 0.05") != std::string::npos);
+  CHECK(converters_from_json(session.content("generated/converters.json"), "").empty());
   const std::string fits = session.path("fits");
-  CHECK(session.remapc({"emit", "--all", "--check", "--fits", fits, "-o", session.path("generated")})
-            .exit_code == 0);
-  const auto list = nlohmann::json::parse(session.remapc({"list", "--json", "--fits", fits}).output);
+  CHECK(session.remapc("emit --all --check --fits " + fits + " -o generated").exit_code == 0);
+  const auto list = nlohmann::json::parse(session.remapc("list --json --fits " + fits).output);
   CHECK(list[0]["kind"] == "workflow");
   CHECK(list[0]["formula"] == "projection");
-  CHECK(session.remapc({"list", "--fits", fits}).output.find("whole materials") != std::string::npos);
-  const std::string card = session.remapc({"show", "painted_to_metal", "--fits", fits}).output;
+  CHECK(session.remapc("list --fits " + fits).output.find("whole materials") != std::string::npos);
+  const std::string card = session.remapc("show painted_to_metal --fits " + fits).output;
   for (const std::string part :
        {"F0 of a dielectric 0.05", "base_color RGB", "glossiness", "prior 1e-05", "Mine."})
     CHECK(card.find(part) != std::string::npos);
-  CHECK(session.remapc({"show", "painted_to_metal", "--json", "--fits", fits}).output ==
-        read_file(session.path("fits/painted_to_metal.json")));
+  CHECK(session.remapc("show painted_to_metal --json --fits " + fits).output ==
+        session.content("fits/painted_to_metal.json"));
 }
 
 TEST_CASE("remapc fit of random metallic materials: a network of whole materials", "[slow]") {
   const Session session;
   const std::string table = session.path("metallic.csv");
   require_success(
-      session.remapc({"sample", "--source", "mitsuba/ggx-metallic", "--vary", "metallic", "--target",
-                      "mitsuba/ggx", "--resolution", "16", "--count", "60", "-o", table}));
-  const ProcessResult fitted = require_success(session.remapc(
-      {"fit", table, "--swap", "--layers", "8", "--id", "back", "--json", "-o", session.path("fits")}));
+      session.remapc("sample --source mitsuba/ggx-metallic --vary metallic --target mitsuba/ggx --resolution "
+                     "16 --count 60 -o " +
+                     table));
+  const ProcessResult fitted =
+      require_success(session.remapc("fit " + table + " --swap --layers 8 --id back --json -o fits"));
   CHECK(nlohmann::json::parse(fitted.output)["kind"] == "mlp");
-  const std::string card = session.remapc({"show", "back", "--fits", session.path("fits")}).output;
+  const std::string card = session.remapc("show back --fits fits").output;
   for (const std::string part :
        {"a network of 6 x 8 x 4 (relu)", "F0 of a dielectric 0.04", "metallic     rms"})
     CHECK(card.find(part) != std::string::npos);
-  require_success(
-      session.remapc({"emit", "back", "--fits", session.path("fits"), "-o", session.path("generated")}));
-  CHECK(read_file(session.path("generated/back.hpp")).find("material_network") != std::string::npos);
+  require_success(session.remapc("emit back --fits fits -o generated"));
+  CHECK(session.content("generated/back.hpp").find("material_network") != std::string::npos);
 }
 
 TEST_CASE(
@@ -78,23 +75,20 @@ TEST_CASE(
     "hidden": [4], "activation": "relu", "seed": 3, "remarks": ["Mine."]}]})";
   };
   session.write("fits/manifest.json", manifest("0.03"));
-  const ProcessResult built = require_success(session.remapc(build_of(session)));
+  const ProcessResult built = require_success(session.remapc(kBuild));
   CHECK_FALSE(std::filesystem::exists(session.path("fits/tables/learned.csv")));
   // `remapc sample` makes the samples that the fit names.
-  require_success(
-      session.remapc({"sample", "--source", "mitsuba/ggx-metallic", "--source-set", "specular=0.375",
-                      "--vary", "metallic", "--target", "mitsuba/ggx", "--resolution", "16", "--count", "60",
-                      "--seed", "3", "-o", session.path("samples.csv")}));
-  require_success(session.remapc({"fit", session.path("samples.csv"), "--swap", "--layers", "4", "--seed",
-                                  "3", "--id", "again", "-o", session.path("mine")}));
+  require_success(session.remapc(
+      "sample --source mitsuba/ggx-metallic --source-set specular=0.375 --vary metallic --target mitsuba/ggx "
+      "--resolution 16 --count 60 --seed 3 -o samples.csv"));
+  require_success(session.remapc("fit samples.csv --swap --layers 4 --seed 3 --id again -o mine"));
   const auto table_of = [&](const std::string& fit) {
-    return nlohmann::json::parse(read_file(session.path(fit)))["training"]["table"]["sha256"];
+    return nlohmann::json::parse(session.content(fit))["training"]["table"]["sha256"];
   };
   CHECK(table_of("fits/learned.json") == table_of("mine/again.json"));
-  CHECK(read_file(session.path("generated/learned.hpp")).find("Materials of painted (specular workflow)") !=
+  CHECK(session.content("generated/learned.hpp").find("Materials of painted (specular workflow)") !=
         std::string::npos);
-  CHECK(nlohmann::json::parse(session.remapc(build_of(session)).output)["built"].empty());
+  CHECK(nlohmann::json::parse(session.remapc(kBuild).output)["built"].empty());
   session.write("fits/manifest.json", manifest("0.04"));
-  check_failure(session.remapc(build_of(session)), 1,
-                "dielectric F0 is 0.03 in the samples and 0.04 in the manifest");
+  check_failure(session.remapc(kBuild), 1, "dielectric F0 is 0.03 in the samples and 0.04 in the manifest");
 }

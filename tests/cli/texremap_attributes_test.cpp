@@ -109,10 +109,7 @@ void check_file(const fs::path& file, int converted, bool is_lossless, Compariso
   std::string channel = first.channelnames[static_cast<std::size_t>(converted)];
   const std::string part_name = first.get_string_attribute("oiio:subimagename");
   if (before.size() > 1 && !part_name.empty()) channel = part_name + "." + channel;
-  const ProcessResult result =
-      require_success(session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as",
-                                        "--roughness", file.string() + ":" + channel, "--specular", "0.4",
-                                        "--only", "roughness", "-o", session.path("out")}));
+  require_success(session.convert(file.string() + ":" + channel, "0.4", "--only roughness"));
   const auto after = read_planes(session.path("out/" + file.filename().string()));
   REQUIRE(after.size() == before.size());
   for (std::size_t part = 0; part < before.size(); ++part) {
@@ -210,15 +207,15 @@ TEST_CASE("texremap attributes: a map without a date does not get the date of th
   session.write_pair("exr", 16);
   for (const char* name :
        {"r.exr", "s.exr"}) {  // OpenImageIO writes the date, under the name that EXR has for it
-    std::string bytes = read_file(session.path(name));
+    std::string bytes = session.content(name);
     bytes.replace(bytes.find("capDate"), 7, "anyDate");
     write_file(session.path(name), bytes);
-    REQUIRE(read_image(session.path(name)).spec.find_attribute("DateTime") == nullptr);
+    REQUIRE(session.image(name).spec.find_attribute("DateTime") == nullptr);
   }
   const std::string extension = GENERATE("exr", "tif", "png", "jpg", "tga");
-  require_success(session.convert("r.exr", "s.exr", {"--format", extension}));
+  require_success(session.convert("r.exr", "s.exr", "--format " + extension));
   for (const char* name : {"out/r.", "out/s."})
-    CHECK(read_image(session.path(name + extension)).spec.find_attribute("DateTime") == nullptr);
+    CHECK(session.image(name + extension).spec.find_attribute("DateTime") == nullptr);
 }
 
 TEST_CASE("texremap attributes: the comparison detects lost, added and changed attributes") {
@@ -245,11 +242,9 @@ TEST_CASE("texremap attributes: a PNG without a color space gets none") {
   const bool is_said = GENERATE(true, false);
   OIIO::ImageSpec spec = test_spec(16, 16, {"R", "G", "B"}, OIIO::TypeUInt8);
   if (is_said) spec.attribute("oiio:ColorSpace", "sRGB");
-  write_image(session.path("orm.png"), spec, noise);
-  require_success(session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
-                                    session.path("orm.png") + ":G", "--specular", "0.4", "--only",
-                                    "roughness", "-o", session.path("out")}));
+  session.make("orm.png", spec, noise);
+  require_success(session.convert("orm.png:G", "0.4", "--only roughness"));
   // OpenImageIO reports sRGB for both, so the test looks for the chunk.
   for (const char* file : {"orm.png", "out/orm.png"})
-    CHECK((read_file(session.path(file)).find("sRGB") != std::string::npos) == is_said);
+    CHECK((session.content(file).find("sRGB") != std::string::npos) == is_said);
 }

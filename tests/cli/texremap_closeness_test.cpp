@@ -18,22 +18,16 @@ namespace {
 
 const std::string kDifferent = "will look different from", kCloser = "would look closer";
 
-ProcessResult path(const std::string& from, const std::string& to,
-                   const std::vector<std::string>& more = {}) {
+ProcessResult path(const std::string& from, const std::string& to, const Words& more = {}) {
   const Session session;
-  std::vector<std::string> words = {"path", "--from", from, "--to", to};
-  words.insert(words.end(), more.begin(), more.end());
-  return session.texremap(words);
+  return session.texremap("path --from " + from + " --to " + to + more);
 }
 
 // Converts numbers.
-ProcessResult convert(const std::string& from, const std::string& to,
-                      const std::vector<std::string>& more = {}) {
+ProcessResult convert(const std::string& from, const std::string& to, const Words& more = {}) {
   const Session session;
-  std::vector<std::string> words = {"convert",     "--from", from,         "--to", to,
-                                    "--roughness", "0.3",    "--specular", "0.04"};
-  words.insert(words.end(), more.begin(), more.end());
-  return session.texremap(words);
+  return session.texremap("convert --from " + from + " --to " + to + " --roughness 0.3 --specular 0.04" +
+                          more);
 }
 
 Json json_of(const ProcessResult& result) {
@@ -68,29 +62,21 @@ TEST_CASE("texremap convert: notes in one line that the match looks different an
                              " in the worst step); cycles-5/beckmann would look closer (" +
                              error_text("mitsuba/ward", "cycles-5/beckmann") + ")\n");
   CHECK(line_count(result.output) == 2);
-  const ProcessResult quiet = convert("mitsuba/ward", "cycles-5/ggx", {"--quiet"});
+  const ProcessResult quiet = convert("mitsuba/ward", "cycles-5/ggx", "--quiet");
   CHECK(quiet.errors.empty());
   CHECK(quiet.output == result.output);
 }
 
 TEST_CASE("texremap convert: --json says how close the target is, and which model is closer") {
-  const Json json = json_of(convert("mitsuba/ward", "cycles-5/ggx", {"--json"}));
+  const Json json = json_of(convert("mitsuba/ward", "cycles-5/ggx", "--json"));
   CHECK(json["looks_different"] == true);
   CHECK("SSIM " + number_text(json["worst_step_ssim"].get<double>()) ==
         ssim_text_of("mitsuba_ward_to_mitsuba_ggx"));
   CHECK(json["closer_model"]["model"] == "cycles-5/beckmann");
-  CHECK(json["closer_model"]["path"] ==
-        json_of(path("mitsuba/ward", "cycles-5/beckmann", {"--json"}))["path"]);
+  CHECK(json["closer_model"]["path"] == json_of(path("mitsuba/ward", "cycles-5/beckmann", "--json"))["path"]);
   CHECK(json["closer_model"]["expected_error"].get<double>() <=
         kCloserShare * json["expected_error"].get<double>());
   CHECK(json["closest_of"].is_null());
-}
-
-TEST_CASE("texremap convert: one step that looks different is noted with its SSIM") {
-  CHECK_THAT(convert("mitsuba/ward", "mitsuba/ggx").errors,
-             Contains("mitsuba/ggx will look different from mitsuba/ward (" +
-                      error_text("mitsuba/ward", "mitsuba/ggx") + ", " +
-                      ssim_text_of("mitsuba_ward_to_mitsuba_ggx") + ")"));
 }
 
 TEST_CASE("texremap: a good match is not remarked on") {
@@ -98,7 +84,7 @@ TEST_CASE("texremap: a good match is not remarked on") {
   CHECK(converted.errors.empty());
   const ProcessResult printed = require_success(path("mitsuba/ggx", "cycles-5/ggx"));
   CHECK_THAT(printed.output, !Contains("note: "));
-  const Json json = json_of(path("mitsuba/ward", "mitsuba/as", {"--json"}));
+  const Json json = json_of(path("mitsuba/ward", "mitsuba/as", "--json"));
   CHECK(json["looks_different"] == false);
   CHECK(json["closer_model"].is_null());
 }
@@ -109,8 +95,8 @@ TEST_CASE("texremap convert: --to RENDERER takes the closest of its models and s
   CHECK(result.output == named.output);
   CHECK(result.errors == "texremap: note: cycles-5/beckmann is the closest model of cycles-5 (" +
                              error_text("mitsuba/ward", "cycles-5/beckmann") + ")\n");
-  CHECK(convert("mitsuba/ward", "cycles-5", {"--quiet"}).errors.empty());
-  const Json json = json_of(convert("mitsuba/ward", "cycles-5", {"--json"}));
+  CHECK(convert("mitsuba/ward", "cycles-5", "--quiet").errors.empty());
+  const Json json = json_of(convert("mitsuba/ward", "cycles-5", "--json"));
   CHECK(json["closest_of"] == "cycles-5");
   CHECK(json["target"] == "cycles-5/beckmann");
 }
@@ -121,22 +107,22 @@ TEST_CASE("texremap path: --to RENDERER is a part of the plan") {
                                   error_text("mitsuba/ward", "cycles-5/beckmann") + ")\nmitsuba/ward -> "));
   CHECK_THAT(path("mitsuba/ward", "cycles-5/ggx").output,
              Contains("note: cycles-5/ggx " + kDifferent) && Contains("; cycles-5/beckmann " + kCloser));
-  const Json json = json_of(path("mitsuba/ward", "cycles-5", {"--json"}));
+  const Json json = json_of(path("mitsuba/ward", "cycles-5", "--json"));
   CHECK(json["closest_of"] == "cycles-5");
   CHECK(json["models"].back() == "cycles-5/beckmann");
-  CHECK(json_of(path("cycles-5/ggx", "mitsuba", {"--json"}))["models"].back() == "mitsuba/ggx");
+  CHECK(json_of(path("cycles-5/ggx", "mitsuba", "--json"))["models"].back() == "mitsuba/ggx");
 }
 
 TEST_CASE("texremap path: --to RENDERER takes no model of dielectrics alone") {
   for (const std::string renderer : {"cycles-5", "mitsuba3", "threejs-r187"}) {
-    const Json json = json_of(path("mitsuba/ggx", renderer, {"--json"}));
+    const Json json = json_of(path("mitsuba/ggx", renderer, "--json"));
     INFO(renderer << ": " << json["models"].back());
     CHECK(json["domain"]["specular"][1] >= 0.5);
   }
 }
 
 TEST_CASE("texremap path: --to RENDERER with --via chooses among the paths that lead there") {
-  const Json json = json_of(path("mitsuba/ward", "cycles-5", {"--via", "mitsuba/ggx", "--json"}));
+  const Json json = json_of(path("mitsuba/ward", "cycles-5", "--via mitsuba/ggx --json"));
   CHECK(json["models"][1] == "mitsuba/ggx");
   CHECK_THAT(json["models"].back().get<std::string>(), !Contains("beckmann"));
 }
@@ -153,9 +139,9 @@ TEST_CASE("texremap: a workflow is compared with the models of its own renderer"
 
 TEST_CASE("texremap convert: --fit is judged by its own pictures") {
   const Session session;
-  const ProcessResult result = require_success(
-      session.texremap({"convert", "--fit", REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_ggx.json",
-                        "--roughness", "0.3", "--specular", "0.04"}));
+  const ProcessResult result = require_success(session.texremap("convert --fit " REMAP_SOURCE_DIR
+                                                                "/fits/mitsuba_ward_to_mitsuba_ggx.json"
+                                                                " --roughness 0.3 --specular 0.04"));
   CHECK_THAT(result.errors, Contains("mitsuba/ggx " + kDifferent) && !Contains(kCloser));
 }
 
@@ -165,10 +151,10 @@ TEST_CASE("texremap list: marks what looks different and names what is closer") 
              Contains("  note   mitsuba/ggx will look different from mitsuba/ward (" +
                       error_text("mitsuba/ward", "mitsuba/ggx") + ", " +
                       ssim_text_of("mitsuba_ward_to_mitsuba_ggx") + "); "));
-  CHECK_THAT(session.texremap({"list", "--models"}).output,
+  CHECK_THAT(session.texremap("list --models").output,
              Contains("cycles-5/ggx, " + error_text("mitsuba/ward", "cycles-5/ggx") +
                       ", in 2 steps, will look different, cycles-5/beckmann would look closer\n"));
-  for (const Json& converter : json_of(session.texremap({"list", "--json"})))
+  for (const Json& converter : json_of(session.texremap("list --json")))
     if (converter["rms_error"]["image"].is_null()) {
       CHECK(converter["looks_different"] == false);
       CHECK(converter["closer_model"].is_null());
@@ -178,7 +164,7 @@ TEST_CASE("texremap list: marks what looks different and names what is closer") 
 TEST_CASE("texremap list: every closer model is one of the same renderer, at least twice as close") {
   const Session session;
   std::size_t closer_count = 0;
-  for (const Json& source : json_of(session.texremap({"list", "--models", "--json"})))
+  for (const Json& source : json_of(session.texremap("list --models --json")))
     for (const Json& reached : source["reaches"]) {
       const Json& closer = reached["closer_model"];
       if (closer.is_null()) continue;

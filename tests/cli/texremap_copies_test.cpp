@@ -15,7 +15,7 @@ constexpr int kSize = 24;
 void write_map(const Session& session, const std::string& name, const std::vector<std::string>& channels,
                int size = kSize) {
   fs::create_directories(fs::path(session.path(name)).parent_path());
-  write_image(session.path(name), test_spec(size, size, channels, OIIO::TypeUInt8), noise);
+  session.make(name, test_spec(size, size, channels, OIIO::TypeUInt8), noise);
 }
 
 // A whole material: maps to convert and maps to copy.
@@ -27,14 +27,12 @@ void write_set(const Session& session, const std::string& folder) {
   write_map(session, folder + "/wood_AmbientOcclusion.png", {"Y"});
 }
 
-ProcessResult convert(const Session& session, std::vector<std::string> words) {
-  words.insert(words.begin(), "convert");
-  words.insert(words.end(), {"--from", "mitsuba/ward", "--to", "mitsuba/as", "-o", session.path("out")});
-  return session.texremap(words);
+ProcessResult convert(const Session& session, Words words) {
+  return session.texremap(Words("convert") + words + "--from mitsuba/ward --to mitsuba/as -o out");
 }
 
 bool same_bytes(const Session& session, const std::string& a, const std::string& b) {
-  return read_file(session.path(a)) == read_file(session.path(b));
+  return session.content(a) == session.content(b);
 }
 
 }  // namespace
@@ -43,9 +41,9 @@ TEST_CASE("texremap copies: base color of any size is copied under its name") {
   const Session session;
   write_set(session, "in");
   const ProcessResult result = require_success(
-      convert(session, {"--roughness", session.path("in/wood_Roughness.png"), "--specular", "0.04", "--only",
-                        "roughness", "--base-color", session.path("in/wood_BaseColor.png"), "--occlusion",
-                        session.path("in/wood_AmbientOcclusion.png"), "--json"}));
+      convert(session,
+              "--roughness in/wood_Roughness.png --specular 0.04 --only roughness --base-color "
+              "in/wood_BaseColor.png --occlusion in/wood_AmbientOcclusion.png --json"));
   CHECK(session.file_count() == 3);
   CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/wood_BaseColor.png"));
   CHECK(same_bytes(session, "in/wood_AmbientOcclusion.png", "out/wood_AmbientOcclusion.png"));
@@ -57,9 +55,8 @@ TEST_CASE("texremap copies: layouts that name their files name the copies, too",
   write_set(session, "in");
   const std::string layout = GENERATE("separate", "orm", "specgloss");
   const std::string option = GENERATE("--diffuse", "--base-color");
-  require_success(convert(session, {"--roughness", session.path("in/wood_Roughness.png"), "--specular",
-                                    session.path("in/wood_Specular.png"), option,
-                                    session.path("in/wood_BaseColor.png"), "--layout", layout}));
+  require_success(convert(session, "--roughness in/wood_Roughness.png --specular in/wood_Specular.png " +
+                                       option + " in/wood_BaseColor.png --layout " + layout));
   const std::string name = option == "--diffuse" ? "diffuse" : "base_color";
   CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/" + name + ".png"));
 }
@@ -67,14 +64,12 @@ TEST_CASE("texremap copies: layouts that name their files name the copies, too",
 TEST_CASE("texremap copies: specgloss writes separate files for parameters without a channel") {
   const Session session;
   write_set(session, "in");
-  require_success(convert(
-      session, {"--roughness", session.path("in/wood_Roughness.png"), "--specular",
-                session.path("in/wood_Specular.png"), "--occlusion",
-                session.path("in/wood_AmbientOcclusion.png"), "--metallic", "0.5", "--layout", "specgloss"}));
+  require_success(convert(session,
+                          "--roughness in/wood_Roughness.png --specular in/wood_Specular.png --occlusion "
+                          "in/wood_AmbientOcclusion.png --metallic 0.5 --layout specgloss"));
   CHECK(session.file_count() == 3);
-  const TestImage occlusion = read_image(session.path("in/wood_AmbientOcclusion.png")),
-                  copied = read_image(session.path("out/occlusion.png")),
-                  metallic = read_image(session.path("out/metallic.png"));
+  const TestImage occlusion = session.image("in/wood_AmbientOcclusion.png"),
+                  copied = session.image("out/occlusion.png"), metallic = session.image("out/metallic.png");
   CHECK(copied.at(3, 5, 0) == occlusion.at(3, 5, 0));
   CHECK(metallic.at(3, 5, 0) == as_stored(0.5f, OIIO::TypeUInt8));
 }
@@ -83,7 +78,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
   const Session session;
   write_set(session, "in/a");
   write_set(session, "in/b/c");
-  const std::vector<std::string> words = {session.path("in"), "--recursive", "--copy-others"};
+  const Words words = "in --recursive --copy-others";
   require_success(convert(session, words));
   for (const std::string folder : {"a", "b/c"}) {
     for (const std::string map : {"BaseColor", "Normal", "AmbientOcclusion"}) {
@@ -94,24 +89,19 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
         same_bytes(session, "in/" + folder + "/wood_Roughness.png", "out/" + folder + "/wood_Roughness.png"));
   }
 
-  std::vector<std::string> resumed = words;
-  resumed.insert(resumed.end(), {"--resume", "--json"});
   const auto states = [&] {
-    const ProcessResult result = require_success(convert(session, resumed));
-    const nlohmann::json report = tree_report(result.output);
-    return report.at("sets").at(0).at("state").get<std::string>() + ", " +
-           report.at("sets").at(1).at("state").get<std::string>();
+    return set_states(require_success(convert(session, words + "--resume --json")).output);
   };
-  CHECK(states() == "done before, done before");
+  CHECK(states() == "dd");
   fs::remove(session.path("out/a/wood_Normal.png"));
-  CHECK(states() == "converted, done before");
+  CHECK(states() == "cd");
   CHECK(same_bytes(session, "in/a/wood_Normal.png", "out/a/wood_Normal.png"));
 }
 
 TEST_CASE("texremap copies: a packed map is not copied as well") {
   const Session session;
   write_set(session, "in");
-  require_success(convert(session, {session.path("in"), "--copy-others", "--layout", "orm"}));
+  require_success(convert(session, "in --copy-others --layout orm"));
   CHECK(fs::exists(session.path("out/wood_orm.png")));
   CHECK(fs::exists(session.path("out/wood_Normal.png")));
   CHECK_FALSE(fs::exists(session.path("out/wood_AmbientOcclusion.png")));
@@ -124,10 +114,9 @@ TEST_CASE("texremap copies: each tile copies the same tile of other maps") {
     write_map(session, "ao." + tile + ".png", {"Y"});
     write_map(session, "d." + tile + ".png", {"R", "G", "B"});
   }
-  require_success(convert(session, {"--roughness", session.path("r.<UDIM>.png"), "--specular", "0.04",
-                                    "--occlusion", session.path("ao.<UDIM>.png"), "--diffuse",
-                                    session.path("d.<UDIM>.png"), "--layout", "orm"}));
+  require_success(convert(session,
+                          "--roughness r.<UDIM>.png --specular 0.04 --occlusion ao.<UDIM>.png --diffuse "
+                          "d.<UDIM>.png --layout orm"));
   CHECK(same_bytes(session, "d.1002.png", "out/diffuse.1002.png"));
-  CHECK(read_image(session.path("out/orm.1002.png")).at(2, 3, 0) ==
-        read_image(session.path("ao.1002.png")).at(2, 3, 0));
+  CHECK(session.image("out/orm.1002.png").at(2, 3, 0) == session.image("ao.1002.png").at(2, 3, 0));
 }

@@ -7,7 +7,6 @@
 
 #include "cli/texremap_session.hpp"
 #include "remap/shipped_converters.hpp"
-#include "support/shared_data.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -18,19 +17,13 @@ namespace {
 constexpr int kSize = 40;
 
 // From mitsuba/ward to mitsuba/as, into `out`.
-ProcessResult convert(const Session& session, std::vector<std::string> words) {
-  words.insert(words.begin(), {"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as"});
-  return session.texremap(words);
+ProcessResult convert(const Session& session, Words words) {
+  return session.texremap(Words("convert --from mitsuba/ward --to mitsuba/as") + words);
 }
 
-std::vector<std::string> maps(const Session& session, const std::string& roughness,
-                              const std::string& specular) {
-  return {"--roughness", session.path(roughness), "--specular", session.path(specular),
-          "-o",          session.path("out")};
+Words maps(const std::string& roughness, const std::string& specular) {
+  return "--roughness " + roughness + " --specular " + specular + " -o out";
 }
-
-float linear(float stored) { return static_cast<float>(srgb_to_linear(static_cast<double>(stored))); }
-float stored(float linear) { return static_cast<float>(linear_to_srgb(static_cast<double>(linear))); }
 
 bool same_channel(const TestImage& a, const TestImage& b, int channel) {
   for (int y = 0; y < a.spec.height; ++y)
@@ -43,11 +36,10 @@ bool same_channel(const TestImage& a, const TestImage& b, int channel) {
 
 TEST_CASE("texremap inputs: one channel of a packed map is converted, the others keep every bit") {
   const Session session;
-  write_image(session.path("orm.png"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
-  require_success(convert(session, {"--roughness", session.path("orm.png") + ":G", "--specular", "0.4",
-                                    "--only", "roughness", "-o", session.path("out")}));
+  session.make("orm.png", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  require_success(convert(session, "--roughness orm.png:G --specular 0.4 --only roughness -o out"));
   CHECK(session.file_count() == 1);
-  const TestImage in = read_image(session.path("orm.png")), out = read_image(session.path("out/orm.png"));
+  const TestImage in = session.image("orm.png"), out = session.image("out/orm.png");
   CHECK(same_channel(in, out, 0));
   CHECK(same_channel(in, out, 2));
   for (int x = 0; x < kSize; ++x)
@@ -55,35 +47,17 @@ TEST_CASE("texremap inputs: one channel of a packed map is converted, the others
           as_stored(converted_texel(in.at(x, 7, 1), {0.4f, 0.4f, 0.4f})[0], OIIO::TypeUInt8));
 }
 
-TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic", "[needs][slow]") {
-  const fs::path map = shared_data("textures/BoomBox_occlusionRoughnessMetallic.png");
-  if (map.empty()) return;
-  const Session session;
-  require_success(convert(
-      session, {"--roughness", map.string() + ":G", "--roughness-encoding", "roughness", "--output-encoding",
-                "roughness", "--specular", "0.04", "--only", "roughness", "-o", session.path("out")}));
-  const TestImage in = read_image(map), out = read_image(session.path("out") / map.filename());
-  CHECK(same_channel(in, out, 0));
-  CHECK(same_channel(in, out, 2));
-  for (int x = 0; x < in.spec.width; x += 3) {
-    const float alpha = in.at(x, 900, 1) * in.at(x, 900, 1);
-    const float expected = std::sqrt(converted_texel(alpha, {0.04f, 0.04f, 0.04f})[0]);
-    CHECK(out.at(x, 900, 1) == Approx(expected).margin(0.501 / 255.0));
-  }
-}
-
 TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data throughout", "[slow]") {
   const Session session;
   const std::string name = "sg." + std::string(GENERATE("png", "tga", "tif", "exr"));
   // Alpha far below the colors, and 0, so that a multiplication or division by it would show.
-  write_image(session.path(name), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
-              [](int x, int y, int c) {
-                return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
-              });
+  session.make(name, test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8), [](int x, int y, int c) {
+    return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
+  });
   const std::string path = session.path(name);
-  require_success(convert(session, {"--glossiness", path + ":A", "--specular", path, "--color-space",
-                                    "linear", "--output-encoding", "glossiness", "-o", session.path("out")}));
-  const TestImage in = read_image(path), out = read_image(session.path("out/" + name));
+  require_success(convert(session, "--glossiness " + path + ":A --specular " + path +
+                                       " --color-space linear --output-encoding glossiness -o out"));
+  const TestImage in = read_image(path), out = session.image("out/" + name);
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {
       const float roughness = 1.0f - in.at(x, y, 3);
@@ -99,10 +73,9 @@ TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data t
 TEST_CASE("texremap inputs: a constant roughness becomes a map of the size of the specular map") {
   const Session session;
   session.write_pair("exr", kSize);
-  require_success(convert(
-      session, {"--roughness", "0.3", "--specular", session.path("s.exr"), "-o", session.path("out")}));
-  const TestImage in = read_image(session.path("s.exr")), out = read_image(session.path("out/s.exr")),
-                  roughness = read_image(session.path("out/roughness.exr"));
+  require_success(convert(session, "--roughness 0.3 --specular s.exr -o out"));
+  const TestImage in = session.image("s.exr"), out = session.image("out/s.exr"),
+                  roughness = session.image("out/roughness.exr");
   CHECK(roughness.spec.channelnames == std::vector<std::string>{"Y"});
   for (int x = 0; x < kSize; ++x) {
     const auto expected = converted_texel(0.3f, {in.at(x, 2, 0), in.at(x, 2, 1), in.at(x, 2, 2)});
@@ -114,17 +87,15 @@ TEST_CASE("texremap inputs: a constant roughness becomes a map of the size of th
 TEST_CASE("texremap inputs: numbers alone are converted and printed", "[slow]") {
   const Session session;
   const auto expected = converted_texel(0.3f, {0.04f, 0.5f, 0.2f});
-  const ProcessResult text =
-      require_success(convert(session, {"--roughness", "0.3", "--specular", "0.04,0.5,0.2"}));
+  const ProcessResult text = require_success(convert(session, "--roughness 0.3 --specular 0.04,0.5,0.2"));
   CHECK_THAT(text.output, Contains("alpha 0.") && Contains("\nf0 0."));
-  const ProcessResult result =
-      convert(session, {"--roughness", "0.3", "--specular", "0.04,0.5,0.2", "--json"});
+  const ProcessResult result = convert(session, "--roughness 0.3 --specular 0.04,0.5,0.2 --json");
   const auto values = nlohmann::json::parse(result.output)["values"];
   CHECK(values["alpha"].get<float>() == expected[0]);
   CHECK(values["f0"].get<std::vector<float>>() == std::vector<float>{expected[1], expected[2], expected[3]});
-  const ProcessResult squared =
-      convert(session, {"--roughness", "0.09", "--roughness-encoding", "squared", "--output-encoding",
-                        "roughness", "--specular", "0.04,0.5,0.2", "--json"});
+  const ProcessResult squared = convert(session,
+                                        "--roughness 0.09 --roughness-encoding squared --output-encoding "
+                                        "roughness --specular 0.04,0.5,0.2 --json");
   CHECK(nlohmann::json::parse(squared.output)["values"]["roughness"].get<double>() ==
         Approx(std::sqrt(static_cast<double>(expected[0]))).epsilon(1e-6));
 }
@@ -132,11 +103,10 @@ TEST_CASE("texremap inputs: numbers alone are converted and printed", "[slow]") 
 TEST_CASE("texremap inputs: factors are applied once") {
   const Session session;
   session.write_pair("exr", kSize);
-  std::vector<std::string> words = maps(session, "r.exr", "s.exr");
-  words.insert(words.end(), {"--roughness-factor", "0.5", "--specular-factor", "1,0.5,0.25"});
-  require_success(convert(session, words));
-  const TestImage r = read_image(session.path("r.exr")), s = read_image(session.path("s.exr")),
-                  out = read_image(session.path("out/s.exr")), width = read_image(session.path("out/r.exr"));
+  require_success(
+      convert(session, maps("r.exr", "s.exr") + "--roughness-factor 0.5 --specular-factor 1,0.5,0.25"));
+  const TestImage r = session.image("r.exr"), s = session.image("s.exr"), out = session.image("out/s.exr"),
+                  width = session.image("out/r.exr");
   for (int x = 0; x < kSize; ++x) {
     const auto expected =
         converted_texel(0.5f * r.at(x, 3, 0), {s.at(x, 3, 0), 0.5f * s.at(x, 3, 1), 0.25f * s.at(x, 3, 2)});
@@ -146,59 +116,27 @@ TEST_CASE("texremap inputs: factors are applied once") {
   }
 }
 
-TEST_CASE("texremap inputs: sRGB color is converted as linear light and written as sRGB") {
-  const Session session;
-  OIIO::ImageSpec spec = test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  write_image(session.path("s.png"), spec, noise);
-  write_image(session.path("r.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
-  const std::string format = GENERATE("png", "exr");
-  std::vector<std::string> words = maps(session, "r.png", "s.png");
-  words.insert(words.end(), {"--format", format, "--json"});
-  const ProcessResult result = require_success(convert(session, words));
-  CHECK(nlohmann::json::parse(result.output)["specular_color_space"] == "srgb");
-  CHECK_THAT(result.errors, Contains("color: specular read as srgb"));
-  const TestImage r = read_image(session.path("r.png")), s = read_image(session.path("s.png")),
-                  out = read_image(session.path("out/s." + format));
-  CHECK(out.spec.get_string_attribute("oiio:ColorSpace", "Linear") == (format == "png" ? "sRGB" : "Linear"));
-  for (int x = 0; x < kSize; ++x) {
-    const auto expected =
-        converted_texel(r.at(x, 9, 0), {linear(s.at(x, 9, 0)), linear(s.at(x, 9, 1)), linear(s.at(x, 9, 2))});
-    for (int c = 0; c < 3; ++c) {
-      const float value = expected[static_cast<std::size_t>(c) + 1];
-      if (format == "png")
-        CHECK(out.at(x, 9, c) == Approx(std::min(stored(value), 1.0f)).margin(0.501 / 255.0));
-      else
-        CHECK(out.at(x, 9, c) == Approx(value).epsilon(1e-3));
-    }
-  }
-}
-
 TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
   const Session session;
   session.write_pair("exr", kSize);
-  write_image(session.path("s.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
-              [](int x, int y, int c) {
-                if (y == 4 && c == 1) return x == 6 ? NAN : x == 7 ? INFINITY : x == 8 ? -2.0f : 0.2f;
-                return 0.2f;
-              });
-  std::vector<std::string> words = maps(session, "r.exr", "s.exr");
-  words.insert(words.end(), {"--json", "--force", "--bad-texels", "keep"});
-  const ProcessResult kept = require_success(convert(session, words));
+  session.make("s.exr", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat), [](int x, int y, int c) {
+    if (y == 4 && c == 1) return x == 6 ? NAN : x == 7 ? INFINITY : x == 8 ? -2.0f : 0.2f;
+    return 0.2f;
+  });
+  const Words words = maps("r.exr", "s.exr") + "--json --force --bad-texels";
+  const ProcessResult kept = require_success(convert(session, words + "keep"));
   CHECK(nlohmann::json::parse(kept.output)["first_bad"] == std::vector<int>{6, 4});
   CHECK_THAT(kept.errors, Contains("1 texels with NaN; first bad texel: (6, 4)"));
-  CHECK(std::isnan(read_image(session.path("out/s.exr")).at(6, 4, 1)));
+  CHECK(std::isnan(session.image("out/s.exr").at(6, 4, 1)));
 
-  words.back() = "clamp";
-  require_success(convert(session, words));
-  const TestImage out = read_image(session.path("out/s.exr")), r = read_image(session.path("r.exr"));
+  require_success(convert(session, words + "clamp"));
+  const TestImage out = session.image("out/s.exr"), r = session.image("r.exr");
   const float edge = static_cast<float>(find_converter("mitsuba/ward", "mitsuba/as").info().specular.max);
   for (const auto& [x, green] : {std::pair{6, 0.0f}, {7, edge}, {8, 0.0f}})
     CHECK(out.at(x, 4, 1) == converted_texel(r.at(x, 4, 0), {0.2f, green, 0.2f})[2]);
 
-  words.back() = "fail";
   fs::remove_all(session.path("out"));
-  const ProcessResult failed = convert(session, words);
+  const ProcessResult failed = convert(session, words + "fail");
   CHECK(failed.exit_code == 1);
   CHECK_THAT(failed.last_error(),
              Contains("s.exr: G of texel (6, 4) is nan (--bad-texels clamp replaces such values)"));
@@ -208,12 +146,11 @@ TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
 TEST_CASE("texremap inputs: the mask marks the texels that were counted") {
   const Session session;
   session.write_pair("exr", kSize);
-  write_image(session.path("r.exr"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeHalf),
-              [](int x, int y, int c) { return 1.3f * noise(x, y, c); });
-  std::vector<std::string> words = maps(session, "r.exr", "s.exr");
-  words.insert(words.end(), {"--json", "--diagnose", session.path("checks")});
-  const ProcessResult result = require_success(convert(session, words));
-  const TestImage mask = read_image(session.path("checks/mask.exr")), in = read_image(session.path("r.exr"));
+  session.make("r.exr", test_spec(kSize, kSize, {"Y"}, OIIO::TypeHalf),
+               [](int x, int y, int c) { return 1.3f * noise(x, y, c); });
+  const ProcessResult result =
+      require_success(convert(session, maps("r.exr", "s.exr") + "--json --diagnose checks"));
+  const TestImage mask = session.image("checks/mask.exr"), in = session.image("r.exr");
   const Range covered = find_converter("mitsuba/ward", "mitsuba/as").info().roughness;
   std::size_t marked = 0;
   for (int y = 0; y < kSize; ++y)
@@ -231,17 +168,15 @@ TEST_CASE("texremap inputs: a converted map is not converted again", "[slow]") {
   session.write_pair(extension, kSize);
   const std::string r = "r." + extension, s = "s." + extension;
   require_success(session.convert(r, s));
-  std::vector<std::string> again = maps(session, "out/" + r, "out/" + s);
-  again.back() = session.path("again");
+  Words again = maps("out/" + r, "out/" + s);
+  again.back() = "again";
   const ProcessResult refused = convert(session, again);
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.last_error(),
              Contains("already converted to mitsuba/as, but the source is mitsuba/ward"));
   CHECK_FALSE(fs::exists(session.path("again")));
   // Converting from the current model is allowed.
-  std::vector<std::string> onwards = again;
-  onwards.insert(onwards.begin(), {"convert", "--from", "mitsuba/as", "--to", "mitsuba/ggx"});
-  CHECK(session.texremap(onwards).exit_code == 0);
+  CHECK(session.texremap("convert --from mitsuba/as --to mitsuba/ggx" + again).exit_code == 0);
   again.push_back("--force");
   CHECK(convert(session, again).exit_code == 0);
 }
@@ -249,11 +184,10 @@ TEST_CASE("texremap inputs: a converted map is not converted again", "[slow]") {
 TEST_CASE("texremap inputs: grey in a JPEG may be a step from grey") {
   const Session session;
   const auto write = [&](float red) {
-    write_image(session.path("r.jpg"), test_spec(64, 64, {"R", "G", "B"}, OIIO::TypeUInt8),
-                [&](int x, int y, int c) { return 0.7f * noise(x / 8, y / 8, 0) + (c == 0 ? red : 0.0f); });
+    session.make("r.jpg", test_spec(64, 64, {"R", "G", "B"}, OIIO::TypeUInt8),
+                 [&](int x, int y, int c) { return 0.7f * noise(x / 8, y / 8, 0) + (c == 0 ? red : 0.0f); });
   };
-  const std::vector<std::string> words = {"--roughness", session.path("r.jpg"), "--specular", "0.5",
-                                          "-o",          session.path("out"),   "--force"};
+  const Words words = "--roughness r.jpg --specular 0.5 -o out --force";
   write(1.0f / 255.0f);
   CHECK(convert(session, words).exit_code == 0);
   write(0.2f);

@@ -94,8 +94,7 @@ TEST_CASE("texremap: large maps through a warp in bounded memory, equal to the w
   fit.warp = random_warp(3, 4, 33);
   fit.tool_version = "1.0.0";
   write_file(session.path("stony.json"), fit_to_json(fit));
-  const ProcessResult result = require_success(session.texremap(
-      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")}));
+  const ProcessResult result = require_success(session.texremap("convert wood --fit stony.json -o out"));
   WARN(result.errors << result.peak_kilobytes / 1024 << " MB at most");
   CHECK(result.peak_kilobytes < most_megabytes() * 1024);
 

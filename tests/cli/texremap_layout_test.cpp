@@ -10,25 +10,21 @@ namespace {
 
 constexpr int kSize = 48;
 
-ProcessResult convert(const Session& session, const std::string& from, const std::string& to,
-                      std::vector<std::string> words, const std::string& folder) {
-  words.insert(words.begin(), {"convert", "--from", from, "--to", to});
-  words.insert(words.end(), {"-o", session.path(folder)});
-  return session.texremap(words);
+ProcessResult convert(const Session& session, const std::string& from, const std::string& to, Words words,
+                      const std::string& folder) {
+  return session.texremap(Words("convert --from " + from + " --to " + to) + words + "-o " + folder);
 }
 
 std::vector<float> channel(const Session& session, const std::string& name, int index) {
-  const TestImage image = read_image(session.path(name));
+  const TestImage image = session.image(name);
   std::vector<float> values;
   for (int y = 0; y < image.spec.height; ++y)
     for (int x = 0; x < image.spec.width; ++x) values.push_back(image.at(x, y, index));
   return values;
 }
 
-std::vector<std::string> packed(const Session& session, const std::string& name) {
-  const std::string path = session.path(name);
-  return {"--roughness", path + ":G", "--occlusion", path + ":R",
-          "--metallic",  path + ":B", "--specular",  "0.4"};
+Words packed(const std::string& path) {
+  return "--roughness " + path + ":G --occlusion " + path + ":R --metallic " + path + ":B --specular 0.4";
 }
 
 }  // namespace
@@ -38,9 +34,9 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
   const std::string extension = GENERATE("png", "tif", "exr", "tga");
   const OIIO::TypeDesc type = extension == "exr" ? OIIO::TypeHalf : OIIO::TypeUInt8;
   const auto named = [&](const std::string& name) { return name + "." + extension; };
-  write_image(session.path(named("in")), test_spec(kSize, kSize, {"R", "G", "B"}, type), noise);
-  std::vector<std::string> words = packed(session, named("in"));
-  words.insert(words.end(), {"--layout", "separate"});
+  session.make(named("in"), test_spec(kSize, kSize, {"R", "G", "B"}, type), noise);
+  Words words = packed(named("in"));
+  words += "--layout separate";
   require_success(convert(session, "mitsuba/ward", "mitsuba/as", words, "apart"));
   CHECK(channel(session, named("apart/occlusion"), 0) == channel(session, named("in"), 0));
   CHECK(channel(session, named("apart/metallic"), 0) == channel(session, named("in"), 2));
@@ -49,20 +45,19 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
   for (const float alpha : given)
     expected.push_back(as_stored(converted_texel(alpha, {0.4f, 0.4f, 0.4f})[0], type));
   CHECK(channel(session, named("apart/roughness"), 0) == expected);
-  CHECK(read_image(session.path(named("apart/roughness"))).spec.format == type);
+  CHECK(session.image(named("apart/roughness")).spec.format == type);
 
   // Packed again and converted to another model; then as-inputs, which keeps the layout.
   const std::string layout = GENERATE("orm", "arm");
   require_success(convert(session, "mitsuba/as", "mitsuba/ggx",
-                          {"--roughness", session.path(named("apart/roughness")), "--occlusion",
-                           session.path(named("apart/occlusion")), "--metallic",
-                           session.path(named("apart/metallic")), "--specular", "0.4", "--layout", layout},
+                          "--roughness " + named("apart/roughness") + " --occlusion " +
+                              named("apart/occlusion") + " --metallic " + named("apart/metallic") +
+                              " --specular 0.4 --layout " + layout,
                           "packed"));
   CHECK(channel(session, named("packed/" + layout), 0) == channel(session, named("in"), 0));
   CHECK(channel(session, named("packed/" + layout), 2) == channel(session, named("in"), 2));
   require_success(convert(session, "mitsuba/as", "mitsuba/ggx",
-                          {"--roughness", session.path(named("apart/roughness")), "--specular", "0.4"},
-                          "plain"));
+                          "--roughness " + named("apart/roughness") + " --specular 0.4", "plain"));
   CHECK(channel(session, named("packed/" + layout), 1) == channel(session, named("plain/roughness"), 0));
 }
 
@@ -70,16 +65,16 @@ TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every 
   const Session session;
   const std::string extension = GENERATE("png", "tif", "exr", "tga");
   const auto named = [&](const std::string& name) { return name + "." + extension; };
-  write_image(session.path(named("r")), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
-  write_image(session.path(named("s")), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8),
-              [](int x, int y, int c) { return noise(x, y, c + 1); });
+  session.make(named("r"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
+  session.make(named("s"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8),
+               [](int x, int y, int c) { return noise(x, y, c + 1); });
   const bool grey = GENERATE(false, true);
-  require_success(convert(session, "mitsuba/ward", "mitsuba/as",
-                          {"--roughness", session.path(named("r")), "--specular",
-                           grey ? "0.3" : session.path(named("s")), "--layout", "specgloss"},
-                          "out"));
-  const TestImage r = read_image(session.path(named("r"))), s = read_image(session.path(named("s"))),
-                  out = read_image(session.path(named("out/specular_glossiness")));
+  require_success(convert(
+      session, "mitsuba/ward", "mitsuba/as",
+      "--roughness " + named("r") + " --specular " + (grey ? "0.3" : named("s")) + " --layout specgloss",
+      "out"));
+  const TestImage r = session.image(named("r")), s = session.image(named("s")),
+                  out = session.image(named("out/specular_glossiness"));
   CHECK(out.spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {
@@ -96,10 +91,9 @@ TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every 
 
 TEST_CASE("texremap layouts: missing maps give a warning") {
   const Session session;
-  write_image(session.path("r.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
+  session.make("r.png", test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
   const ProcessResult result = require_success(
-      convert(session, "mitsuba/ward", "mitsuba/as",
-              {"--roughness", session.path("r.png"), "--specular", "0.4", "--layout", "orm"}, "out"));
+      convert(session, "mitsuba/ward", "mitsuba/as", "--roughness r.png --specular 0.4 --layout orm", "out"));
   CHECK_THAT(result.errors, Contains("no occlusion map; occlusion is set to 1") &&
                                 Contains("no metallic map; metallic is set to 0"));
   CHECK(channel(session, "out/orm.png", 0) == std::vector<float>(kSize * kSize, 1.0f));

@@ -18,8 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 void write_sets(const Tree& tree, int count, const std::string& extension, int size = kTreeMapSize) {
   for (int i = 0; i < count; ++i) {
     const std::string name = "in/s" + std::to_string(i);
@@ -28,22 +26,15 @@ void write_sets(const Tree& tree, int count, const std::string& extension, int s
   }
 }
 
-Words command(const Tree& tree, const std::string& target, const Words& more = {}) {
-  Words words = {"convert", tree.path("in"), "--from", "mitsuba/ward",
-                 "--to",    target,          "-o",     tree.path("out")};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
+Words command(const std::string& target, const Words& more = {}) {
+  return "convert in --from mitsuba/ward --to " + target + " -o out" + more;
 }
 
-// The states of the sets, by their first letters: converted, done before, failed.
+// Of a resumed run; or what it said, where it has no sets.
 std::string states(const Tree& tree, const Words& more, const std::string& target = "mitsuba/as") {
-  Words words = command(tree, target, {"--resume", "--json"});
-  words.insert(words.end(), more.begin(), more.end());
-  const ProcessResult result = tree.texremap(words);
+  const ProcessResult result = tree.texremap(command(target, "--resume --json" + more));
   INFO(result.errors);
-  std::string letters;
-  const auto report = tree_report(result.output);
-  for (const auto& set : report["sets"]) letters += set["state"].get<std::string>().front();
+  const std::string letters = set_states(result.output);
   return letters.empty() ? result.errors : letters;
 }
 
@@ -62,23 +53,6 @@ void write_other_converters(const std::string& path, double scale) {
 
 }  // namespace
 
-TEST_CASE("texremap nights: every format is resumed, and a result that was cut is made anew", "[slow]") {
-  const Tree tree;
-  const std::string extension = GENERATE("tga", "bmp", "png", "tif", "jpg");
-  write_sets(tree, 2, extension);
-  CHECK(states(tree, {}) == "cc");
-  CHECK(states(tree, {}) == "dd");
-  const fs::path result = tree.path("out/s1_spec." + extension);
-  const std::string before = read_file(result);
-  fs::resize_file(result, before.size() / 2);
-  CHECK(states(tree, {}) == "dc");
-  CHECK(read_file(result) == before);
-  // Of the same size, with other bytes.
-  write_file(result, std::string(before.size(), 'x'));
-  CHECK(states(tree, {}) == "dc");
-  CHECK(read_file(result) == before);
-}
-
 TEST_CASE("texremap nights: sets whose names hold control characters are resumed") {
   const Tree tree;
   tree.map("in/a\tb_rough.png", kGrey);
@@ -91,15 +65,15 @@ TEST_CASE("texremap nights: --resume makes anew what changed, without --force", 
   const Tree tree;
   write_sets(tree, 2, "tga");
   tree.map("in/s0_normal.tga", kColor);
-  CHECK(states(tree, {"--copy-others"}) == "cc");
-  write_image(tree.path("in/s1_rough.tga"), test_spec(kTreeMapSize, kTreeMapSize, kGrey, OIIO::TypeUInt8),
-              [](int, int, int) { return 0.5f; });
-  CHECK(states(tree, {"--copy-others"}) == "dc");
-  write_image(tree.path("in/s0_normal.tga"), test_spec(kTreeMapSize, kTreeMapSize, kColor, OIIO::TypeUInt8),
-              [](int, int, int) { return 0.25f; });
-  CHECK(states(tree, {"--copy-others"}) == "cd");
-  CHECK(read_file(tree.path("in/s0_normal.tga")) == read_file(tree.path("out/s0_normal.tga")));
-  CHECK(states(tree, {"--copy-others"}) == "dd");
+  CHECK(states(tree, "--copy-others") == "cc");
+  tree.make("in/s1_rough.tga", test_spec(kTreeMapSize, kTreeMapSize, kGrey, OIIO::TypeUInt8),
+            [](int, int, int) { return 0.5f; });
+  CHECK(states(tree, "--copy-others") == "dc");
+  tree.make("in/s0_normal.tga", test_spec(kTreeMapSize, kTreeMapSize, kColor, OIIO::TypeUInt8),
+            [](int, int, int) { return 0.25f; });
+  CHECK(states(tree, "--copy-others") == "cd");
+  CHECK(tree.content("in/s0_normal.tga") == tree.content("out/s0_normal.tga"));
+  CHECK(states(tree, "--copy-others") == "dd");
 }
 
 TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their own") {
@@ -111,22 +85,11 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
   }
   const fs::path checks = tree.path("in/checks");  // below the inputs; --output is a relative path
   const auto convert = [&](const Words& more) {
-    Words words = {"convert",    tree.path("in"),
-                   "--from",     "gltf-specgloss",
-                   "--to",       "gltf",
-                   "-r",         "--json",
-                   "-o",         fs::relative(tree.path("out")).string(),
-                   "--diagnose", checks.string()};
-    words.insert(words.end(), more.begin(), more.end());
-    return tree.texremap(words);
+    return tree.texremap("convert in --from gltf-specgloss --to gltf -r --json -o out --diagnose " +
+                         checks.string() + more);
   };
-  const auto letters = [&](const Words& more) {
-    std::string all;
-    const auto report = tree_report(convert(more).output);
-    for (const auto& set : report["sets"]) all += set["state"].get<std::string>().front();
-    return all;
-  };
-  const auto planned = tree_report(require_success(convert({"--dry-run"})).output);
+  const auto letters = [&](const Words& more) { return set_states(convert(more).output); };
+  const auto planned = tree_report(require_success(convert("--dry-run")).output);
   CHECK(planned["sets"][1]["results"].size() == 7);
   CHECK(planned["sets"][1]["doubts"] == (checks / "wood_doubts.png").string());
   CHECK_FALSE(fs::exists(checks));
@@ -135,18 +98,18 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
                            "deep/wall_mask.png", "deep/wall_doubts.png"})
     CHECK(fs::exists(checks / name));
   CHECK(tree.results().size() == 6);
-  CHECK(letters({"--resume"}) == "dd");
+  CHECK(letters("--resume") == "dd");
   CHECK(letters({}) == "ff");
   const std::string before = read_file(checks / "wood_doubts.png");
   write_file(checks / "wood_doubts.png", "no image");
-  CHECK(letters({"--resume"}) == "dc");
+  CHECK(letters("--resume") == "dc");
   CHECK(read_file(checks / "wood_doubts.png") == before);
   write_file(checks / "wood_mask.png", "of nobody");
   fs::remove(tree.path("out/" + std::string(kJournal)));
-  CHECK(letters({"--resume"}) == "ff");
+  CHECK(letters("--resume") == "ff");
   CHECK(read_file(checks / "wood_mask.png") == "of nobody");
-  CHECK(letters({"--force"}) == "cc");
-  require_success(convert({"--force", "--format", "exr", "--type", "half"}));
+  CHECK(letters("--force") == "cc");
+  require_success(convert("--force --format exr --type half"));
   CHECK(read_image(checks / "wood_residual.exr").spec.format == OIIO::TypeHalf);
 }
 
@@ -155,18 +118,17 @@ TEST_CASE("texremap nights: another converter of the same name is another conver
   write_sets(tree, 1, "png");
   write_other_converters(tree.path("c1.json"), 1.0);
   write_other_converters(tree.path("c2.json"), 0.5);
-  CHECK(states(tree, {"--converters", tree.path("c1.json")}) == "c");
-  CHECK(states(tree, {"--converters", tree.path("c1.json")}) == "d");
-  const ProcessResult refused =
-      tree.texremap(command(tree, "mitsuba/as", {"--resume", "--converters", tree.path("c2.json")}));
+  CHECK(states(tree, "--converters c1.json") == "c");
+  CHECK(states(tree, "--converters c1.json") == "d");
+  const ProcessResult refused = tree.texremap(command("mitsuba/as", "--resume --converters c2.json"));
   CHECK(refused.exit_code == 1);
   CHECK_THAT(refused.last_error(), Contains("belongs to another conversion, mitsuba/ward to mitsuba/as") &&
                                        Contains("numbers of the converter"));
-  CHECK(states(tree, {"--converters", tree.path("c2.json"), "--force"}) == "c");
-  const std::string forced = read_file(tree.path("out/s0_spec.png"));
+  CHECK(states(tree, "--converters c2.json --force") == "c");
+  const std::string forced = tree.content("out/s0_spec.png");
   fs::remove_all(tree.path("out"));
-  CHECK(states(tree, {"--converters", tree.path("c2.json")}) == "c");
-  CHECK(read_file(tree.path("out/s0_spec.png")) == forced);
+  CHECK(states(tree, "--converters c2.json") == "c");
+  CHECK(tree.content("out/s0_spec.png") == forced);
 }
 
 TEST_CASE("texremap nights: --force makes another conversion in a folder") {
@@ -182,19 +144,18 @@ TEST_CASE("texremap nights: maps without metadata are not converted twice") {
   const std::string extension = GENERATE("tga", "bmp");
   write_sets(tree, 1, extension);
   // However the folder is written.
-  Words words = command(tree, "mitsuba/as");
+  Words words = command("mitsuba/as");
   words.back() += GENERATE("", "/", "/../out");
   fs::create_directories(tree.path("out"));
   require_success(tree.texremap(words));
   CHECK(states(tree, {}) == "d");
-  const Words again = {"convert", tree.path("out"), "--from", "mitsuba/ward",
-                       "--to",    "mitsuba/as",     "-o",     tree.path("twice")};
+  const Words again = "convert out --from mitsuba/ward --to mitsuba/as -o twice";
   const ProcessResult tree_again = tree.texremap(again);
   CHECK(tree_again.exit_code == 1);
   CHECK_THAT(tree_again.errors, Contains("already converted to mitsuba/as"));
-  const ProcessResult single = tree.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/ggx",
-                                              "--roughness", tree.path("out/s0_rough." + extension),
-                                              "--specular", "0.04", "-o", tree.path("single")});
+  const ProcessResult single =
+      tree.texremap("convert --from mitsuba/ward --to mitsuba/ggx --roughness out/s0_rough." + extension +
+                    " --specular 0.04 -o single");
   CHECK(single.exit_code == 2);
   CHECK_THAT(single.last_error(), Contains("already converted to mitsuba/as"));
   // A new file of the same name is not.
@@ -210,11 +171,10 @@ TEST_CASE("texremap nights: sets that are found and not converted make the exit 
   const Tree tree;
   for (const char* map : {"Diffuse", "Reflection", "ReflectionGlossiness"})
     tree.map(std::string("in/deep/Robot_") + map + ".png", kColor);
-  const Words words = command(tree, "mitsuba/as", {"--recursive"});
+  const Words words = command("mitsuba/as", "--recursive");
   const ProcessResult result = tree.texremap(words);
   CHECK(result.exit_code == 1);
-  CHECK_THAT(result.errors,
-             Contains("skipped: " + tree.path("in") + "/deep/Robot: no roughness or glossiness map"));
+  CHECK_THAT(result.errors, Contains("skipped: in/deep/Robot: no roughness or glossiness map"));
   CHECK_THAT(result.errors, Contains("Robot_ReflectionGlossiness.png holds the square of glossiness"));
   CHECK_THAT(result.last_error(), Contains("1 of 1 sets skipped") && Contains("--allow-skips"));
   Words allowed = words;
@@ -260,7 +220,7 @@ TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
     CHECK(fs::exists(tree.path("out/" + fs::path(name).filename().string() + "_spec.png")));
   // At most the sets that were under way are finished and not told.
   CHECK(tree.results().size() <= 2 * (told.size() + 2));
-  CHECK(tree.texremap(command(tree, "mitsuba/as", {"--resume"})).exit_code == 0);
+  CHECK(tree.texremap(command("mitsuba/as", "--resume")).exit_code == 0);
 }
 
 TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
@@ -276,25 +236,25 @@ TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
   };
   const auto content = [&] {
     std::map<std::string, std::string> files;
-    for (const std::string& name : tree.results()) files[name] = read_file(tree.path("out/" + name));
+    for (const std::string& name : tree.results()) files[name] = tree.content("out/" + name);
     return files;
   };
   std::map<std::string, std::map<std::string, std::string>> alone;
   for (const std::string target : {"mitsuba/as", "mitsuba/ggx"}) {
     fs::remove_all(tree.path("out"));
-    require_success(tree.texremap(command(tree, target)));
+    require_success(tree.texremap(command(target)));
     alone[target] = content();
   }
   for (int round = 0; round < 5; ++round) {
     // The same conversion: whole, equal results.
     fs::remove_all(tree.path("out"));
-    const Words same = command(tree, "mitsuba/as", {"--resume"});
+    const Words same = command("mitsuba/as", "--resume");
     for (const ProcessResult& result : run_both(same, same)) require_success(result);
     CHECK(content() == alone["mitsuba/as"]);
     // Two conversions: one is refused, with --force the last has the folder; no set is of both.
     for (const Words& more : {Words{}, Words{"--force"}}) {
       fs::remove_all(tree.path("out"));
-      run_both(command(tree, "mitsuba/as", more), command(tree, "mitsuba/ggx", more));
+      run_both(command("mitsuba/as", more), command("mitsuba/ggx", more));
       const auto files = content();
       for (int i = 0; i < count; ++i) {
         const std::string rough = "s" + std::to_string(i) + "_rough.png",

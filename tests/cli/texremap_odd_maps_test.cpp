@@ -9,13 +9,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> words(const Session& session, const std::string& specular) {
-  std::vector<std::string> all = session.conversion("", specular);
-  all[6] = "0.3";
-  all.insert(all.end(), {"--only", "specular", "--color-space", "linear"});
-  return all;
-}
-
 OIIO::TypeDesc type_in(const std::string& extension) {
   return extension == "exr" ? OIIO::TypeHalf : extension == "hdr" ? OIIO::TypeFloat : OIIO::TypeUInt8;
 }
@@ -29,9 +22,10 @@ TEST_CASE("texremap odd maps: one texel, and strips, in every format", "[slow]")
   for (const auto& [width, height] : {std::pair{1, 1}, {1, longest}, {longest, 1}}) {
     INFO(extension << ", " << width << " x " << height);
     const std::string name = "s." + extension;
-    write_image(session.path(name), test_spec(width, height, {"R", "G", "B"}, type_in(extension)), noise);
-    const ProcessResult result = require_success(session.texremap(words(session, name)));
-    const TestImage in = read_image(session.path(name)), out = read_image(session.path("out/" + name));
+    session.make(name, test_spec(width, height, {"R", "G", "B"}, type_in(extension)), noise);
+    const ProcessResult result =
+        require_success(session.convert("0.3", name, "--only specular --color-space linear"));
+    const TestImage in = session.image(name), out = session.image("out/" + name);
     REQUIRE(out.spec.width == width);
     REQUIRE(out.spec.height == height);
     const int x = width - 1, y = height - 1;  // the last texel
@@ -55,8 +49,8 @@ TEST_CASE("texremap odd maps: one to five channels where three are expected", "[
     const std::string name = "s." + extension;
     std::vector<std::string> channels(names.begin(), names.begin() + count);
     if (count == 1) channels = {"Y"};
-    write_image(session.path(name), test_spec(16, 16, channels, type_in(extension)), noise);
-    const ProcessResult result = session.texremap(words(session, name));
+    session.make(name, test_spec(16, 16, channels, type_in(extension)), noise);
+    const ProcessResult result = session.convert("0.3", name, "--only specular --color-space linear");
     INFO(result.errors);
     if (count == 2 && extension != "png") {  // a PNG with two channels is grey with alpha
       CHECK(result.exit_code == 1);
@@ -64,7 +58,7 @@ TEST_CASE("texremap odd maps: one to five channels where three are expected", "[
       continue;
     }
     REQUIRE(result.exit_code == 0);
-    const TestImage in = read_image(session.path(name)), out = read_image(session.path("out/" + name));
+    const TestImage in = session.image(name), out = session.image("out/" + name);
     REQUIRE(out.spec.nchannels == count);
     for (int c = 0; c < count; ++c) {
       const float value = in.at(5, 7, c);

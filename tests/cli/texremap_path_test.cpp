@@ -28,11 +28,8 @@ std::string ward_to_as_errors() {
 
 double ward_to_as_expected() { return expected_error(find_converter("mitsuba/ward", "mitsuba/as").info()); }
 
-std::vector<std::string> path_words(const std::string& from, const std::string& to,
-                                    const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"path", "--from", from, "--to", to};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
+Words path_words(const std::string& from, const std::string& to, const Words& more = {}) {
+  return "path --from " + from + " --to " + to + more;
 }
 
 // The first path of two steps, with the model between them; empty names if there is none.
@@ -62,8 +59,7 @@ TEST_CASE("texremap path: prints steps, errors, domain and reason") {
 
 TEST_CASE("texremap path: --json holds what the text says") {
   const Session session;
-  const auto json =
-      Json::parse(session.texremap(path_words("mitsuba/ward", "mitsuba/as", {"--json"})).output);
+  const auto json = Json::parse(session.texremap(path_words("mitsuba/ward", "mitsuba/as", "--json")).output);
   CHECK(json["models"] == Json({"mitsuba/ward", "mitsuba/as"}));
   CHECK(json["path"] == Json::array({kId}));
   CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
@@ -79,11 +75,11 @@ TEST_CASE("texremap path: --json holds what the text says") {
 TEST_CASE("texremap list: shows image errors, and with --models what each model reaches") {
   const Session session;
   CHECK_THAT(session.texremap({"list"}).output, Contains("error  " + ward_to_as_errors()));
-  CHECK(Json::parse(session.texremap({"list", "--json"}).output)[0]["rms_error"].contains("image"));
+  CHECK(Json::parse(session.texremap("list --json").output)[0]["rms_error"].contains("image"));
   CHECK_THAT(
-      session.texremap({"list", "--models"}).output,
+      session.texremap("list --models").output,
       Contains("mitsuba/ward\n  takes    alpha and specular\n") && Contains("  reaches  mitsuba/as, "));
-  const auto models = Json::parse(session.texremap({"list", "--models", "--json"}).output);
+  const auto models = Json::parse(session.texremap("list --models --json").output);
   const ConverterGraph graph = shipped_graph();
   REQUIRE(models.size() == graph.models().size());
   for (std::size_t i = 0; i < models.size(); ++i) {
@@ -95,12 +91,12 @@ TEST_CASE("texremap list: shows image errors, and with --models what each model 
 TEST_CASE("texremap convert: says which path it took, in JSON and in metadata") {
   const Session session;
   session.write_pair("exr", 16);
-  const ProcessResult result = require_success(session.convert("r.exr", "s.exr", {"--json"}));
+  const ProcessResult result = require_success(session.convert("r.exr", "s.exr", "--json"));
   const auto json = Json::parse(result.output);
   CHECK(json["path"] == Json::array({kId}));
   CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
   CHECK_THAT(result.errors, Contains(" s by " + kId + ": "));
-  CHECK(read_image(session.path("out/r.exr")).spec.get_string_attribute("remap:converter") == kId);
+  CHECK(session.image("out/r.exr").spec.get_string_attribute("remap:converter") == kId);
 }
 
 TEST_CASE("texremap convert: a path of several steps writes what they give one after another") {
@@ -109,9 +105,8 @@ TEST_CASE("texremap convert: a path of several steps writes what they give one a
   const Session session;
   session.write_pair("exr", 16);
   const ProcessResult result =
-      session.texremap({"convert", "--from", request.source, "--via", request.via.front(), "--to",
-                        request.target, "--roughness", session.path("r.exr"), "--specular",
-                        session.path("s.exr"), "-o", session.path("out"), "--json"});
+      session.texremap("convert --from " + request.source + " --via " + request.via.front() + " --to " +
+                       request.target + " --roughness r.exr --specular s.exr -o out --json");
   REQUIRE(result.exit_code == 0);
   const ConverterPath path = shipped_graph().find_paths(request).front();
   std::string ids, models = request.source;
@@ -121,9 +116,8 @@ TEST_CASE("texremap convert: a path of several steps writes what they give one a
   }
   CHECK(Json::parse(result.output)["path"].size() == path.steps.size());
   CHECK_THAT(result.errors, Contains(models + " (expected error "));
-  const TestImage r = read_image(session.path("r.exr")), s = read_image(session.path("s.exr")),
-                  r_out = read_image(session.path("out/r.exr")),
-                  s_out = read_image(session.path("out/s.exr"));
+  const TestImage r = session.image("r.exr"), s = session.image("s.exr"), r_out = session.image("out/r.exr"),
+                  s_out = session.image("out/s.exr");
   CHECK(r_out.spec.get_string_attribute("remap:converter") == ids);
   for (int x = 0; x < 16; ++x) {
     float width = r.at(x, 5, 0);
@@ -143,15 +137,13 @@ TEST_CASE("texremap convert: from one real renderer to another, through the hub"
   if (std::find(models.begin(), models.end(), from) == models.end()) return;
   const Session session;
   const OIIO::ImageSpec spec = test_spec(16, 16, {"Y"}, OIIO::TypeFloat);
-  write_image(session.path("r.exr"), spec,
-              [](int x, int, int) { return 0.2f + 0.03f * static_cast<float>(x); });
-  write_image(session.path("s.exr"), spec, [](int, int, int) { return 0.5f; });
-  const ProcessResult result = require_success(
-      session.texremap({"convert", "--from", from, "--to", to, "--roughness", session.path("r.exr"),
-                        "--specular", session.path("s.exr"), "-o", session.path("out"), "--json"}));
+  session.make("r.exr", spec, [](int x, int, int) { return 0.2f + 0.03f * static_cast<float>(x); });
+  session.make("s.exr", spec, [](int, int, int) { return 0.5f; });
+  const ProcessResult result = require_success(session.texremap(
+      "convert --from " + from + " --to " + to + " --roughness r.exr --specular s.exr -o out --json"));
   CHECK(Json::parse(result.output)["path"] ==
         Json({"cycles_5_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_threejs_r187_standard_metal"}));
-  const TestImage r = read_image(session.path("out/r.exr")), s = read_image(session.path("out/s.exr"));
+  const TestImage r = session.image("out/r.exr"), s = session.image("out/s.exr");
   // All three are GGX with alpha = roughness^2. They differ in masking and multiple scattering, visible on
   // rough surfaces.
   for (int x = 0; x < 16; ++x) {

@@ -24,7 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Words = std::vector<std::string>;
 using Color = std::array<double, 3>;
 
 constexpr int kWide = 4, kHigh = 3, kTexels = kWide * kHigh;
@@ -87,9 +86,9 @@ struct Batch {
   Words words() const {
     Words all;
     if (from.kind == Kind::kBrdf)
-      all = {"--fit", kPaperFit};
+      all = "--fit " + kPaperFit;
     else
-      all = {"--from", from.name, "--to", to.name};
+      all = "--from " + from.name + " --to " + to.name;
     const auto add = [&](const std::string& option, const std::string& value) {
       if (!value.empty()) all.insert(all.end(), {option, value});
     };
@@ -470,12 +469,9 @@ void check_set(const nlohmann::json& report, const Batch& batch, const Set& set)
 
 // --- paths
 
-nlohmann::json converted(const Tree& tree, const Batch& batch, const std::string& out,
-                         const Words& more = {}) {
-  Words words = {"convert", tree.path("in"), "--json", "-o", tree.path(out)};
-  for (const Words& added : {batch.words(), more}) words.insert(words.end(), added.begin(), added.end());
-  const ProcessResult result = require_success(tree.texremap(words));
-  return tree_report(result.output);
+ProcessResult run_batch(const Tree& tree, const Batch& batch, const std::string& out,
+                        const Words& more = {}) {
+  return require_success(tree.texremap("convert in --json -o " + tree.path(out) + batch.words() + more));
 }
 
 std::map<std::string, std::string> content(const Tree& tree, const std::string& out) {
@@ -488,8 +484,7 @@ std::map<std::string, std::string> content(const Tree& tree, const std::string& 
 
 // The maps of a set, named one by one.
 void check_single(const Tree& tree, const Batch& batch, const Set& set, const nlohmann::json& report) {
-  Words words = {"convert", "--json", "-o", tree.path("single")};
-  for (const std::string& word : batch.words()) words.push_back(word);
+  Words words = "convert --json -o " + tree.path("single") + batch.words();
   std::map<std::string, std::string> maps;  // by role
   for (const File& file : set.files) {
     const std::string path = tree.path("in/" + set.name + "_" + file.word + "." + file.extension);
@@ -538,22 +533,19 @@ std::string numbers(const Color& color) {
 // The numbers of one texel, in place of maps.
 void check_numbers(const Tree& tree, const Batch& batch, const Set& set) {
   const Material& given = set.materials.front();
-  Words words = {"convert", "--json"};
+  Words words = "convert --json";
   if (batch.from.kind == Kind::kBrdf)
-    words.insert(words.end(), {"--fit", kPaperFit});
+    words += "--fit " + kPaperFit;
   else
-    words.insert(words.end(), {"--from", batch.from.name, "--to", batch.to.name});
+    words += "--from " + batch.from.name + " --to " + batch.to.name;
   words.insert(words.end(),
                {set.is_glossy ? "--glossiness" : "--roughness", number(given.width * batch.width_factor)});
-  if (!set.is_glossy && !batch.encoding.empty())
-    words.insert(words.end(), {"--roughness-encoding", batch.encoding});
+  if (!set.is_glossy && !batch.encoding.empty()) words += "--roughness-encoding " + batch.encoding;
   if (batch.from.kind == Kind::kMetallic)
-    words.insert(words.end(),
-                 {"--base-color", numbers(given.base_color), "--metallic", number(given.metallic)});
+    words += "--base-color " + numbers(given.base_color) + " --metallic " + number(given.metallic);
   else
-    words.insert(words.end(),
-                 {"--specular", numbers(given.specular), "--specular-factor", number(batch.specular_factor)});
-  if (batch.from.kind == Kind::kSpecular) words.insert(words.end(), {"--diffuse", numbers(given.diffuse)});
+    words += "--specular " + numbers(given.specular) + " --specular-factor " + number(batch.specular_factor);
+  if (batch.from.kind == Kind::kSpecular) words += "--diffuse " + numbers(given.diffuse);
   const ProcessResult result = require_success(tree.texremap(words));
   const auto values = nlohmann::json::parse(result.output).at("values");
   Material wanted = expected(batch, set, given);
@@ -633,13 +625,9 @@ void check_library(const Batch& batch, const Set& set) {
 
 // A resumed run changes nothing, and makes anew what was damaged and what changed.
 void check_resumed(const Tree& tree, const Batch& batch, std::vector<Set>& sets, Dice& dice) {
-  const auto states = [](const nlohmann::json& report) {
-    std::string letters;
-    for (const auto& set : report["sets"]) letters += set["state"].get<std::string>().front();
-    return letters;
-  };
+  const auto resumed = [&] { return run_batch(tree, batch, "out", "--resume").output; };
   const auto before = content(tree, "out");
-  CHECK(states(converted(tree, batch, "out", {"--resume"})) == std::string(sets.size(), 'd'));
+  CHECK(set_states(resumed()) == std::string(sets.size(), 'd'));
   CHECK(content(tree, "out") == before);
 
   const auto& damaged =
@@ -650,10 +638,10 @@ void check_resumed(const Tree& tree, const Batch& batch, std::vector<Set>& sets,
   Set& changed = sets.back();
   changed.materials = draw_materials(dice, batch, changed);
   write_set(tree, "in", changed);
-  const std::string letters = states(converted(tree, batch, "out", {"--resume"}));
+  const std::string letters = set_states(resumed());
   CHECK(letters.back() == 'c');
   CHECK(std::count(letters.begin(), letters.end(), 'c') == (damaged.starts_with(changed.name + "_") ? 1 : 2));
-  converted(tree, batch, "fresh");
+  run_batch(tree, batch, "fresh");
   CHECK(content(tree, "out") == content(tree, "fresh"));
 }
 
@@ -677,7 +665,7 @@ void check_batch(std::uint64_t seed) {
   std::string words;
   for (const std::string& word : used.words()) words += word + " ";
   INFO("seed " << seed << ": " << words);
-  const auto report = converted(tree, used, "out");
+  const auto report = tree_report(run_batch(tree, used, "out").output);
   REQUIRE(report["sets"].size() == sets.size());
   for (std::size_t i = 0; i < sets.size(); ++i) {
     check_set(report["sets"][i], used, sets[i]);

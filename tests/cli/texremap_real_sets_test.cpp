@@ -51,12 +51,8 @@ bool same_channel(const TestImage& in, const TestImage& out, std::size_t channel
 
 constexpr double kHalfStep = 0.501 / 255.0;  // 8 bits round by half a step, and floats add a small error
 
-std::vector<std::string> words(const std::vector<std::string>& maps) {
-  std::vector<std::string> all = {"convert",    "--from", "mitsuba/ward", "--to",      "mitsuba/as",
-                                  "--specular", "0.04",   "--only",       "roughness", "--roughness-encoding",
-                                  "roughness"};
-  all.insert(all.end(), maps.begin(), maps.end());
-  return all;
+Words words(const std::string& maps) {
+  return kConversion + " --specular 0.04 --only roughness --roughness-encoding roughness " + maps;
 }
 
 std::size_t count_of(const std::string& text, const std::string& word) {
@@ -71,8 +67,8 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   const Tree tree;
-  const ProcessResult result = require_success(
-      tree.texremap(words({folder.string(), "--json", "--allow-skips", "-o", tree.path("out")})));
+  const ProcessResult result =
+      require_success(tree.texremap(words(folder.string() + " --json --allow-skips ")));
   const auto sets = tree_report(result.output)["sets"];
   REQUIRE(sets.size() == 3);
   for (const auto& set : sets) CHECK(set["texels"] == 2048 * 2048);
@@ -86,7 +82,7 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   CHECK(count_of(result.errors, "compression changes values") == 2);  // not for the PNG
 
   const auto in = [&](const char* name) { return read_image(folder / name); };
-  const auto out = [&](const char* name) { return read_image(tree.path(std::string("out/") + name)); };
+  const auto out = [&](const char* name) { return tree.image(std::string("out/") + name); };
   const char* box = "BoomBox_occlusionRoughnessMetallic.png";
   const TestImage packed = in(box), packed_out = out(box);
   CHECK(same_channel(packed, packed_out, 0));
@@ -106,10 +102,10 @@ TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision 
   const fs::path map = shared_data("textures/king_black_roughness.jpg");
   if (map.empty()) return;
   const Tree tree;
-  const ProcessResult result = require_success(tree.texremap(
-      words({"--roughness", map.string(), "--format", "png", "--type", "uint16", "-o", tree.path("out")})));
+  const ProcessResult result =
+      require_success(tree.texremap(words("--roughness " + map.string() + " --format png --type uint16 ")));
   CHECK(count_of(result.errors, "compression changes values") == 0);
-  const TestImage in = read_image(map), out = read_image(tree.path("out/king_black_roughness.png"));
+  const TestImage in = read_image(map), out = tree.image("out/king_black_roughness.png");
   REQUIRE(out.spec.format == OIIO::TypeUInt16);
   const std::array<float, 256> expected = converted_roughness();
   double largest = 0.0;
@@ -123,8 +119,7 @@ TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile", "
   if (tiles.empty()) return;
   const Tree tree;
   const std::string pattern = (tiles / "grid.<UDIM>.png").string() + ":R";
-  const ProcessResult result =
-      require_success(tree.texremap(words({"--roughness", pattern, "--json", "-o", tree.path("out")})));
+  const ProcessResult result = require_success(tree.texremap(words("--roughness " + pattern + " --json ")));
   const auto sets = tree_report(result.output)["sets"];
   REQUIRE(sets.size() == 1);
   CHECK(sets[0]["texels"] == 6 * 512 * 512);
@@ -133,7 +128,7 @@ TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile", "
   for (const auto& entry : fs::directory_iterator(tiles)) {
     INFO(entry.path());
     const TestImage in = read_image(entry.path()),
-                    out = read_image(tree.path("out/" + entry.path().filename().string()));
+                    out = tree.image("out/" + entry.path().filename().string());
     CHECK(difference(in, out, 0).first <= kHalfStep);
     CHECK(same_channel(in, out, 1));
     CHECK(same_channel(in, out, 2));
@@ -148,10 +143,9 @@ TEST_CASE("texremap real sets: a tile that one map lacks is named, the others ar
   for (const auto& entry : fs::directory_iterator(tiles))
     if (entry.path().filename() != "grid.1012.png")
       fs::create_symlink(entry.path(), tree.path("specular/" + entry.path().filename().string()));
-  std::vector<std::string> all =
-      words({"--roughness", (tiles / "grid.<UDIM>.png").string() + ":R", "--json", "-o", tree.path("out")});
-  all[6] = tree.path("specular/grid.<UDIM>.png") + ":G";
-  const ProcessResult result = tree.texremap(all);
+  const ProcessResult result =
+      tree.convert((tiles / "grid.<UDIM>.png").string() + ":R", "specular/grid.<UDIM>.png:G",
+                   "--only roughness --roughness-encoding roughness --json");
   INFO(result.errors);
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.errors,

@@ -128,19 +128,18 @@ RoundTrip round_trip(const Material& material, const std::vector<std::string>& m
                      const std::string& type) {
   const Session session;
   const auto at = [&](const char* name) { return session.path(name); };
-  const auto convert = [&](const std::string& from, const std::string& to, std::vector<std::string> words) {
-    words.insert(words.begin(), {"convert", "--from", from, "--to", to, "--json"});
-    return session.texremap(words);
+  const auto convert = [&](const std::string& from, const std::string& to, Words words) {
+    return session.texremap(Words("convert --from " + from + " --to " + to + " --json") + words);
   };
   require_success(convert(models[0], models[1],
-                          {"--base-color", material.base_color, "--metallic", material.metallic,
-                           "--roughness", material.roughness, "--occlusion", material.occlusion, "--format",
-                           "png", "--type", type, "--layout", "specgloss", "-o", at("specgloss")}));
+                          "--base-color " + material.base_color + " --metallic " + material.metallic +
+                              " --roughness " + material.roughness + " --occlusion " + material.occlusion +
+                              " --format png --type " + type + " --layout specgloss -o specgloss"));
   const std::string packed = at("specgloss/specular_glossiness.png");
-  const ProcessResult back = require_success(convert(
-      models[1], models[0],
-      {"--diffuse", at("specgloss/diffuse.png"), "--specular", packed, "--glossiness", words_of(packed, ":A"),
-       "--layout", "separate", "--type", "uint8", "--diagnose", at("checks"), "-o", at("back")}));
+  const ProcessResult back = require_success(
+      convert(models[1], models[0],
+              "--diffuse specgloss/diffuse.png --specular " + packed + " --glossiness " +
+                  words_of(packed, ":A") + " --layout separate --type uint8 --diagnose checks -o back"));
   std::cout << material.name << ", " << models[0] << " to " << models[1] << " in " << type
             << " and back: " << nlohmann::json::parse(back.output)["metallic_confidence"].dump() << "\n";
   const auto channel_of = [](const std::string& word) {

@@ -24,24 +24,22 @@ namespace remap {
 // Beside the results of a run.
 inline constexpr const char* kJournal = ".texremap.jsonl";
 
-class Session {
- public:
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+// Into the folder `out`.
+inline const std::string kConversion = "convert --from mitsuba/ward --to mitsuba/as -o out";
 
-  ProcessResult texremap(std::vector<std::string> arguments, const ProcessLimits& limits = {}) const {
-    arguments.insert(arguments.begin(), REMAP_TEXREMAP);
-    return run(arguments, limits);
+class Session : public CommandFolder {
+ public:
+  ProcessResult texremap(const Words& words, const ProcessLimits& limits = {}) const {
+    return run(REMAP_TEXREMAP + words, limits);
   }
-  // The arguments for converting two files of this folder into its folder `out`.
-  std::vector<std::string> conversion(const std::string& roughness, const std::string& specular) const {
-    return {"convert",       "--from",     "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
-            path(roughness), "--specular", path(specular), "-o",   path("out")};
+  TestImage image(const std::string& name) const { return read_image(path(name)); }
+  void make(const std::string& name, const OIIO::ImageSpec& spec, const TexelFunction& texel) const {
+    write_image(path(name), spec, texel);
   }
-  ProcessResult convert(const std::string& roughness, const std::string& specular,
-                        const std::vector<std::string>& more = {}, const ProcessLimits& limits = {}) const {
-    std::vector<std::string> words = conversion(roughness, specular);
-    words.insert(words.end(), more.begin(), more.end());
-    return texremap(words, limits);
+  // Converts two files into the folder `out`.
+  ProcessResult convert(const std::string& roughness, const std::string& specular, const Words& more = {},
+                        const ProcessLimits& limits = {}) const {
+    return texremap(kConversion + " --roughness " + roughness + " --specular " + specular + more, limits);
   }
   // Writes r.<extension> and s.<extension> with noise.
   void write_pair(const std::string& extension, int size = 64, OIIO::TypeDesc type = OIIO::TypeHalf) const {
@@ -61,7 +59,6 @@ class Session {
                (hidden_too || entry.path().filename().string().front() != '.');
     return files;
   }
-  TemporaryFolder folder_;
 };
 
 // Converts one texel from Ward to Ashikhmin-Shirley: the roughness, then the specular channels.

@@ -30,6 +30,14 @@ inline nlohmann::json tree_report(const std::string& output) {
   return report;
 }
 
+// The states of the sets, by their first letters: converted, done before, failed.
+inline std::string set_states(const std::string& output) {
+  std::string letters;
+  const auto report = tree_report(output);
+  for (const auto& set : report["sets"]) letters += set["state"].get<std::string>().front();
+  return letters;
+}
+
 inline constexpr int kTreeMapSize = 24;
 
 class Tree : public Session {
@@ -39,12 +47,8 @@ class Tree : public Session {
     std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
     write_image(path(name), test_spec(size, size, channels, type), noise);
   }
-  ProcessResult convert_tree(const std::vector<std::string>& more = {},
-                             const ProcessLimits& limits = {}) const {
-    std::vector<std::string> words = {"convert",    path("in"),      "--from", "mitsuba/ward", "--to",
-                                      "mitsuba/as", "--color-space", "linear", "-o",           path("out")};
-    words.insert(words.end(), more.begin(), more.end());
-    return texremap(words, limits);
+  ProcessResult convert_tree(const Words& more = {}, const ProcessLimits& limits = {}) const {
+    return texremap(kConversion + " in --color-space linear" + more, limits);
   }
   // Every file below `out` besides the journal, relative to it.
   std::vector<std::string> results() const {

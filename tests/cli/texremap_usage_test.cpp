@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 
 TEST_CASE("texremap: version and list answer on standard output", "[slow]") {
   const Session session;
-  CHECK(session.texremap({"--version"}).output.starts_with("texremap "));
+  CHECK(session.texremap("--version").output.starts_with("texremap "));
   CHECK_THAT(session.texremap({"list"}).output, Contains("mitsuba_ward_to_mitsuba_as"));
-  const auto json = nlohmann::json::parse(session.texremap({"list", "--json"}).output);
+  const auto json = nlohmann::json::parse(session.texremap("list --json").output);
   REQUIRE(json.size() == shipped_converters().size());
   CHECK(json[0]["self_test"] == true);
   CHECK(json[0]["source"]["model"].is_string());
@@ -29,7 +29,7 @@ TEST_CASE("texremap: a roughness map that is not grey has a channel that is") {
   session.write_pair("exr");
   fs::copy_file(session.path("s.exr"), session.path("color.exr"));
   CHECK(session.convert("color.exr:G", "s.exr").exit_code == 0);
-  const TestImage in = read_image(session.path("color.exr")), out = read_image(session.path("out/color.exr"));
+  const TestImage in = session.image("color.exr"), out = session.image("out/color.exr");
   CHECK(out.at(3, 4, 0) == in.at(3, 4, 0));
   CHECK(out.at(3, 4, 2) == in.at(3, 4, 2));
   CHECK(out.at(3, 4, 1) ==
@@ -40,28 +40,27 @@ TEST_CASE("texremap: a roughness map that is not grey has a channel that is") {
 TEST_CASE("texremap: NaN, infinite and negative texels are converted and counted") {
   const Session session;
   session.write_pair("exr");
-  write_image(session.path("s.exr"), test_spec(64, 64, {"R", "G", "B"}, OIIO::TypeHalf),
-              [](int x, int y, int c) {
-                if (y == 0 && c == 1) return x < 2 ? NAN : x < 5 ? INFINITY : x < 9 ? -0.5f : 0.25f;
-                return 0.25f;
-              });
-  const ProcessResult result = require_success(session.convert("r.exr", "s.exr", {"--json"}));
+  session.make("s.exr", test_spec(64, 64, {"R", "G", "B"}, OIIO::TypeHalf), [](int x, int y, int c) {
+    if (y == 0 && c == 1) return x < 2 ? NAN : x < 5 ? INFINITY : x < 9 ? -0.5f : 0.25f;
+    return 0.25f;
+  });
+  const ProcessResult result = require_success(session.convert("r.exr", "s.exr", "--json"));
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["texels"] == 64 * 64);
   CHECK(json["nan"] == 2);
   CHECK(json["infinite"] == 3);
   CHECK(json["negative"] == 4);
   CHECK(json["converter"] == "mitsuba_ward_to_mitsuba_as");
-  CHECK(json["specular"] == session.path("out/s.exr"));
+  CHECK(json["specular"] == "out/s.exr");
   CHECK_THAT(result.errors, Contains("texremap: 2 texels with NaN") && Contains("3 texels with infinite") &&
                                 Contains("4 texels with negative"));
-  CHECK(std::isnan(read_image(session.path("out/s.exr")).at(1, 0, 1)));
+  CHECK(std::isnan(session.image("out/s.exr").at(1, 0, 1)));
 }
 
 TEST_CASE("texremap: --quiet prints nothing") {
   const Session session;
   session.write_pair("jpg", 64, OIIO::TypeUInt8);
-  const ProcessResult result = session.convert("r.jpg", "s.jpg", {"--quiet"});
+  const ProcessResult result = session.convert("r.jpg", "s.jpg", "--quiet");
   CHECK(result.exit_code == 0);
   CHECK(result.errors.empty());
   CHECK(result.output.empty());
@@ -72,10 +71,8 @@ TEST_CASE("texremap: --fit evaluates that fit") {
   session.write_pair("exr");
   const Fit fit = lowered_fit(example_fit());
   write_file(session.path("fit.json"), fit_to_json(fit));
-  require_success(
-      session.texremap({"convert", "--fit", session.path("fit.json"), "--roughness", session.path("r.exr"),
-                        "--specular", session.path("s.exr"), "-o", session.path("out")}));
-  const TestImage in = read_image(session.path("r.exr")), out = read_image(session.path("out/r.exr"));
+  require_success(session.texremap("convert --fit fit.json --roughness r.exr --specular s.exr -o out"));
+  const TestImage in = session.image("r.exr"), out = session.image("out/r.exr");
   CHECK(out.spec.get_string_attribute("remap:converter") == fit.id);
   const auto converter = make_lowered_converter(fit);
   for (int x = 0; x < 64; ++x) {
@@ -96,33 +93,27 @@ TEST_CASE("texremap: --converters replaces the shipped converters by those of a 
   write_file(session.path("fits/fit.json"), fit_to_json(fit));
   write_file(session.path("fits/manifest.json"), "{}");  // is not a fit, as in a folder of remapc
   const auto list = [&](const std::string& path) {
-    const ProcessResult result = require_success(session.texremap({"list", "--converters", path, "--json"}));
+    const ProcessResult result = require_success(session.texremap("list --converters " + path + " --json"));
     return result.output;
   };
-  const std::string of_fit = list(session.path("fits/fit.json"));
+  const std::string of_fit = list("fits/fit.json");
   CHECK_THAT(of_fit, Catch::Contains(fit.id));
   CHECK_THAT(of_fit, !Catch::Contains("mitsuba_ward_to_mitsuba_as"));
-  CHECK(list(session.path("fits")) == of_fit);
-  CHECK(list(REMAP_SOURCE_DIR "/generated/converters.json") == session.texremap({"list", "--json"}).output);
+  CHECK(list("fits") == of_fit);
+  CHECK(list(REMAP_SOURCE_DIR "/generated/converters.json") == session.texremap("list --json").output);
 
-  const std::vector<std::string> numbers = {"convert", "--from",         fit.source.model,
-                                            "--to",    fit.target.model, "--roughness",
-                                            "0.25",    "--specular",     "0.3"};
+  const Words numbers =
+      "convert --from " + fit.source.model + " --to " + fit.target.model + " --roughness 0.25 --specular 0.3";
   CHECK(session.texremap(numbers).exit_code == 2);
-  std::vector<std::string> words = numbers;
-  words.insert(words.end(), {"--converters", session.path("fits")});
-  const ProcessResult converted = require_success(session.texremap(words));
-  words = numbers;
-  words.insert(words.end(), {"--fit", session.path("fits/fit.json")});
-  CHECK(session.texremap(words).output == converted.output);
+  const ProcessResult converted = require_success(session.texremap(numbers + "--converters fits"));
+  CHECK(session.texremap(numbers + "--fit fits/fit.json").output == converted.output);
 }
 
 TEST_CASE("texremap: a fit without a converter is refused with what to run") {
   const Session session;
   const auto refused = [&](const std::string& json) {
     write_file(session.path("fit.json"), json);
-    const ProcessResult result = session.texremap(
-        {"convert", "--fit", session.path("fit.json"), "--roughness", "0.25", "--specular", "0.3"});
+    const ProcessResult result = session.texremap("convert --fit fit.json --roughness 0.25 --specular 0.3");
     CHECK(result.exit_code == 1);
     return result.errors;
   };
@@ -140,10 +131,10 @@ TEST_CASE("texremap: every instruction set writes the same files", "[slow]") {
   for (const InstructionSet set : instruction_sets()) {
     const std::string name(instruction_set_name(set));
     const ProcessResult result =
-        session.convert("r.exr", "s.exr", {"--instructions", name, "--force", "--json"});
+        session.convert("r.exr", "s.exr", "--instructions " + name + " --force --json");
     REQUIRE(result.exit_code == 0);
     CHECK(nlohmann::json::parse(result.output)["instructions"] == name);
-    written.push_back(read_file(session.path("out/r.exr")) + read_file(session.path("out/s.exr")));
+    written.push_back(session.content("out/r.exr") + session.content("out/s.exr"));
     CHECK(written.back() == written.front());
   }
 }

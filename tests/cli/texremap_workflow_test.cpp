@@ -2,7 +2,6 @@
 // memory, and warnings about implausible maps.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -23,11 +22,11 @@ constexpr int kSize = 40;
 
 void write_colors(const Session& session, const std::string& name, const TexelFunction& texel,
                   OIIO::TypeDesc type = OIIO::TypeFloat, int size = kSize) {
-  write_image(session.path(name), test_spec(size, size, {"R", "G", "B"}, type), texel);
+  session.make(name, test_spec(size, size, {"R", "G", "B"}, type), texel);
 }
 void write_grey(const Session& session, const std::string& name, const TexelFunction& texel,
                 OIIO::TypeDesc type = OIIO::TypeFloat, int size = kSize) {
-  write_image(session.path(name), test_spec(size, size, {"Y"}, type), texel);
+  session.make(name, test_spec(size, size, {"Y"}, type), texel);
 }
 
 float base_color(int x, int y, int c) { return 0.05f + 0.9f * noise(x, y, c); }
@@ -49,60 +48,18 @@ void write_specular(const Session& session, float diffuse = 0.4f, float specular
   write_grey(session, "r.exr", roughness);
 }
 
-ProcessResult convert(const Session& session, std::vector<std::string> words) {
-  words.insert(words.begin(), "convert");
-  words.insert(words.end(), {"-o", session.path("out")});
-  return session.texremap(words);
+ProcessResult convert(const Session& session, Words words) {
+  return session.texremap(Words("convert") + words + "-o out");
 }
 
-std::vector<std::string> metallic_words(const Session& session, const std::string& from,
-                                        const std::string& to) {
-  return {"--from",       from,
-          "--to",         to,
-          "--base-color", session.path("b.exr"),
-          "--metallic",   session.path("m.exr"),
-          "--roughness",  session.path("r.exr")};
+Words metallic_words(const std::string& from, const std::string& to) {
+  return "--from " + from + " --to " + to + " --base-color b.exr --metallic m.exr --roughness r.exr";
 }
-std::vector<std::string> specular_words(const Session& session, const std::string& from,
-                                        const std::string& to) {
-  return {"--from",      from,
-          "--to",        to,
-          "--diffuse",   session.path("d.exr"),
-          "--specular",  session.path("s.exr"),
-          "--roughness", session.path("r.exr")};
-}
-
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
+Words specular_words(const std::string& from, const std::string& to) {
+  return "--from " + from + " --to " + to + " --diffuse d.exr --specular s.exr --roughness r.exr";
 }
 
 }  // namespace
-
-TEST_CASE("texremap workflows: metallic to specular is equation (2)", "[slow]") {
-  const Session session;
-  write_metallic(session);
-  const bool is_gltf = GENERATE(true, false);
-  require_success(convert(session, metallic_words(session, is_gltf ? "gltf" : "metallic",
-                                                  is_gltf ? "gltf-specgloss" : "specular")));
-  const TestImage d = read_image(session.path("out/diffuse.exr")),
-                  s = read_image(session.path("out/specular.exr"));
-  const TestImage width = read_image(session.path(is_gltf ? "out/glossiness.exr" : "out/roughness.exr"));
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
-      const double n = 1.0 - static_cast<double>(metallic(x, y, 0));
-      double most = 0.0;
-      for (int c = 0; c < 3; ++c)
-        most = std::max(most, 0.04 * n + static_cast<double>(base_color(x, y, c)) * (1.0 - n));
-      for (int c = 0; c < 3; ++c) {
-        const double base = static_cast<double>(base_color(x, y, c));
-        REQUIRE(s.at(x, y, c) == Approx(0.04 * n + base * (1.0 - n)).margin(1e-6));
-        REQUIRE(d.at(x, y, c) == Approx(is_gltf ? 0.96 * base * n / (1.0 - most) : base * n).margin(2e-6));
-      }
-      const float own = roughness(x, y, 0);
-      REQUIRE(width.at(x, y, 0) == Approx(is_gltf ? 1.0f - own : own).margin(1e-6));
-    }
-}
 
 TEST_CASE("texremap workflows: specular to metallic has the bits of the library, on any number of threads",
           "[needs][slow]") {
@@ -111,16 +68,13 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
   const std::string threads = GENERATE("1", "3");
   const std::string set = GENERATE("baseline", "avx2");
   if (set == "avx2" && !has_avx2()) return;
-  const ProcessResult result = require_success(convert(
-      session,
-      with(specular_words(session, "specular", "metallic"),
-           {"--threads", threads, "--instructions", set, "--diagnose", session.path("checks"), "--json"})));
-  const TestImage d = read_image(session.path("d.exr")), s = read_image(session.path("s.exr")),
-                  r = read_image(session.path("r.exr")),
-                  base = read_image(session.path("out/base_color.exr")),
-                  metal = read_image(session.path("out/metallic.exr")),
-                  residual = read_image(session.path("checks/residual.exr")),
-                  width = read_image(session.path("checks/metallic_width.exr"));
+  const ProcessResult result =
+      require_success(convert(session, specular_words("specular", "metallic") + "--threads " + threads +
+                                           " --instructions " + set + " --diagnose checks --json"));
+  const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
+                  base = session.image("out/base_color.exr"), metal = session.image("out/metallic.exr"),
+                  residual = session.image("checks/residual.exr"),
+                  width = session.image("checks/metallic_width.exr");
   const WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   std::size_t guesses = 0;
   for (int y = 0; y < kSize; ++y)
@@ -145,13 +99,11 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
 TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in one pass") {
   const Session session;
   write_specular(session);
-  std::vector<std::string> words = specular_words(session, "mitsuba/ward", "gltf");
+  Words words = specular_words("mitsuba/ward", "gltf");
   const ProcessResult result =
-      require_success(convert(session, with(words, {"--from-workflow", "specular", "--layout", "orm"})));
-  const TestImage d = read_image(session.path("d.exr")), s = read_image(session.path("s.exr")),
-                  r = read_image(session.path("r.exr")),
-                  base = read_image(session.path("out/base_color.exr")),
-                  orm = read_image(session.path("out/orm.exr"));
+      require_success(convert(session, words + "--from-workflow specular --layout orm"));
+  const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
+                  base = session.image("out/base_color.exr"), orm = session.image("out/orm.exr");
   const Converter& brdf = find_converter("mitsuba/ward", "mitsuba/ggx");
   WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   conversion.specular.width = conversion.metallic.width = RoughnessConvention::kAlpha;
@@ -179,46 +131,27 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
 TEST_CASE("texremap workflows: metallic to metallic of another BRDF keeps the files") {
   const Session session;
   write_metallic(session);
-  require_success(convert(session, metallic_words(session, "gltf", "cycles-5/principled")));
+  require_success(convert(session, metallic_words("gltf", "cycles-5/principled")));
   CHECK(session.result_count() == 3);
-  const TestImage before = read_image(session.path("m.exr")), after = read_image(session.path("out/m.exr"));
+  const TestImage before = session.image("m.exr"), after = session.image("out/m.exr");
   double sum = 0.0;
   for (std::size_t i = 0; i < before.values.size(); ++i)
     sum += std::abs(static_cast<double>(before.values[i] - after.values[i]));
   CHECK(sum / static_cast<double>(before.values.size()) < 0.05);
 }
 
-TEST_CASE("texremap workflows: glossiness in alpha leaves the colors of a PNG alone") {
-  const Session session;
-  write_colors(
-      session, "d.png", [](int, int, int c) { return 0.2f + 0.1f * static_cast<float>(c); }, OIIO::TypeUInt8);
-  write_image(session.path("sg.png"), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
-              [](int x, int, int c) { return c == 3 ? static_cast<float>(x) / 255.0f : 0.8f; });
-  require_success(convert(
-      session, {"--from", "gltf-specgloss", "--to", "gltf", "--diffuse", session.path("d.png"), "--specular",
-                session.path("sg.png"), "--glossiness", session.path("sg.png") + ":A", "--layout", "orm"}));
-  const TestImage base = read_image(session.path("out/base_color.png")),
-                  orm = read_image(session.path("out/orm.png"));
-  for (int x = 1; x < kSize; ++x) {
-    REQUIRE(orm.at(x, 0, 1) == Approx(1.0f - static_cast<float>(x) / 255.0f).margin(1e-6));
-    // The color must not depend on the glossiness in alpha: a metal of 0.8 in sRGB.
-    REQUIRE(orm.at(x, 0, 2) > 0.9f);
-    REQUIRE(base.at(x, 0, 0) == Approx(0.8f).margin(0.03));
-  }
-}
-
 TEST_CASE("texremap workflows: alpha of diffuse is kept, and transparent texels do not count") {
   const Session session;
   write_specular(session);
-  write_image(session.path("d.exr"), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeFloat),
-              [](int x, int, int c) { return x < 10 ? (c == 3 ? 0.0f : 5.0f) : 0.3f; });
+  session.make("d.exr", test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeFloat),
+               [](int x, int, int c) { return x < 10 ? (c == 3 ? 0.0f : 5.0f) : 0.3f; });
   const ProcessResult result =
-      require_success(convert(session, with(specular_words(session, "specular", "metallic"), {"--json"})));
+      require_success(convert(session, specular_words("specular", "metallic") + "--json"));
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["masked"] == 10 * kSize);
   CHECK(json["above_one"] == 0);
   CHECK(json["metallic_confidence"]["texels"] == 30 * kSize);
-  const TestImage base = read_image(session.path("out/base_color.exr"));
+  const TestImage base = session.image("out/base_color.exr");
   REQUIRE(base.spec.nchannels == 4);
   for (int x = 0; x < kSize; ++x) REQUIRE(base.at(x, 3, 3) == (x < 10 ? 0.0f : 0.3f));
 }
@@ -230,20 +163,19 @@ TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") 
   write_colors(session, "s.exr", [](int, int, int) { return 0.04f; });
   write_grey(session, "r.exr", [](int, int, int) { return 0.5f; });
   write_grey(session, "mask.exr", [](int x, int, int) { return x < 20 ? 1.0f : 0.0f; });
-  require_success(convert(session, with(specular_words(session, "specular", "metallic"),
-                                        {"--metal-mask", session.path("mask.exr")})));
-  const TestImage metal = read_image(session.path("out/metallic.exr"));
+  require_success(convert(session, specular_words("specular", "metallic") + "--metal-mask mask.exr"));
+  const TestImage metal = session.image("out/metallic.exr");
   CHECK(metal.at(3, 3, 0) > 0.65f);
   CHECK(metal.at(30, 3, 0) < 0.01f);
 }
 
 TEST_CASE("texremap workflows: implausible maps give a warning with the reason", "[slow]") {
   const Session session;
-  const auto warned = [&](const std::vector<std::string>& words, const std::string& message) {
-    const ProcessResult result = require_success(convert(session, with(words, {"--force"})));
+  const auto warned = [&](const Words& words, const std::string& message) {
+    const ProcessResult result = require_success(convert(session, words + "--force"));
     CHECK_THAT(result.errors, Contains(message));
   };
-  const std::vector<std::string> words = specular_words(session, "specular", "metallic");
+  const Words words = specular_words("specular", "metallic");
   write_specular(session, 0.4f, 0.2195f);  // F0 0.04 as sRGB stores it
   warned(words, "like F0 0.04 stored in sRGB (use --color-space specular=srgb");
   write_specular(session, 0.4f, 0.0f);
@@ -258,18 +190,17 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   warned(words, "dielectric F0 estimated from the maps: 0.04");
   write_metallic(session);
   write_colors(session, "b.exr", [](int, int, int) { return 0.0f; });
-  warned(metallic_words(session, "metallic", "specular"), "base_color is black in every sampled texel");
+  warned(metallic_words("metallic", "specular"), "base_color is black in every sampled texel");
 }
 
 TEST_CASE("texremap workflows: the estimated F0 of the maps is used on request") {
   const Session session;
   write_specular(session, 0.5f, 0.055f);
-  const ProcessResult result =
-      require_success(convert(session, with(specular_words(session, "specular", "metallic"),
-                                            {"--dielectric-f0", "estimate", "--json"})));
+  const ProcessResult result = require_success(
+      convert(session, specular_words("specular", "metallic") + "--dielectric-f0 estimate --json"));
   CHECK(nlohmann::json::parse(result.output)["metallic_confidence"]["rms_residual"] < 0.002);
   CHECK_THAT(result.errors, Contains("estimated from the maps: 0.055; 0.055 is used"));
-  const TestImage metal = read_image(session.path("out/metallic.exr"));
+  const TestImage metal = session.image("out/metallic.exr");
   CHECK(metal.at(5, 5, 0) < 0.01f);
 }
 
@@ -281,13 +212,11 @@ TEST_CASE("texremap workflows: a folder of sets goes from one workflow to anothe
   write_grey(session, "in/wood_glossiness.png", roughness, OIIO::TypeUInt8);
   write_grey(session, "in/wood_ao.png", roughness, OIIO::TypeUInt8);
   write_grey(session, "in/bare_glossiness.png", roughness, OIIO::TypeUInt8);
-  const ProcessResult result =
-      convert(session, {session.path("in"), "--from", "gltf-specgloss", "--to", "gltf", "--layout", "orm"});
+  const ProcessResult result = convert(session, "in --from gltf-specgloss --to gltf --layout orm");
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.errors, Contains("bare: no specular map found (or use --specular VALUE"));
-  const TestImage orm = read_image(session.path("out/wood_orm.png")),
-                  gloss = read_image(session.path("in/wood_glossiness.png")),
-                  occlusion = read_image(session.path("in/wood_ao.png"));
+  const TestImage orm = session.image("out/wood_orm.png"), gloss = session.image("in/wood_glossiness.png"),
+                  occlusion = session.image("in/wood_ao.png");
   for (int x = 0; x < kSize; ++x) {
     REQUIRE(orm.at(x, 2, 1) == Approx(1.0f - gloss.at(x, 2, 0)).margin(1e-6));
     REQUIRE(orm.at(x, 2, 0) == occlusion.at(x, 2, 0));
@@ -304,8 +233,7 @@ TEST_CASE(
     write_grey(session, "in/wood/" + set + "metallic.png", metallic, OIIO::TypeUInt8);
     write_grey(session, "in/wood/" + set + "roughness.png", roughness, OIIO::TypeUInt8);
   }
-  require_success(convert(session, {session.path("in"), "--recursive", "--from", "gltf", "--to",
-                                    "mitsuba/ward", "--to-workflow", "metallic"}));
+  require_success(convert(session, "in --recursive --from gltf --to mitsuba/ward --to-workflow metallic"));
 }
 
 TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate file") {
@@ -315,22 +243,21 @@ TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate
   write_colors(
       session, "sets/box_orm.png",
       [](int x, int, int c) { return c == 0 ? static_cast<float>(x) / 255.0f : 0.5f; }, OIIO::TypeUInt8);
-  require_success(convert(session, {session.path("sets"), "--from", "gltf", "--to", "gltf-specgloss"}));
-  const TestImage occlusion = read_image(session.path("out/box_occlusion.png"));
+  require_success(convert(session, "sets --from gltf --to gltf-specgloss"));
+  const TestImage occlusion = session.image("out/box_occlusion.png");
   for (int x = 0; x < kSize; ++x) REQUIRE(occlusion.at(x, 5, 0) == static_cast<float>(x) / 255.0f);
 }
 
 TEST_CASE("texremap workflows: list and path show them", "[slow]") {
   const Session session;
-  const ProcessResult list = require_success(session.texremap({"list", "--workflows", "--json"}));
+  const ProcessResult list = require_success(session.texremap("list --workflows --json"));
   const auto models = nlohmann::json::parse(list.output);
   CHECK(models.size() == 7);
   CHECK(models[0]["model"] == "gltf");
   CHECK(models[0]["dielectric_f0"] == 0.04);
-  const ProcessResult path =
-      require_success(session.texremap({"path", "--from", "mitsuba/ward", "--to", "gltf"}));
+  const ProcessResult path = require_success(session.texremap("path --from mitsuba/ward --to gltf"));
   CHECK_THAT(path.output, Contains("roughness and specular from mitsuba/ward to mitsuba/ggx") &&
                               Contains("to base color and metallic by projection") &&
                               Contains("mitsuba_ward_to_mitsuba_ggx"));
-  require_success(session.texremap({"path", "--from", "gltf-specgloss", "--to", "gltf", "--json"}));
+  require_success(session.texremap("path --from gltf-specgloss --to gltf --json"));
 }

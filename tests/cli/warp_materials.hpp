@@ -69,18 +69,16 @@ inline void write_materials(const Session& session) {
   write_strokes(session, "stone_", 0.37);
 }
 
-inline std::vector<std::string> warp_words(const Session& session, const std::vector<std::string>& more) {
-  std::vector<std::string> words = {"warp", session.path("wood"), session.path("stone"), "-o",
-                                    session.path("stony.json")};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
+// Of wood and stone, into stony.json.
+inline ProcessResult run_warp(const Session& session, const Words& more) {
+  return session.remapc("warp wood stone -o stony.json" + more);
 }
 
-inline std::vector<std::string> mask_words(const Session& session) {
-  std::vector<std::string> words;
-  for (const char* k : {"0", "1", "2", "3"})
-    words.insert(words.end(), {"--stroke", session.path("wood_" + std::string(k) + ".png"),
-                               session.path("stone_" + std::string(k) + ".png")});
+// The strokes of the first `pairs` corners.
+inline Words mask_words(std::size_t pairs = 4) {
+  Words words;
+  for (const char k : std::string("0123").substr(0, pairs))
+    words += std::string("--stroke wood_") + k + ".png stone_" + k + ".png";
   return words;
 }
 

@@ -69,18 +69,16 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
   write_sets(session, textures);
   const fs::path strokes = fs::path(REMAP_SOURCE_DIR) / "tests/cli/strokes";
   struct Direction {
-    const char *source, *source_strokes, *target, *target_strokes, *stem;
+    std::string source, source_strokes, target, target_strokes, stem;
     double folds, used;  // at most, at least
   };
   for (const Direction& way : {Direction{"box", "boom_box.png", "king", "king.png", "BoomBox", 0.005, 0.4},
                                Direction{"king", "king.png", "box", "boom_box.png", "king", 0.15, 0.25}}) {
     CAPTURE(way.source);
-    const std::string fit = session.path(std::string("as_") + way.target + ".json"),
-                      out = session.path(std::string(way.source) + "_out");
-    const ProcessResult warp =
-        require_success(session.remapc({"warp", session.path(way.source), session.path(way.target),
-                                        "--strokes", (strokes / way.source_strokes).string(),
-                                        (strokes / way.target_strokes).string(), "--json", "-o", fit}));
+    const std::string fit = "as_" + way.target + ".json", out = session.path(way.source + "_out");
+    const ProcessResult warp = require_success(session.remapc(
+        "warp " + way.source + " " + way.target + " --strokes " + (strokes / way.source_strokes).string() +
+        " " + (strokes / way.target_strokes).string() + " --json -o " + fit));
     const auto report = nlohmann::json::parse(warp.output);
     const auto& found = report["diagnostics"];
     CAPTURE(found.dump());
@@ -93,10 +91,8 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
     // says so.
     const bool warned = report["warnings"].dump().find("is folded by the warp") != std::string::npos;
     CHECK(warned == (found["fold_share"] > 0.005));
-    const ProcessResult maps =
-        require_success(run({REMAP_TEXREMAP, "convert", session.path(way.source), "--fit", fit,
-                             "--from-workflow", "metallic", "--type", "float", "--format", "exr", "-o", out},
-                            {}));
+    require_success(session.run(REMAP_TEXREMAP " convert " + way.source + " --fit " + fit +
+                                " --from-workflow metallic --type float --format exr -o " + out));
     const std::string stem = out + "/" + way.stem;
     check_range(stem + "_diffuse.exr", 3);
     check_range(stem + "_specular.exr", 3);

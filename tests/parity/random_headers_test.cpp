@@ -1,5 +1,6 @@
-// Headers of random models against the interpreter. Many headers share a file, built
-// as a library that the test loads.
+// Headers of random models against their lowered form, bit for bit; that this is the interpreter's within its
+// bound is proven and tested where it is made (lower_test), and the rule of the domain is tested in
+// parity_test. Many headers share a file, built as a library that the test loads.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -27,8 +28,6 @@ namespace {
 
 constexpr int kModelsInFile = 25;
 constexpr std::size_t kTexels = 600;
-constexpr double kRounding =
-    5e-7;  // eight units roundoff of a float, relative: conversions, scale, its inverse
 
 // What a library of headers exports, an entry a header.
 struct Entry {
@@ -48,7 +47,6 @@ struct Entry {
 struct Header {
   Fit fit;
   std::string text;
-  double alpha_error = 0.0, specular_error = 0.0;  // what it promises
   Lowered lowered;
 };
 
@@ -71,8 +69,7 @@ std::vector<Header> lowered_headers(const std::string& kind, int models) {
     Fit fit = random_fit(kind, seed);
     try {
       add_converter(&fit, options);
-      const Lowered& lowered = fit.converter->lowered;
-      headers.push_back({fit, emit_header(fit), lowered.alpha.bound, lowered.specular.bound, lowered});
+      headers.push_back({fit, emit_header(fit), fit.converter->lowered});
     } catch (const Error& error) {
       REQUIRE(error.kind() == ErrorKind::kNumeric);
     }
@@ -124,23 +121,16 @@ std::vector<Entry> build_all(const TemporaryFolder& folder, const std::vector<He
   return all;
 }
 
-// Planar: width and three channels. Within the domain, beyond it up to 1e30, and below 0.
+// Planar: width and three channels, within the domain, and at its ends.
 std::vector<float> random_texels(const Fit& fit, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const Range own = own_roughness_range(fit), specular = specular_range(fit);
   std::vector<float> planar(4 * kTexels);
-  for (std::size_t i = 0; i < kTexels; ++i) {
-    const double reach = i % 4 == 0 ? 0.3 : 0.0;
-    planar[i] = static_cast<float>(own.min + (own.max - own.min) * (share(random) * (1 + 2 * reach) - reach));
-    if (i < 2) planar[i] = static_cast<float>(i == 0 ? own.min : own.max);
-    const double beyond = i % 8 == 0 ? std::pow(10.0, 30.0 * share(random)) / specular.max : 2.0;
-    for (std::size_t c = 1; c < 4; ++c) {
-      const double to = i % 4 == 0 ? std::max(beyond, 1.0) : 1.0;
-      planar[c * kTexels + i] = static_cast<float>(std::min(specular.max * to * share(random), 1e30));
-      if (i % 16 == 0 && c == 2) planar[c * kTexels + i] = -planar[c * kTexels + i];
-      if (i % 16 == 3 && c == 3) planar[c * kTexels + i] = static_cast<float>(specular.max);
-    }
+  for (std::size_t i = 0; i < planar.size(); ++i) {
+    const Range& range = i < kTexels ? own : specular;
+    const double q = i % kTexels < 2 ? static_cast<double>(i % kTexels) : share(random);
+    planar[i] = static_cast<float>(range.min + (range.max - range.min) * q);
   }
   return planar;
 }
@@ -150,60 +140,6 @@ std::vector<float> converted(const Entry& entry, const std::vector<float>& in) {
   entry.evaluate(kTexels, &in[0], {&in[kTexels], &in[2 * kTexels], &in[3 * kTexels]}, &out[0],
                  {&out[kTexels], &out[2 * kTexels], &out[3 * kTexels]});
   return out;
-}
-
-struct Converted {
-  double width = 0.0;
-  std::array<double, 3> specular{};
-};
-Converted interpreted(const Fit& fit, double width, const std::array<double, 3>& specular) {
-  Converted result;
-  result.width = evaluate_texel(fit, width, specular, result.specular);
-  return result;
-}
-
-// The same texel with its specular a little less and a little more: how far the rounding of the scale
-// reaches.
-double spread(double a, double b, double c) { return std::max(std::fabs(a - b), std::fabs(c - b)); }
-
-void check_against_interpreter(const Header& header, const std::vector<float>& in,
-                               const std::vector<float>& out) {
-  const double edge = specular_range(header.fit).max;
-  int wrong = 0;
-  for (std::size_t i = 0; i < kTexels; ++i) {
-    std::array<double, 3> given{};
-    for (std::size_t c = 0; c < 3; ++c) given[c] = static_cast<double>(in[(c + 1) * kTexels + i]);
-    const double largest = *std::max_element(given.begin(), given.end()),
-                 scale = std::max(1.0, largest / edge);
-    // Beyond the edge channels are divided by the scale, in floats.
-    const double moved = largest > edge ? kRounding : 0.0;
-    const double width = static_cast<double>(in[i]);
-    const Converted exact = interpreted(header.fit, width, given);
-    for (std::size_t c = 0; c <= 3; ++c) {
-      const double expected = c == 0 ? exact.width : exact.specular[c - 1];
-      const double found = static_cast<double>(out[c * kTexels + i]);
-      double within = (c == 0 ? header.alpha_error : scale * header.specular_error) +
-                      kRounding * std::fabs(expected) + 1e-37;
-      if (moved > 0.0) {  // what one channel's value moves by where it alone moves
-        const double at = c == 0 ? edge : std::max(given[c - 1], 0.0) / scale;
-        const double alpha =
-            std::clamp(width, own_roughness_range(header.fit).min, own_roughness_range(header.fit).max);
-        const auto value_at = [&](double specular) {
-          const MappedTexel mapped = evaluate_mapping(header.fit.mapping, alpha, specular);
-          return c == 0 ? mapped.alpha : scale * mapped.specular;
-        };
-        within += spread(value_at(at * (1.0 - moved)), value_at(at), value_at(at * (1.0 + moved)));
-      }
-      // Beyond the largest float there is nothing to compare.
-      const bool beyond = std::fabs(expected) + within > 3.4e38;
-      if (beyond || std::fabs(found - expected) <= within) continue;
-      if (++wrong <= 2)
-        UNSCOPED_INFO("output " << c << " of " << in[i] << " " << given[0] << " " << given[1] << " "
-                                << given[2] << ": header " << found << ", interpreter " << expected
-                                << ", promised within " << within);
-    }
-  }
-  CHECK(wrong == 0);
 }
 
 // Inside the domain nothing is done but the polynomials: the same bits.
@@ -234,7 +170,6 @@ void check_headers(const std::string& what, const std::vector<Header>& headers) 
     INFO(what << " " << headers[i].fit.id);
     CHECK(entries[i].self_test());
     const std::vector<float> in = random_texels(headers[i].fit, i), out = converted(entries[i], in);
-    check_against_interpreter(headers[i], in, out);
     check_bits(headers[i], in, out);
   }
   std::cout << what << ": " << headers.size() << " headers built in " << seconds << " s\n";

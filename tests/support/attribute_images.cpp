@@ -4,56 +4,52 @@
 #include <array>
 #include <cstdint>
 #include <stdexcept>
+#include <string_view>
+
+#include <OpenImageIO/strutil.h>
 
 #include "support/test_image.hpp"
 
 namespace remap {
 namespace {
 
-constexpr int kRoughness = 48, kHeight = 32;
+constexpr int kWidth = 48, kHeight = 32;
 const std::vector<std::string> kGrey = {"Y"}, kColor = {"R", "G", "B"}, kWithAlpha = {"R", "G", "B", "A"};
 
 void require(bool done, const std::string& message) {
   if (!done) throw std::runtime_error("attribute image: " + message);
 }
 
-// What a picture may say of itself in any format that lets it.
+// Sets `NAME=TEXT; NAME:int=VALUE; NAME:float=VALUE; ...`.
+OIIO::ImageSpec& set(OIIO::ImageSpec& spec, std::string_view attributes) {
+  for (const std::string& one : OIIO::Strutil::splits(attributes, "; ")) {
+    if (one.empty()) continue;
+    const std::size_t equals = one.find('='), colon = one.substr(0, equals).rfind(':');
+    const std::string type = colon == std::string::npos ? "" : one.substr(colon + 1, equals - colon - 1);
+    const bool is_number = type == "int" || type == "float";
+    spec.attribute(one.substr(0, is_number ? colon : equals), OIIO::TypeDesc(is_number ? type : "string"),
+                   one.substr(equals + 1));
+  }
+  return spec;
+}
+
+// What a picture may say of itself in any format that lets it; Exif; IPTC.
+constexpr const char* kCommon =
+    "DateTime=2021:03:04 05:06:07; Orientation:int=6; XResolution:float=300; YResolution:float=150; "
+    "ResolutionUnit=in; PixelAspectRatio:float=2; wrapmodes=periodic,black; fovcot:float=1.25; "
+    "ExposureTime:float=0.02; FNumber:float=5.6; Exif:LensModel=a lens; "
+    "Exif:DateTimeOriginal=2020:01:02 03:04:05; Exif:ISOSpeedRatings:int=400; Exif:FocalLength:float=35; "
+    "Exif:Flash:int=1; Exif:UserComment=a comment; GPS:LatitudeRef=N; GPS:Altitude:float=120; "
+    "IPTC:City=Hameln; IPTC:Caption=a caption; IPTC:Instructions=none; dc:rights=all of them; xmp:Rating=3";
+
 void describe(OIIO::ImageSpec& spec) {
   for (const char* name : {"ImageDescription", "Artist", "Copyright", "Software", "DocumentName",
                            "HostComputer", "Make", "Model", "Keywords"})
     spec.attribute(name, std::string("the ") + name + ", with \xc3\xbc");
-  spec.attribute("DateTime", "2021:03:04 05:06:07");
-  spec.attribute("Orientation", 6);
-  spec.attribute("XResolution", 300.0f);
-  spec.attribute("YResolution", 150.0f);
-  spec.attribute("ResolutionUnit", "in");
-  spec.attribute("PixelAspectRatio", 2.0f);
-  spec.attribute("wrapmodes", "periodic,black");
   const std::array<float, 16> projection = {0.5f, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0.25f, 3, 4, 5, 1};
   spec.attribute("worldtoscreen", OIIO::TypeMatrix, projection.data());
   spec.attribute("worldtocamera", OIIO::TypeMatrix, projection.data());
-  spec.attribute("fovcot", 1.25f);
-}
-
-void add_exif(OIIO::ImageSpec& spec) {
-  spec.attribute("ExposureTime", 0.02f);
-  spec.attribute("FNumber", 5.6f);
-  spec.attribute("Exif:LensModel", "a lens");
-  spec.attribute("Exif:DateTimeOriginal", "2020:01:02 03:04:05");
-  spec.attribute("Exif:ISOSpeedRatings", 400);
-  spec.attribute("Exif:FocalLength", 35.0f);
-  spec.attribute("Exif:Flash", 1);
-  spec.attribute("Exif:UserComment", "a comment");
-  spec.attribute("GPS:LatitudeRef", "N");
-  spec.attribute("GPS:Altitude", 120.0f);
-}
-
-void add_iptc(OIIO::ImageSpec& spec) {
-  spec.attribute("IPTC:City", "Hameln");
-  spec.attribute("IPTC:Caption", "a caption");
-  spec.attribute("IPTC:Instructions", "none");
-  spec.attribute("dc:rights", "all of them");
-  spec.attribute("xmp:Rating", "3");
+  set(spec, kCommon);
 }
 
 // The head and one tag of an ICC profile: as small as OpenImageIO reads one.
@@ -123,15 +119,37 @@ void add_typed(OIIO::ImageSpec& spec) {
 
 OIIO::ImageSpec rich_spec(const std::vector<std::string>& channels, OIIO::TypeDesc type,
                           const std::string& compression = "", int tile_width = 0, int tile_height = 0) {
-  OIIO::ImageSpec spec = test_spec(kRoughness, kHeight, channels, type);
+  OIIO::ImageSpec spec = test_spec(kWidth, kHeight, channels, type);
   if (!compression.empty()) spec.attribute("Compression", compression);
   spec.tile_width = tile_width;
   spec.tile_height = tile_height;
   describe(spec);
-  add_exif(spec);
-  add_iptc(spec);
   return spec;
 }
+
+// Images of one format.
+class Images {
+ public:
+  explicit Images(const char* extension) : extension_(extension) {}
+  // For what is special about it.
+  OIIO::ImageSpec& add(const std::string& title, const OIIO::ImageSpec& spec, bool has_levels = false) {
+    images_.push_back({title, extension_, {spec}, has_levels});
+    return images_.back().parts.front();
+  }
+  OIIO::ImageSpec& add_lossy(const std::string& title, const OIIO::ImageSpec& spec) {
+    OIIO::ImageSpec& added = add(title, spec);
+    images_.back().is_lossless = false;
+    return added;
+  }
+  void add_parts(const std::string& title, const std::vector<OIIO::ImageSpec>& parts) {
+    images_.push_back({title, extension_, parts});
+  }
+  const std::vector<AttributeImage>& all() const { return images_; }
+
+ private:
+  std::string extension_;
+  std::vector<AttributeImage> images_;
+};
 
 OIIO::ImageSpec exr_spec(OIIO::TypeDesc type, const std::string& compression, int tile_width = 0,
                          int tile_height = 0, const std::vector<std::string>& channels = kWithAlpha) {
@@ -166,180 +184,130 @@ OIIO::ImageSpec next_level(OIIO::ImageSpec spec, bool round_up) {
 }  // namespace
 
 std::vector<AttributeImage> exr_storage_images() {
-  std::vector<AttributeImage> images;
-  for (const char* compression : {"none", "rle", "zips", "zip", "piz"})
-    images.push_back({std::string("half, ") + compression, "exr", {exr_spec(OIIO::TypeHalf, compression)}});
-  for (const char* compression : {"none", "zip", "piz"}) {
-    images.push_back({std::string("float, ") + compression, "exr", {exr_spec(OIIO::TypeFloat, compression)}});
-    images.push_back(
-        {std::string("half, tiled, ") + compression, "exr", {exr_spec(OIIO::TypeHalf, compression, 32, 16)}});
+  Images images("exr");
+  const OIIO::TypeDesc half = OIIO::TypeHalf;
+  for (const std::string compression : {"none", "rle", "zips", "zip", "piz"})
+    images.add("half, " + compression, exr_spec(half, compression));
+  for (const std::string compression : {"none", "zip", "piz"}) {
+    images.add("float, " + compression, exr_spec(OIIO::TypeFloat, compression));
+    images.add("half, tiled, " + compression, exr_spec(half, compression, 32, 16));
   }
-  for (const char* compression : {"pxr24", "b44", "b44a", "dwaa:60", "dwab:30.5"})
-    images.push_back({std::string("half, ") + compression,
-                      "exr",
-                      {exr_spec(OIIO::TypeHalf, compression)},
-                      false,
-                      std::string_view(compression) == "pxr24"});
-  images.push_back({"float, pxr24", "exr", {exr_spec(OIIO::TypeFloat, "pxr24")}, false, false});
-  images.push_back({"half, mip levels", "exr", {exr_spec(OIIO::TypeHalf, "zip", 16, 16)}, true});
-  images.back().parts.front().attribute("textureformat", "Plain Texture");
-  images.back().parts.front().attribute("openexr:roundingmode", 0);
-  images.push_back({"half, mip levels rounded up", "exr", {exr_spec(OIIO::TypeHalf, "piz", 32, 32)}, true});
-  images.back().parts.front().attribute("textureformat", "Plain Texture");
-  images.back().parts.front().attribute("openexr:roundingmode", 1);
-  images.push_back({"decreasing line order", "exr", {exr_spec(OIIO::TypeHalf, "zip")}});
-  images.back().parts.front().attribute("openexr:lineOrder", "decreasingY");
-  images.push_back({"tiles in random order", "exr", {exr_spec(OIIO::TypeHalf, "zip", 16, 16)}});
-  images.back().parts.front().attribute("openexr:lineOrder", "randomY");
-  images.push_back({"latitude and longitude", "exr", {exr_spec(OIIO::TypeHalf, "zip")}});
-  images.back().parts.front().attribute("envmap", "latlong");
-  images.push_back({"grey", "exr", {exr_spec(OIIO::TypeHalf, "zip", 0, 0, kGrey)}});
-  return images;
+  images.add("half, pxr24", exr_spec(half, "pxr24"));
+  for (const std::string compression : {"b44", "b44a", "dwaa:60", "dwab:30.5"})
+    images.add_lossy("half, " + compression, exr_spec(half, compression));
+  images.add_lossy("float, pxr24", exr_spec(OIIO::TypeFloat, "pxr24"));
+  set(images.add("half, mip levels", exr_spec(half, "zip", 16, 16), true),
+      "textureformat=Plain Texture; openexr:roundingmode:int=0");
+  set(images.add("half, mip levels rounded up", exr_spec(half, "piz", 32, 32), true),
+      "textureformat=Plain Texture; openexr:roundingmode:int=1");
+  set(images.add("decreasing line order", exr_spec(half, "zip")), "openexr:lineOrder=decreasingY");
+  set(images.add("tiles in random order", exr_spec(half, "zip", 16, 16)), "openexr:lineOrder=randomY");
+  set(images.add("latitude and longitude", exr_spec(half, "zip")), "envmap=latlong");
+  images.add("grey", exr_spec(half, "zip", 0, 0, kGrey));
+  return images.all();
 }
 
 std::vector<AttributeImage> exr_structure_images() {
-  std::vector<AttributeImage> images;
-  images.push_back({"layers of several types",
-                    "exr",
-                    {exr_spec(OIIO::TypeFloat, "zip", 0, 0,
-                              {"base.R", "base.G", "base.B", "base.A", "depth.Z", "id.name", "N.x"})}});
-  images.back().parts.front().channelformats = {OIIO::TypeHalf, OIIO::TypeHalf,  OIIO::TypeHalf,
-                                                OIIO::TypeHalf, OIIO::TypeFloat, OIIO::TypeUInt32,
-                                                OIIO::TypeFloat};
-  images.push_back(
-      {"alpha and depth", "exr", {exr_spec(OIIO::TypeFloat, "zip", 32, 32, {"R", "G", "B", "A", "Z"})}});
-  const OIIO::ROI display(0, 40, 0, 30, 0, 1);
-  const std::vector<std::pair<std::string, OIIO::ROI>> windows = {
-      {"overscan", OIIO::ROI(-4, 44, -1, 31, 0, 1)},
-      {"crop", OIIO::ROI(3, 21, 5, 19, 0, 1)},
-      {"outside", OIIO::ROI(-100, -52, 200, 232, 0, 1)}};
-  for (const auto& window : windows)
-    for (const int tile : {0, 16}) {
-      images.push_back(
-          {window.first + (tile > 0 ? ", tiled" : ""), "exr", {exr_spec(OIIO::TypeHalf, "zip", tile, tile)}});
-      set_window(images.back().parts.front(), window.second, display);
-    }
-  images.push_back({"display window from 5, -3", "exr", {exr_spec(OIIO::TypeHalf, "zip")}});
-  set_window(images.back().parts.front(), OIIO::ROI(-4, 44, -6, 26, 0, 1), OIIO::ROI(5, 45, -3, 27, 0, 1));
-  AttributeImage parts{"three parts", "exr", {}};
-  for (const char* name : {"beauty", "id", "left"}) {
-    parts.parts.push_back(
-        exr_spec(OIIO::TypeHalf, "zip", 0, 0, name[0] == 'i' ? std::vector<std::string>{"id"} : kWithAlpha));
-    parts.parts.back().attribute("oiio:subimagename", name);
-    parts.parts.back().attribute("test:of_part", name);
-    if (name[0] == 'l') parts.parts.back().attribute("view", name);
+  Images images("exr");
+  const OIIO::TypeDesc half = OIIO::TypeHalf;
+  images
+      .add("layers of several types",
+           exr_spec(OIIO::TypeFloat, "zip", 0, 0,
+                    {"base.R", "base.G", "base.B", "base.A", "depth.Z", "id.name", "N.x"}))
+      .channelformats = {half, half, half, half, OIIO::TypeFloat, OIIO::TypeUInt32, OIIO::TypeFloat};
+  images.add("alpha and depth", exr_spec(OIIO::TypeFloat, "zip", 32, 32, {"R", "G", "B", "A", "Z"}));
+  const OIIO::ROI display(0, 40, 0, 30, 0, 1), crop(3, 21, 5, 19, 0, 1);
+  for (const int tile : {0, 16}) {
+    const std::string suffix = tile > 0 ? ", tiled" : "";
+    const OIIO::ImageSpec spec = exr_spec(half, "zip", tile, tile);
+    set_window(images.add("overscan" + suffix, spec), OIIO::ROI(-4, 44, -1, 31, 0, 1), display);
+    set_window(images.add("crop" + suffix, spec), crop, display);
+    set_window(images.add("outside" + suffix, spec), OIIO::ROI(-100, -52, 200, 232, 0, 1), display);
   }
-  set_window(parts.parts[1], OIIO::ROI(3, 21, 5, 19, 0, 1), parts.parts[0].roi_full());
-  images.push_back(parts);
+  set_window(images.add("display window from 5, -3", exr_spec(half, "zip")), OIIO::ROI(-4, 44, -6, 26, 0, 1),
+             OIIO::ROI(5, 45, -3, 27, 0, 1));
+  std::vector<OIIO::ImageSpec> parts = {exr_spec(half, "zip"), exr_spec(half, "zip", 0, 0, {"id"}),
+                                        exr_spec(half, "zip")};
+  const std::array<std::string, 3> names = {"beauty", "id", "left"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    set(parts[i], "oiio:subimagename=" + names[i] + "; test:of_part=" + names[i]);
+  set(parts[2], "view=left");
+  set_window(parts[1], crop, parts[0].roi_full());
+  images.add_parts("three parts", parts);
   // OpenImageIO writes no file of which some parts are tiled and some are not.
-  parts.title += ", tiled";
-  for (OIIO::ImageSpec& part : parts.parts) part.tile_width = part.tile_height = 16;
-  images.push_back(parts);
-  return images;
+  for (OIIO::ImageSpec& part : parts) part.tile_width = part.tile_height = 16;
+  images.add_parts("three parts, tiled", parts);
+  return images.all();
 }
 
 std::vector<AttributeImage> tiff_images() {
-  std::vector<AttributeImage> images;
-  const auto add = [&images](OIIO::TypeDesc type, const std::string& compression, int tile) {
-    const std::string title = std::string(type.c_str()) + ", " + compression + (tile > 0 ? ", tiled" : "");
-    images.push_back({title, "tif", {rich_spec(kWithAlpha, type, compression, tile, tile)}});
-    add_profile(images.back().parts.front());
+  Images images("tif");
+  const auto add = [&](OIIO::TypeDesc type, const std::string& compression, int tile) {
+    add_profile(images.add(std::string(type.c_str()) + ", " + compression + (tile > 0 ? ", tiled" : ""),
+                           rich_spec(kWithAlpha, type, compression, tile, tile)));
   };
   for (const OIIO::TypeDesc& type : {OIIO::TypeUInt8, OIIO::TypeUInt16, OIIO::TypeFloat})
     for (const int tile : {0, 16}) add(type, "zip", tile);
   for (const char* compression : {"none", "lzw", "packbits"}) add(OIIO::TypeUInt8, compression, 0);
-  images.push_back({"grey", "tif", {rich_spec(kGrey, OIIO::TypeUInt8, "zip")}});
-  images.push_back(
-      {"five channels", "tif", {rich_spec({"R", "G", "B", "A", "mask"}, OIIO::TypeUInt16, "zip")}});
-  images.push_back({"associated alpha", "tif", {rich_spec(kWithAlpha, OIIO::TypeUInt16, "zip")}});
-  images.back().parts.front().erase_attribute("oiio:UnassociatedAlpha");
-  images.push_back({"planes apart", "tif", {rich_spec(kColor, OIIO::TypeUInt8, "zip")}});
-  images.back().parts.front().attribute("planarconfig", "separate");
-  images.push_back({"rows of a strip, predictor", "tif", {rich_spec(kColor, OIIO::TypeUInt16, "zip")}});
-  images.back().parts.front().attribute("tiff:RowsPerStrip", 5);
-  images.back().parts.front().attribute("tiff:Predictor", 2);
-  images.push_back({"IPTC", "tif", {rich_spec(kColor, OIIO::TypeUInt8, "zip")}});
-  images.back().parts.front().attribute("tiff:write_iptc", 1);
-  images.push_back({"half", "tif", {rich_spec(kColor, OIIO::TypeHalf, "zip")}});
-  images.back().parts.front().attribute("tiff:half", 1);
-  images.push_back({"said to be sRGB", "tif", {rich_spec(kColor, OIIO::TypeUInt8, "zip")}});
-  images.back().parts.front().attribute("oiio:ColorSpace", "sRGB");
-  images.push_back({"windows", "tif", {rich_spec(kColor, OIIO::TypeUInt8, "zip")}});
-  set_window(images.back().parts.front(), OIIO::ROI(4, 52, 6, 38, 0, 1), OIIO::ROI(0, 100, 0, 80, 0, 1));
-  AttributeImage parts{
-      "two parts",
-      "tif",
-      {rich_spec(kColor, OIIO::TypeUInt8, "zip"), rich_spec(kGrey, OIIO::TypeUInt16, "lzw")}};
-  images.push_back(parts);
-  return images;
+  const OIIO::ImageSpec grey = rich_spec(kGrey, OIIO::TypeUInt8, "zip"),
+                        color = rich_spec(kColor, OIIO::TypeUInt8, "zip"),
+                        deep = rich_spec(kColor, OIIO::TypeUInt16, "zip");
+  images.add("grey", grey);
+  images.add("five channels", rich_spec({"R", "G", "B", "A", "mask"}, OIIO::TypeUInt16, "zip"));
+  images.add("associated alpha", rich_spec(kWithAlpha, OIIO::TypeUInt16, "zip"))
+      .erase_attribute("oiio:UnassociatedAlpha");
+  set(images.add("planes apart", color), "planarconfig=separate");
+  set(images.add("rows of a strip, predictor", deep), "tiff:RowsPerStrip:int=5; tiff:Predictor:int=2");
+  set(images.add("IPTC", color), "tiff:write_iptc:int=1");
+  set(images.add("half", rich_spec(kColor, OIIO::TypeHalf, "zip")), "tiff:half:int=1");
+  set(images.add("said to be sRGB", color), "oiio:ColorSpace=sRGB");
+  set_window(images.add("windows", color), OIIO::ROI(4, 52, 6, 38, 0, 1), OIIO::ROI(0, 100, 0, 80, 0, 1));
+  images.add_parts("two parts", {color, rich_spec(kGrey, OIIO::TypeUInt16, "lzw")});
+  return images.all();
 }
 
 std::vector<AttributeImage> png_images() {
-  std::vector<AttributeImage> images;
+  Images images("png");
   for (const OIIO::TypeDesc& type : {OIIO::TypeUInt8, OIIO::TypeUInt16}) {
-    for (const auto& channels : {kGrey, {"Y", "A"}, kColor, kWithAlpha}) {
-      images.push_back({std::string(type.c_str()) + " x " + std::to_string(channels.size()),
-                        "png",
-                        {rich_spec(channels, type)}});
-      images.back().parts.front().attribute("test:string", "a string");
-    }
-    const auto add = [&](const std::string& title) -> OIIO::ImageSpec& {
-      images.push_back({std::string(type.c_str()) + ", " + title, "png", {rich_spec(kColor, type)}});
-      return images.back().parts.front();
+    const std::string name = type.c_str();
+    for (const auto& channels : {kGrey, {"Y", "A"}, kColor, kWithAlpha})
+      set(images.add(name + " x " + std::to_string(channels.size()), rich_spec(channels, type)),
+          "test:string=a string");
+    const auto add = [&](const std::string& title, std::string_view attributes) -> OIIO::ImageSpec& {
+      return set(images.add(name + ", " + title, rich_spec(kColor, type)), attributes);
     };
-    add("sRGB").attribute("oiio:ColorSpace", "sRGB");
-    add("linear").attribute("oiio:ColorSpace", "Linear");
-    OIIO::ImageSpec& curve = add("gamma");
-    curve.attribute("oiio:ColorSpace", "Gamma2.2");
-    curve.attribute("oiio:Gamma", 2.2f);
-    add_profile(add("profile"));
-    OIIO::ImageSpec& offset = add("offset");
+    add("sRGB", "oiio:ColorSpace=sRGB");
+    add("linear", "oiio:ColorSpace=Linear");
+    add("gamma", "oiio:ColorSpace=Gamma2.2; oiio:Gamma:float=2.2");
+    add_profile(add("profile", ""));
+    OIIO::ImageSpec& offset = add("offset", "");
     offset.x = 7;
     offset.y = 9;
-    OIIO::ImageSpec& screen = add("72 to the inch");
-    screen.attribute("XResolution", 72.009f);
-    screen.attribute("YResolution", 72.009f);
-    screen.attribute("PixelAspectRatio", 1.0f);
-    OIIO::ImageSpec& metric = add("to the centimetre");
-    metric.attribute("ResolutionUnit", "cm");
-    metric.attribute("XResolution", 28.0f);
-    OIIO::ImageSpec& none = add("no unit");
-    none.attribute("ResolutionUnit", "none");
+    add("72 to the inch", "XResolution:float=72.009; YResolution:float=72.009; PixelAspectRatio:float=1.0");
+    add("to the centimetre", "ResolutionUnit=cm; XResolution:float=28.0");
+    add("no unit", "ResolutionUnit=none");
   }
-  return images;
+  return images.all();
 }
 
 std::vector<AttributeImage> small_format_images() {
-  std::vector<AttributeImage> images;
+  Images tga("tga"), bmp("bmp"), jpg("jpg"), hdr("hdr");
   for (const auto& channels : {kGrey, kColor, kWithAlpha}) {
-    images.push_back(
-        {"rle x " + std::to_string(channels.size()), "tga", {rich_spec(channels, OIIO::TypeUInt8, "rle")}});
-    images.push_back({"plain x " + std::to_string(channels.size()),
-                      "tga",
-                      {rich_spec(channels, OIIO::TypeUInt8, "none")}});
-    images.back().parts.front().attribute("oiio:Gamma", 2.2f);
-    images.back().parts.front().attribute("targa:JobTime", "1:02:03");
-    images.back().parts.front().attribute("targa:ImageID", "an identity");
+    const std::string count = " x " + std::to_string(channels.size());
+    tga.add("rle" + count, rich_spec(channels, OIIO::TypeUInt8, "rle"));
+    set(tga.add("plain" + count, rich_spec(channels, OIIO::TypeUInt8, "none")),
+        "oiio:Gamma:float=2.2; targa:JobTime=1:02:03; targa:ImageID=an identity");
+    bmp.add("plain" + count, rich_spec(channels, OIIO::TypeUInt8));
+    if (channels.size() > 3) continue;
+    const OIIO::ImageSpec spec = rich_spec(channels, OIIO::TypeUInt8, "jpeg:90");
+    jpg.add_lossy("plain" + count, spec);
+    add_profile(set(jpg.add_lossy("with profile" + count, spec),
+                    "jpeg:subsampling=4:2:0; Exif:ColorSpace:int=65535"));
   }
-  images.push_back({"color", "bmp", {rich_spec(kColor, OIIO::TypeUInt8)}});
-  images.push_back({"with alpha", "bmp", {rich_spec(kWithAlpha, OIIO::TypeUInt8)}});
-  images.push_back({"grey", "bmp", {rich_spec(kGrey, OIIO::TypeUInt8)}});
-  for (const auto& channels : {kGrey, kColor}) {
-    images.push_back({"x " + std::to_string(channels.size()),
-                      "jpg",
-                      {rich_spec(channels, OIIO::TypeUInt8, "jpeg:90")},
-                      false,
-                      false});
-    images.push_back({"with profile x " + std::to_string(channels.size()),
-                      "jpg",
-                      {rich_spec(channels, OIIO::TypeUInt8, "jpeg:90")},
-                      false,
-                      false});
-    add_profile(images.back().parts.front());
-    images.back().parts.front().attribute("jpeg:subsampling", "4:2:0");
-    images.back().parts.front().attribute("Exif:ColorSpace", 65535);
-  }
-  images.push_back({"radiance", "hdr", {rich_spec(kColor, OIIO::TypeFloat)}, false, false});
+  hdr.add_lossy("radiance", rich_spec(kColor, OIIO::TypeFloat));
+  std::vector<AttributeImage> images;
+  for (const Images* format : {&tga, &bmp, &jpg, &hdr})
+    images.insert(images.end(), format->all().begin(), format->all().end());
   return images;
 }
 

@@ -35,6 +35,7 @@ std::string content(const fs::path& path) {
   // What root loses here, exec does not give back; anybody else has nothing to lose, and it fails.
   if (limits.keeps_permissions)
     for (const int right : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH}) ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);
+  if (!limits.folder.empty() && ::chdir(limits.folder.c_str()) != 0) ::_exit(126);
   ::execv(arguments[0], arguments);
   ::_exit(127);
 }
@@ -48,7 +49,7 @@ std::string ProcessResult::last_error() const {
   return line == std::string::npos ? text : text.substr(line + 1);
 }
 
-Process::Process(const std::vector<std::string>& arguments, const ProcessLimits& limits) {
+Process::Process(const Words& arguments, const ProcessLimits& limits) {
   std::vector<std::string> words = arguments;
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -98,12 +99,28 @@ void Process::collect(int status, long peak_kilobytes) {
   result_ = std::move(result);
 }
 
-std::vector<std::string> split_words(const std::string& command) {
+Words::Words(const std::string& command) {
   std::istringstream stream(command);
-  return {std::istream_iterator<std::string>(stream), {}};
+  assign(std::istream_iterator<std::string>(stream), {});
 }
 
-ProcessResult run(const std::vector<std::string>& arguments, const ProcessLimits& limits) {
+Words& Words::operator+=(const Words& more) {
+  insert(end(), more.begin(), more.end());
+  return *this;
+}
+
+std::string CommandFolder::content(const std::string& name) const {
+  INFO(name);
+  REQUIRE(fs::exists(path(name)));
+  return remap::content(path(name));
+}
+
+Process CommandFolder::start(const Words& words, ProcessLimits limits) const {
+  limits.folder = folder_.path();
+  return Process(words, limits);
+}
+
+ProcessResult run(const Words& arguments, const ProcessLimits& limits) {
   return Process(arguments, limits).wait();
 }
 

@@ -25,7 +25,18 @@ struct ProcessResult {
   std::string last_error() const;
 };
 
+// The words of a command: a list of them, or a text with blanks between them and no quotes.
+struct Words : std::vector<std::string> {
+  using vector::vector;
+  Words(const std::vector<std::string>& words) : vector(words) {}
+  Words(const std::string& command);
+  Words(const char* command) : Words(std::string(command)) {}
+  Words& operator+=(const Words& more);
+  friend Words operator+(Words words, const Words& more) { return words += more; }
+};
+
 struct ProcessLimits {
+  std::filesystem::path folder;      // where it runs, if not where the test does
   std::optional<rlim_t> file_bytes;  // as by `ulimit -f`: writing beyond fails
   bool keeps_permissions = false;    // the modes of files hold for it, even where the test runs as root
 };
@@ -34,7 +45,7 @@ struct ProcessLimits {
 class Process {
  public:
   // `arguments` begins with the path of the program. Throws std::runtime_error where it cannot be started.
-  explicit Process(const std::vector<std::string>& arguments, const ProcessLimits& limits = {});
+  explicit Process(const Words& arguments, const ProcessLimits& limits = {});
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -50,11 +61,22 @@ class Process {
   void collect(int status, long peak_kilobytes);
 };
 
-// The words of a command, which has blanks between them and no quotes.
-std::vector<std::string> split_words(const std::string& command);
-
 // Starts it and waits for it.
-ProcessResult run(const std::vector<std::string>& arguments, const ProcessLimits& limits = {});
+ProcessResult run(const Words& arguments, const ProcessLimits& limits = {});
+
+// A folder of its own, in which programs run.
+class CommandFolder {
+ public:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::string content(const std::string& name) const;  // of a file
+  Process start(const Words& words, ProcessLimits limits = {}) const;
+  ProcessResult run(const Words& words, const ProcessLimits& limits = {}) const {
+    return start(words, limits).wait();
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
 
 // The result of a program that must have ended with exit code 0. Else the test ends with what the program
 // said.

@@ -69,19 +69,6 @@ WarpTexel rust_template(const std::array<double, 3>& l) {
                   0.15 + 0.35 * l[0] + 0.22 * l[2] * (1.0 - 0.5 * l[0]) + 0.05 * l[1]);
 }
 
-WarpTexel wood_source(const std::array<double, 3>& l) {
-  const Color diffuse = mix({0.20, 0.11, 0.06}, {0.06, 0.03, 0.02}, std::pow(l[0], 0.7));
-  return texel_of(scaled(diffuse, 1.0 + 0.3 * std::pow(l[1], 1.4)),
-                  mix({0.05, 0.05, 0.05}, {0.035, 0.035, 0.035}, l[1]),
-                  0.25 + 0.3 * std::pow(l[1], 0.7) + 0.06 * l[0]);
-}
-
-WarpTexel wood_template(const std::array<double, 3>& l) {
-  const Color diffuse = mix({0.47, 0.30, 0.15}, {0.22, 0.10, 0.04}, l[0]);
-  return texel_of(scaled(diffuse, 1.0 - 0.25 * l[1]), mix({0.055, 0.055, 0.055}, {0.04, 0.04, 0.04}, l[1]),
-                  0.12 + 0.3 * l[1] + 0.08 * l[0] * l[1]);
-}
-
 // Evaluates the material at `latents` and adds texel noise of 1 %.
 std::vector<WarpTexel> material_of(Law law, const Latents& latents, std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -109,25 +96,23 @@ WarpSet set_of(const std::string& name, std::size_t size, Law source, Law target
   return set;
 }
 
-// Smooth noise, uniformly distributed in 0 to 1 and stretched along rows by `stretch`.
-std::vector<double> ranked_noise(std::size_t size, double roughness, std::uint32_t seed,
-                                 std::size_t stretch = 1) {
+// Smooth noise, uniformly distributed in 0 to 1.
+std::vector<double> ranked_noise(std::size_t size, double roughness, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<double> values(size * size, 0.0);
   for (std::size_t cells = 2; cells <= size / 2; cells *= 2) {
-    const std::size_t across = std::max<std::size_t>(cells / stretch, 1);
-    std::vector<double> knots((across + 1) * (cells + 1));
+    std::vector<double> knots((cells + 1) * (cells + 1));
     for (double& knot : knots) knot = uniform(random) - 0.5;
     const double amplitude = std::pow(static_cast<double>(cells), 1.0 - roughness);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const double x = static_cast<double>(i % size * across) / static_cast<double>(size);
+      const double x = static_cast<double>(i % size * cells) / static_cast<double>(size);
       const double y = static_cast<double>(i / size * cells) / static_cast<double>(size);
       const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
       const double s = smooth_step(x - static_cast<double>(column), 0.0, 1.0);
       const double t = smooth_step(y - static_cast<double>(row), 0.0, 1.0);
-      const double* knot = knots.data() + row * (across + 1) + column;
+      const double* knot = knots.data() + row * (cells + 1) + column;
       const double above = knot[0] + s * (knot[1] - knot[0]);
-      const double below = knot[across + 1] + s * (knot[across + 2] - knot[across + 1]);
+      const double below = knot[cells + 1] + s * (knot[cells + 2] - knot[cells + 1]);
       values[i] += amplitude * (above + t * (below - above));
     }
   }
@@ -158,23 +143,11 @@ Latents rust_latents(std::size_t size, std::uint32_t seed, double power) {
   return latents;
 }
 
-// The grain is stretched along rows.
-Latents wood_latents(std::size_t size, std::uint32_t seed, double power) {
-  const auto grain = ranked_noise(size, 1.3, seed, 8), wear = ranked_noise(size, 1.7, seed + 1);
-  Latents latents(grain.size());
-  for (std::size_t i = 0; i < grain.size(); ++i)
-    latents[i] = {std::pow(smooth_step(grain[i], 0.2, 0.9), power), wear[i], 0.0};
-  return latents;
-}
-
 std::vector<Region> regions_of(const WarpSet& set) {
   using L = const std::array<double, 3>&;
   if (set.name == "leaf")
     return {[](L l) { return l[1] < 0.1; }, [](L l) { return l[1] > 0.8; },
             [](L l) { return l[1] < 0.2 && l[0] < 0.2; }, [](L l) { return l[1] < 0.2 && l[0] > 0.8; }};
-  if (set.name == "wood")
-    return {[](L l) { return l[0] < 0.15; }, [](L l) { return l[0] > 0.85; }, [](L l) { return l[1] < 0.2; },
-            [](L l) { return l[1] > 0.8; }};
   return {[](L l) { return l[0] < 0.05; },
           [](L l) { return l[0] > 0.95; },
           [](L l) { return l[1] < 0.2 && l[0] < 0.5; },
@@ -222,11 +195,6 @@ WarpSet leaf_set(std::size_t size) {
 WarpSet rust_set(std::size_t size) {
   return set_of("rust", size, rust_source, rust_template, rust_latents(size, 11, 0.7),
                 rust_latents(size, 77, 1.5));
-}
-
-WarpSet wood_set(std::size_t size) {
-  return set_of("wood", size, wood_source, wood_template, wood_latents(size, 11, 1.4),
-                wood_latents(size, 77, 0.8));
 }
 
 std::vector<StrokePair> strokes_of(const WarpSet& set, std::uint32_t seed) {

@@ -23,9 +23,8 @@ struct WarpSet {
   std::vector<WarpTexel> truth;  // the template's reflectance at the source's latents
 };
 
-// `leaf`: age and stem. `wood`: grain and wear. `rust`: rust, grime and polish.
+// `leaf`: age and stem. `rust`: rust, grime and polish.
 WarpSet leaf_set(std::size_t size);
-WarpSet wood_set(std::size_t size);
 WarpSet rust_set(std::size_t size);
 
 // Draws thin straight lines in each region, clipped to the region: three, or more until they cover 80 texels.

@@ -125,27 +125,6 @@ TEST_CASE("chain: against its steps, with the rules of their domains") {
   CHECK(difference.color_specular < 0.05);
 }
 
-TEST_CASE("chain: one pass of polynomials within a proven bound of the composed fits") {
-  const Fit chain =
-      compose({fit_of("x/a", "x/b", leaning()), fit_of("x/b", "x/c", straight(0.9, 0.05, 0.8, 0.01)),
-               fit_of("x/c", "x/d", leaning())});
-  const Lowered lowered = lower(chain.mapping, chain.domain);
-  CHECK(lowered.alpha.bound <= 1e-5);
-  for (int i = 0; i <= 50; ++i)
-    for (int j = 0; j <= 10; ++j) {
-      const double alpha =
-          chain.domain.alpha.min + (chain.domain.alpha.max - chain.domain.alpha.min) * i / 50.0;
-      const double specular = chain.domain.specular.max * j / 10.0;
-      const auto a = static_cast<float>(alpha), s = static_cast<float>(specular);
-      const MappedTexel exact =
-          evaluate_mapping(chain.mapping, static_cast<double>(a), static_cast<double>(s));
-      CHECK(std::fabs(static_cast<double>(value(lowered.alpha.polynomial, a, s)) - exact.alpha) <=
-            lowered.alpha.bound);
-      CHECK(std::fabs(static_cast<double>(value(lowered.specular.polynomial, a, s)) - exact.specular) <=
-            lowered.specular.bound);
-    }
-}
-
 TEST_CASE("chain: JSON gives it back") {
   const Fit chain =
       compose({fit_of("x/a", "x/b", leaning()), fit_of("x/b", "x/c", straight(0.9, 0.05, 0.8, 0.01))});

@@ -13,13 +13,13 @@ using namespace remap;
 
 namespace {
 
-constexpr int kRoughness = 32, kHeight = 24;
+constexpr int kWidth = 32, kHeight = 24;
 
 template <typename Function>
 std::vector<float> picture(const Function& value) {
   std::vector<float> values;
   for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kRoughness; ++x) values.push_back(static_cast<float>(value(x, y)));
+    for (int x = 0; x < kWidth; ++x) values.push_back(static_cast<float>(value(x, y)));
   return values;
 }
 
@@ -47,12 +47,12 @@ constexpr Golden kWavesToGrain{0.005531302647734717, 0.3092004203144719, -0.0554
 constexpr double kTolerance = 2e-6;
 
 void check_golden(const std::vector<float>& a, const std::vector<float>& b, const Golden& golden) {
-  CHECK(structural_similarity(a, b, kRoughness, kHeight) == Approx(golden.mean).margin(kTolerance));
-  const std::vector<float> map = similarity_map(a, b, kRoughness, kHeight);
+  CHECK(structural_similarity(a, b, kWidth, kHeight) == Approx(golden.mean).margin(kTolerance));
+  const std::vector<float> map = similarity_map(a, b, kWidth, kHeight);
   CHECK(map.front() == Approx(golden.top_left).margin(kTolerance));
-  CHECK(map[12 * kRoughness + 16] == Approx(golden.middle).margin(kTolerance));
+  CHECK(map[12 * kWidth + 16] == Approx(golden.middle).margin(kTolerance));
   CHECK(map.back() == Approx(golden.bottom_right).margin(kTolerance));
-  CHECK(map[kRoughness - 1] == Approx(golden.top_right).margin(kTolerance));
+  CHECK(map[kWidth - 1] == Approx(golden.top_right).margin(kTolerance));
 }
 
 }  // namespace
@@ -63,9 +63,9 @@ TEST_CASE("image similarity: structural similarity equals that of scikit-image")
 }
 
 TEST_CASE("image similarity: it is symmetric, and 1 for equal pictures") {
-  CHECK(structural_similarity(waves(), waves(), kRoughness, kHeight) == Approx(1.0).epsilon(1e-12));
-  CHECK(structural_similarity(waves(), grain(), kRoughness, kHeight) ==
-        structural_similarity(grain(), waves(), kRoughness, kHeight));
+  CHECK(structural_similarity(waves(), waves(), kWidth, kHeight) == Approx(1.0).epsilon(1e-12));
+  CHECK(structural_similarity(waves(), grain(), kWidth, kHeight) ==
+        structural_similarity(grain(), waves(), kWidth, kHeight));
 }
 
 TEST_CASE("image similarity: constant pictures differ by their means alone") {

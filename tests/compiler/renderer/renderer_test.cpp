@@ -300,20 +300,6 @@ TEST_CASE("brdf: energy-conserving models never reflect more than they receive")
         CHECK(directional_albedo(brdf, Fresnel::kNone, alpha, cos_light, 1.0) <= 1.0 + 1e-3);
 }
 
-TEST_CASE("brdf: Schlick's Fresnel is F0 along the normal and 1 at grazing light") {
-  const Lobe frontal = evaluate_lobe(Brdf::kGgx, Fresnel::kSchlick, 0.5, geometry(1.0, 1.0, 0.0));
-  CHECK(frontal.base == 0.0);
-  const Lobe plain = evaluate_lobe(Brdf::kGgx, Fresnel::kNone, 0.5, geometry(0.01, 0.01, pi));
-  const Lobe grazing = evaluate_lobe(Brdf::kGgx, Fresnel::kSchlick, 0.5, geometry(0.01, 0.01, pi));
-  CHECK(grazing.base / plain.slope == Approx(1.0).epsilon(0.06));
-  CHECK(grazing.base + grazing.slope == Approx(plain.slope).epsilon(1e-12));
-}
-
-TEST_CASE("renderer: the error for an unknown model names the nearest") {
-  const auto renderer = make_builtin_renderer();
-  CHECK_THROWS_WITH(renderer->model("mitsuba/gxx"), Catch::Contains("did you mean mitsuba/ggx?"));
-}
-
 TEST_CASE("renderer: parameters out of range, unknown or missing are refused by name") {
   const auto renderer = make_builtin_renderer();
   const Scene scene{8, 1, {}};

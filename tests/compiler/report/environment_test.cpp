@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <numbers>
@@ -351,25 +352,21 @@ TEST_CASE("study environments: a fit is used as shipped") {
 }
 
 TEST_CASE("study environments: invalid options are refused") {
-  EnvironmentsOptions options = small_study();
-  options.pairs = {{"mitsuba/gxx", "mitsuba/as"}};
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("did you mean mitsuba/ggx?"));
-  options = small_study();
-  options.alphas = {2.0};
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("alpha: 2 is out of range"));
-  options = small_study();
-  options.specular = 0.0;
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("specular: 0 is out of range"));
-  options = small_study();
-  options.alphas.clear();
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("at least one pair"));
-  options = small_study();
-  options.environments.push_back(options.environments.front());
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("two have the name 'sky'"));
-  options = small_study();
-  options.samples = 1;
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("samples: 1 is out of range (16"));
-  options = small_study();
-  options.resolution = 2;
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("resolution: 2 is out of range (4"));
+  using Options = EnvironmentsOptions;
+  const std::pair<std::function<void(Options&)>, const char*> faults[] = {
+      {[](Options& o) {
+         o.pairs = {{"mitsuba/gxx", "mitsuba/as"}};
+       },
+       "did you mean mitsuba/ggx?"},
+      {[](Options& o) { o.alphas = {2.0}; }, "alpha: 2 is out of range"},
+      {[](Options& o) { o.specular = 0.0; }, "specular: 0 is out of range"},
+      {[](Options& o) { o.alphas.clear(); }, "at least one pair"},
+      {[](Options& o) { o.environments.push_back(o.environments.front()); }, "two have the name 'sky'"},
+      {[](Options& o) { o.samples = 1; }, "samples: 1 is out of range (16"},
+      {[](Options& o) { o.resolution = 2; }, "resolution: 2 is out of range (4"}};
+  for (const auto& [spoil, message] : faults) {
+    Options options = small_study();
+    spoil(options);
+    CHECK_THROWS_WITH(study_environments(options), Catch::Contains(message));
+  }
 }

@@ -113,14 +113,19 @@ TEST_CASE("worker: banners before the first answer are skipped") {
   CHECK(renderer.render(fake_material(), kSmallScene).width == 32);
 }
 
-TEST_CASE("worker: children of a worker are killed with it, and so is one that does not end") {
-  const FakeSession session;
-  {
-    const WorkerRenderer renderer(session.entry("child"), session.settings());
-    renderer.render(fake_material(), kSmallScene);
-    REQUIRE(session.log_lines("process").size() == 2);
-    for (const std::string& id : session.log_lines("process")) CHECK_FALSE(is_gone(std::stoi(id)));
+TEST_CASE("worker: children are killed with it, in its group or not, and so is one that does not end") {
+  for (const char* fault : {"child", "daemon"}) {
+    const FakeSession session;
+    {
+      const WorkerRenderer renderer(session.entry(fault), session.settings());
+      renderer.render(fake_material(), kSmallScene);
+      REQUIRE(session.log_lines("process").size() == 2);
+      for (const std::string& id : session.log_lines("process")) CHECK_FALSE(is_gone(std::stoi(id)));
+    }
+    if (fault == std::string("child")) CHECK(session.nobody_is_left());
+    for (const std::string& id : session.log_lines("process")) CHECK(is_gone(std::stoi(id)));
   }
+  const FakeSession session;
   { const WorkerRenderer renderer(session.entry("stays"), session.settings()); }
   CHECK(session.nobody_is_left());
 }
@@ -205,17 +210,6 @@ TEST_CASE("worker: every message names the worker, is short, and has no control 
   CHECK_THAT(render_error(session, "talkative"), Contains(" [31m the end"));
   CHECK(render_error(session, "rounding") == "no error");
   CHECK(session.nobody_is_left());
-}
-
-TEST_CASE("worker: a child that has left the group of its worker is killed, too") {
-  const FakeSession session;
-  {
-    const WorkerRenderer renderer(session.entry("daemon"), session.settings());
-    renderer.render(fake_material(), kSmallScene);
-    REQUIRE(session.log_lines("process").size() == 2);
-    for (const std::string& id : session.log_lines("process")) CHECK_FALSE(is_gone(std::stoi(id)));
-  }
-  for (const std::string& id : session.log_lines("process")) CHECK(is_gone(std::stoi(id)));
 }
 
 TEST_CASE("private folder: those of processes that have ended are deleted at once, all others stay") {

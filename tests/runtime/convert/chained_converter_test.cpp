@@ -136,46 +136,6 @@ TEST_CASE("chained converter: every instruction set computes the same bits") {
   }
 }
 
-TEST_CASE("chained converter: stays within the proven bounds of the interpreted composition") {
-  const SteppedFits chain(three_fits());
-  const auto chained = make_chained_converter(chain.steps);
-  const Range widths = chained->info().roughness, speculars = chained->info().specular;
-  // Four units in the last place of a float, at each step: of the parameters, and of the scale of a texel.
-  constexpr double kRounding = 1e-6;
-  struct Interval {
-    double low, high;
-  };
-  for (int i = 0; i <= 40; ++i)
-    for (int j = 0; j <= 20; ++j) {
-      const float roughness = static_cast<float>(widths.min + i * (widths.max - widths.min) / 40);
-      const float specular = static_cast<float>(speculars.min + j * (speculars.max - speculars.min) / 20);
-      Interval alpha{roughness, roughness}, reflectance{specular, specular};
-      for (std::size_t k = 0; k < 3; ++k) {
-        // Both mappings rise with their own input; corners bound the image of a box.
-        Interval next_alpha{1e9, -1e9}, next_reflectance{1e9, -1e9};
-        for (const double a : {alpha.low, alpha.high})
-          for (const double s : {reflectance.low, reflectance.high}) {
-            const MappedTexel mapped = evaluate_mapping(chain.fits[k].mapping, a, s);
-            next_alpha = {std::min(next_alpha.low, mapped.alpha), std::max(next_alpha.high, mapped.alpha)};
-            next_reflectance = {std::min(next_reflectance.low, mapped.specular),
-                                std::max(next_reflectance.high, mapped.specular)};
-          }
-        const double a = chain.fits[k].converter->lowered.alpha.bound + kRounding;
-        const double s = chain.fits[k].converter->lowered.specular.bound + kRounding;
-        alpha = {next_alpha.low - a, next_alpha.high + a};
-        reflectance = {next_reflectance.low - s, next_reflectance.high + s};
-      }
-      float width = 0.0f, mapped = 0.0f;
-      const std::array<const float*, 1> in = {&specular};
-      const std::array<float*, 1> out = {&mapped};
-      INFO("alpha " << roughness << ", specular " << specular);
-      CHECK(chained->convert(1, &roughness, in, &width, out) == 0);
-      const double found = to_alpha(chain.fits[2].target.roughness, static_cast<double>(width));
-      CHECK((found >= alpha.low && found <= alpha.high));
-      CHECK((mapped >= reflectance.low && mapped <= reflectance.high));
-    }
-}
-
 TEST_CASE("chained converter: says what it is made of") {
   std::vector<Fit> fits = three_fits();
   for (Fit& fit : fits) {

@@ -17,17 +17,17 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr std::size_t kRoughness = 61, kHeight = 37;
+constexpr std::size_t kWidth = 61, kHeight = 37;
 
 // Interleaved texels of roughness, red, green, blue and two foreign values, with padded rows.
 struct Buffer {
-  static constexpr std::size_t kValues = 6, kRow = kRoughness * kValues + 3;
+  static constexpr std::size_t kValues = 6, kRow = kWidth * kValues + 3;
   std::vector<float> values = std::vector<float>(kRow * kHeight, -7.0f);
 
   float& at(std::size_t x, std::size_t y, std::size_t c) { return values[y * kRow + x * kValues + c]; }
   // If `flipped`, the first row is the last in memory.
   ChannelView channel(std::size_t c, bool flipped = false) {
-    ChannelView view = float_channel(&at(0, flipped ? kHeight - 1 : 0, c), kRoughness, kValues);
+    ChannelView view = float_channel(&at(0, flipped ? kHeight - 1 : 0, c), kWidth, kValues);
     view.row_stride = static_cast<std::ptrdiff_t>(kRow * sizeof(float)) * (flipped ? -1 : 1);
     return view;
   }
@@ -36,7 +36,7 @@ struct Buffer {
 Buffer noisy_buffer() {
   Buffer buffer;
   for (std::size_t y = 0; y < kHeight; ++y)
-    for (std::size_t x = 0; x < kRoughness; ++x)
+    for (std::size_t x = 0; x < kWidth; ++x)
       for (std::size_t c = 0; c < Buffer::kValues; ++c)
         buffer.at(x, y, c) = noise(static_cast<int>(x), static_cast<int>(y), static_cast<int>(c));
   return buffer;
@@ -44,7 +44,7 @@ Buffer noisy_buffer() {
 
 MapConversion conversion(Buffer& from, Buffer& to, bool flipped = false) {
   MapConversion maps;
-  maps.width = kRoughness;
+  maps.width = kWidth;
   maps.height = kHeight;
   maps.sources[Parameter::kRoughness].channels = {from.channel(0, flipped)};
   maps.targets[Parameter::kRoughness].channels = {to.channel(0, flipped)};
@@ -75,9 +75,9 @@ TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any num
   const MapStatistics statistics =
       convert_maps(*converter, conversion(from, in_place ? from : to, flipped), threads);
   Buffer& result = in_place ? from : to;
-  CHECK(statistics.texel_count == kRoughness * kHeight);
+  CHECK(statistics.texel_count == kWidth * kHeight);
   for (std::size_t y = 0; y < kHeight; ++y)
-    for (std::size_t x = 0; x < kRoughness; ++x) {
+    for (std::size_t x = 0; x < kWidth; ++x) {
       const auto expected =
           converted(*converter, copy.at(x, y, 0), {copy.at(x, y, 1), copy.at(x, y, 2), copy.at(x, y, 3)});
       for (std::size_t c = 0; c < 4; ++c) REQUIRE(result.at(x, y, c) == expected[c]);
@@ -95,10 +95,10 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
   const std::size_t misplaced = GENERATE(std::size_t{0}, std::size_t{1});  // bytes
   const BadTexels bad = GENERATE(BadTexels::kKeep, BadTexels::kClamp);
   const auto converter = make_lowered_converter(example_fit());
-  constexpr std::size_t kPlane = kRoughness * kHeight * sizeof(float);
+  constexpr std::size_t kPlane = kWidth * kHeight * sizeof(float);
   std::vector<std::byte> from(4 * kPlane + 64), to(4 * kPlane + 64);
   std::byte* const first = from.data() + misplaced;
-  for (std::size_t i = 0; i < 4 * kRoughness * kHeight; ++i) {
+  for (std::size_t i = 0; i < 4 * kWidth * kHeight; ++i) {
     const float value = i % 1001 == 5 ? NAN : i % 1003 == 7 ? -0.5f : noise(static_cast<int>(i), 0, 0);
     std::memcpy(first + i * sizeof value, &value, sizeof value);
   }
@@ -106,7 +106,7 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
 
   const auto plane = [](auto* memory) {
     return BasicChannelView<std::remove_pointer_t<decltype(memory)>>{memory, PixelType::kFloat, sizeof(float),
-                                                                     kRoughness * sizeof(float)};
+                                                                     kWidth * sizeof(float)};
   };
   const auto target_plane = [&](std::size_t c) {
     if (targets == Targets::kNextPlane) return plane(first + (c + 1) % 4 * kPlane);
@@ -114,7 +114,7 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
     return plane((targets == Targets::kApart ? to.data() + misplaced : first) + c * kPlane);
   };
   MapConversion maps;
-  maps.width = kRoughness;
+  maps.width = kWidth;
   maps.height = kHeight;
   maps.bad_texels = bad;
   maps.value_statistics = true;
@@ -126,15 +126,15 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
   const MapStatistics statistics = convert_maps(*converter, maps);
 
   MapConversion strided = maps;  // with other memory, which holds the texels interleaved
-  std::vector<float> texels(4 * kRoughness * kHeight), results(4 * kRoughness * kHeight);
+  std::vector<float> texels(4 * kWidth * kHeight), results(4 * kWidth * kHeight);
   for (std::size_t c = 0; c < 4; ++c) {
-    for (std::size_t i = 0; i < kRoughness * kHeight; ++i)
+    for (std::size_t i = 0; i < kWidth * kHeight; ++i)
       std::memcpy(&texels[4 * i + c], copy.data() + misplaced + c * kPlane + i * sizeof(float),
                   sizeof(float));
     const Parameter parameter = c == 0 ? Parameter::kRoughness : Parameter::kSpecular;
     const std::size_t channel = c == 0 ? 0 : c - 1;
-    strided.sources[parameter].channels[channel] = float_channel(texels.data() + c, kRoughness, 4);
-    strided.targets[parameter].channels[channel] = float_channel(results.data() + c, kRoughness, 4);
+    strided.sources[parameter].channels[channel] = float_channel(texels.data() + c, kWidth, 4);
+    strided.targets[parameter].channels[channel] = float_channel(results.data() + c, kWidth, 4);
   }
   const MapStatistics expected = convert_maps(*converter, strided);
   CHECK(statistics.out_of_domain_count == expected.out_of_domain_count);
@@ -146,31 +146,31 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
   }
   for (std::size_t c = 0; c < 4; ++c)
     for (std::size_t y = 0; y < kHeight; ++y)
-      for (std::size_t x = 0; x < kRoughness; ++x)
-        REQUIRE(std::memcmp(at(target_plane(c), x, y), &results[4 * (y * kRoughness + x) + c],
-                            sizeof(float)) == 0);
+      for (std::size_t x = 0; x < kWidth; ++x)
+        REQUIRE(std::memcmp(at(target_plane(c), x, y), &results[4 * (y * kWidth + x) + c], sizeof(float)) ==
+                0);
 }
 
 TEST_CASE("convert_maps: the mask marks each texel that the converter counts as outside") {
   const auto converter = make_interpreted_converter(example_fit());
   Buffer from = noisy_buffer(), to;
-  for (std::size_t x = 3; x < kRoughness; x += 7) from.at(x, x % kHeight, 0) = 2.0f;
-  for (std::size_t x = 0; x < kRoughness; ++x) from.at(x, 8, 2) = 100.0f;  // a whole row
+  for (std::size_t x = 3; x < kWidth; x += 7) from.at(x, x % kHeight, 0) = 2.0f;
+  for (std::size_t x = 0; x < kWidth; ++x) from.at(x, 8, 2) = 100.0f;  // a whole row
   MapConversion maps = conversion(from, to);
-  std::vector<float> mask(kRoughness * kHeight, 0.5f);
-  maps.mask = float_channel(mask.data(), kRoughness);
+  std::vector<float> mask(kWidth * kHeight, 0.5f);
+  maps.mask = float_channel(mask.data(), kWidth);
   const MapStatistics statistics = convert_maps(*converter, maps, 2);
   std::size_t marked = 0;
   for (std::size_t y = 0; y < kHeight; ++y)
-    for (std::size_t x = 0; x < kRoughness; ++x) {
+    for (std::size_t x = 0; x < kWidth; ++x) {
       std::size_t outside = 0;
       converted(*converter, from.at(x, y, 0), {from.at(x, y, 1), from.at(x, y, 2), from.at(x, y, 3)},
                 &outside);
-      REQUIRE(mask[y * kRoughness + x] == static_cast<float>(outside));
+      REQUIRE(mask[y * kWidth + x] == static_cast<float>(outside));
       marked += outside;
     }
-  CHECK(marked > kRoughness);
-  CHECK(marked < kRoughness * kHeight);
+  CHECK(marked > kWidth);
+  CHECK(marked < kWidth * kHeight);
   CHECK(statistics.out_of_domain_count == marked);
 }
 
@@ -192,16 +192,16 @@ TEST_CASE("convert_maps: statistics cover all values, for any number of threads"
     CHECK(statistics.first_bad->x == 50);
     CHECK(statistics.first_bad->y == 1020);
     CHECK(statistics.sources.at(Parameter::kRoughness).min == -1.0f);
-    CHECK(statistics.sources.at(Parameter::kSpecular).finite_count == 3 * kRoughness * kHeight - 2);
+    CHECK(statistics.sources.at(Parameter::kSpecular).finite_count == 3 * kWidth * kHeight - 2);
     CHECK(statistics.sources.at(Parameter::kSpecular).max < 1.0f);
     const auto& bins = statistics.sources.at(Parameter::kSpecular).histogram;
-    CHECK(std::accumulate(bins.begin(), bins.end(), std::size_t{0}) == 3 * kRoughness * kHeight - 1);
+    CHECK(std::accumulate(bins.begin(), bins.end(), std::size_t{0}) == 3 * kWidth * kHeight - 1);
     CHECK(bins == one.sources.at(Parameter::kSpecular).histogram);
     CHECK(statistics.targets.at(Parameter::kRoughness).max == one.targets.at(Parameter::kRoughness).max);
   }
   // The noise is uniform, so every bin holds about its share.
   for (const std::size_t count : one.sources.at(Parameter::kSpecular).histogram)
-    CHECK(static_cast<double>(count) == Approx(3.0 * kRoughness * kHeight / 32.0).epsilon(0.3));
+    CHECK(static_cast<double>(count) == Approx(3.0 * kWidth * kHeight / 32.0).epsilon(0.3));
 }
 
 TEST_CASE("convert_maps: every encoding of roughness gives the same result") {

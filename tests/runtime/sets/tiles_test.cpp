@@ -8,7 +8,6 @@
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
-#include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace remap;
@@ -172,18 +171,4 @@ TEST_CASE("existing tiles: the tiles of the folder, by number") {
   CHECK_THROWS_AS(existing_tiles(folder.path() / "a.exr"), Error);
   CHECK_THROWS_AS(existing_tiles(folder.path() / "<UDIM>" / "a.<UDIM>.exr"), Error);
   CHECK_THROWS_AS(existing_tiles(folder.path() / "none" / "a.<UDIM>.exr"), Error);
-}
-
-TEST_CASE("existing tiles: the six of a real set", "[needs]") {
-  const std::filesystem::path data = shared_data("textures/grid_udim");
-  if (data.empty()) return;
-  std::vector<int> numbers;
-  for (const Tile& tile : existing_tiles(data / "grid.<UDIM>.png")) numbers.push_back(tile.number);
-  CHECK(numbers == std::vector{1001, 1002, 1003, 1011, 1012, 1013});
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(data))
-    names.push_back(entry.path().filename());
-  const std::vector<TileGroup> groups = group_tiles(names);
-  REQUIRE(groups.size() == 1);
-  CHECK(groups[0].numbers == numbers);
 }

@@ -119,33 +119,3 @@ TEST_CASE("damaged files: converted or refused, nothing else", "[slow][campaign]
     CHECK(refused >= mutations / 20);
   }
 }
-
-TEST_CASE("odd sizes: one texel, strips, and any number of channels", "[slow]") {
-  const auto converter = make_lowered_converter(example_fit());
-  const TemporaryFolder folder;
-  for (const auto& [width, height] : {std::pair{1, 1}, {1, 100000}, {100000, 1}, {3, 2}})
-    for (const char* extension : {"exr", "tif", "png"}) {
-      INFO(width << " x " << height << " " << extension);
-      const auto file = folder.path() / (std::string("s.") + extension);
-      write_image(file, test_spec(width, height, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
-      REQUIRE_NOTHROW(convert(file, folder.path() / "out", *converter));
-      const TestImage out = read_image(folder.path() / "out" / file.filename());
-      CHECK(out.spec.width == width);
-      CHECK(out.spec.height == height);
-    }
-  const std::vector<std::string> names = {"R", "G", "B", "A", "Z"};
-  for (std::size_t count = 1; count <= 5; ++count) {
-    INFO(count << " channels");
-    const auto file = folder.path() / "c.exr";
-    const std::vector<std::string> channels =
-        count == 1
-            ? std::vector<std::string>{"Y"}
-            : std::vector<std::string>(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count));
-    write_image(file, test_spec(8, 8, channels, OIIO::TypeHalf), noise);
-    if (count == 2)
-      CHECK_THROWS_WITH(convert(file, folder.path() / "out", *converter),
-                        Catch::Matchers::Contains("has the channels R, G instead of R, G and B"));
-    else
-      CHECK_NOTHROW(convert(file, folder.path() / "out", *converter));
-  }
-}

@@ -1,13 +1,9 @@
-// The kind `mlp`: errors on unseen rows of the published table, what its method records, determinism,
-// progress, and rows it must refuse or survive.
+// The kind `mlp`: errors on unseen rows of the published table, what its method records, determinism.
 #include "fit/network/mlp.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
-#include <mutex>
-#include <stdexcept>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -105,96 +101,28 @@ TEST_CASE("mlp: target alpha that depends on specular is fitted from both") {
     CHECK(target_alpha(mlp, row.alpha1, row.specular1) == Approx(row.alpha2).margin(4e-3));
 }
 
-TEST_CASE("mlp: numbers depend on the seed and not on the number of threads") {
+TEST_CASE("mlp: numbers depend on the seed") {
   MlpOptions options = quick_options();
-  options.jobs = 1;
   const Regression one = fit_mlp(smooth_rows(), options);
-  CHECK(fit_mlp(smooth_rows(), options).mapping == one.mapping);
-  options.jobs = 2;
-  const Regression two = fit_mlp(smooth_rows(), options);
-  CHECK(two.mapping == one.mapping);
-  CHECK(two.method == one.method);
   options.seed = 2;
   CHECK_FALSE(fit_mlp(smooth_rows(), options).mapping == one.mapping);
 }
 
-TEST_CASE("mlp: progress rises from 0 to 1, and what it throws ends the fit") {
-  MlpOptions options = quick_options();
-  options.jobs = 2;
-  std::mutex mutex;
-  std::vector<double> shares;
-  fit_mlp(smooth_rows(), options, [&](double share) {
-    const std::lock_guard lock(mutex);
-    shares.push_back(share);
-  });
-  REQUIRE(shares.size() > 10);
-  CHECK(std::is_sorted(shares.begin(), shares.end()));
-  CHECK(shares.front() >= 0.0);
-  CHECK(shares.back() == 1.0);
-
-  for (const double limit : {0.0, 0.3, 0.99}) {
-    int calls_after = 0;
-    bool has_thrown = false;
-    const auto progress = [&](double share) {
-      const std::lock_guard lock(mutex);
-      if (has_thrown) ++calls_after;
-      if (share < limit) return;
-      has_thrown = true;
-      throw std::runtime_error("enough");
-    };
-    CHECK_THROWS_WITH(fit_mlp(smooth_rows(), options, progress), "enough");
-    CHECK(calls_after == 0);
-  }
-}
-
-TEST_CASE("mlp: rows that cannot be fitted are refused") {
-  const auto kind_of = [](const std::vector<TableRow>& rows, const MlpOptions& options) {
+TEST_CASE("mlp: options without units or starts are wrong usage") {
+  const auto kind_of = [](const MlpOptions& options) {
     try {
-      fit_mlp(rows, options);
+      fit_mlp(smooth_rows(), options);
     } catch (const Error& error) {
       return error.kind();
     }
     return ErrorKind::kOutput;
   };
-  std::vector<TableRow> rows = smooth_rows();
-  rows.resize(9);
-  CHECK_THROWS_WITH(fit_mlp(rows, {}), "mlp: too few rows (9, at least 10 are required)");
-  CHECK(kind_of(rows, {}) == ErrorKind::kInput);
-
-  rows = smooth_rows();
-  for (TableRow& row : rows) row.specular1 = 0.5;
-  CHECK_THROWS_WITH(fit_mlp(rows, {}), Catch::Contains("specular1 is 0.5 in every row"));
-  rows = smooth_rows();
-  for (TableRow& row : rows) row.alpha1 = 0.25;
-  CHECK_THROWS_WITH(fit_mlp(rows, {}), Catch::Contains("alpha1 is 0.25 in every row"));
-  CHECK(kind_of(rows, {}) == ErrorKind::kInput);
-
-  rows = smooth_rows();
-  rows[3].specular2 = std::numeric_limits<double>::quiet_NaN();
-  CHECK(kind_of(rows, {}) == ErrorKind::kInput);
-
   MlpOptions options;
   options.hidden = {8, 0};
-  CHECK(kind_of(smooth_rows(), options) == ErrorKind::kUsage);
+  CHECK(kind_of(options) == ErrorKind::kUsage);
   options = {};
   options.starts = 0;
-  CHECK(kind_of(smooth_rows(), options) == ErrorKind::kUsage);
-}
-
-TEST_CASE("mlp: an outlier, a constant target and two widths are fitted") {
-  std::vector<TableRow> rows = smooth_rows();
-  rows[40].specular2 += 50.0;
-  Regression regression = fit_mlp(rows, quick_options());
-  CHECK(std::isfinite(target_specular(std::get<Mlp>(regression.mapping), 0.5, 0.5)));
-
-  rows = smooth_rows();
-  for (TableRow& row : rows) row.alpha2 = 0.3;
-  regression = fit_mlp(rows, quick_options());
-  CHECK(target_alpha(std::get<Mlp>(regression.mapping), 0.5, 0.5) == Approx(0.3).margin(1e-9));
-
-  rows = smooth_rows();
-  for (TableRow& row : rows) row.alpha1 = row.alpha1 < 0.5 ? 0.2 : 0.8;
-  CHECK_NOTHROW(fit_mlp(rows, quick_options()));
+  CHECK(kind_of(options) == ErrorKind::kUsage);
 }
 
 TEST_CASE("mlp: 100000 rows are fitted on a subset, and method says so", "[slow]") {

@@ -238,8 +238,3 @@ TEST_CASE("parametric: unusual tables are fitted, or refused with the reason", "
     CHECK(fit_of(table, 1, "").specular_error.max < 1e-6);
   }
 }
-
-TEST_CASE("parametric: the error for an unknown form names the nearest") {
-  CHECK_THROWS_WITH(find_form("quartic/afine"), Catch::Contains("did you mean quartic/affine?"));
-  CHECK_THROWS_WITH(find_form("papr"), Catch::Contains("did you mean paper?"));
-}
