@@ -23,6 +23,7 @@
 #include "lower/lower.hpp"
 #include "measure/material_sample.hpp"
 #include "remap/error.hpp"
+#include "renderer/timed_renderer.hpp"
 #include "table/table.hpp"
 
 namespace remap {
@@ -37,6 +38,21 @@ bool holds(const fs::path& path, const std::string& text) {
 void write_changed(const fs::path& path, const std::string& text) {
   if (!holds(path, text)) write_file(path, text);
 }
+
+// Adds the time from its start to its end to a number of seconds.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double* seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    *seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double* seconds_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 class Builder {
  public:
@@ -112,7 +128,7 @@ class Builder {
 
   void build_item(const ManifestItem& item) {
     require_time();
-    const auto start = std::chrono::steady_clock::now();
+    BuiltItem built;
     LockedItem record;
     Freshness fresh;
     {
@@ -121,10 +137,10 @@ class Builder {
       record = lock_.items[item.id];
       record.recipe = recipe_hash(item, lock_);
     }
-    std::string kept_table;
     try {
-      if (!fresh.table && keeps_table(item, &record, &kept_table)) fresh.table = true;
-      make(item, fresh, &record);
+      const Stopwatch stopwatch(&built.seconds.all);
+      if (!fresh.table && keeps_table(item, &record, &built.kept_table)) fresh.table = true;
+      make(item, fresh, &record, &built);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       const std::lock_guard lock(mutex_);
@@ -136,9 +152,11 @@ class Builder {
     lock_.items[item.id] = record;
     if (!fresh.header) {
       save_lock(folders_.fits, lock_);
-      built_.push_back({item.id, !fresh.table && has_table(item), !fresh.fit, true,
-                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                        kept_table});
+      built.id = item.id;
+      built.table = !fresh.table && has_table(item);
+      built.fit = !fresh.fit;
+      built.header = true;
+      built_.push_back(std::move(built));
     }
     ++done_;
     if (execution_.progress) execution_.progress(done_, manifest_.items.size());
@@ -173,17 +191,20 @@ class Builder {
     }
   }
 
-  void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) {
+  void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record, BuiltItem* built) {
     const ItemPaths paths = paths_of(folders_, item.id);
     if (has_table(item) && !fresh.table) {
-      const std::string text = table_text(table_of(item));
+      const std::string text = table_text(table_of(item, built));
       write_file(paths.table, text);
       record->table = sha256(text);
     }
     if (fresh.header) return;
-    AnyFit fit = fresh.fit ? load_any_fit(paths.fit) : fit_of(item, paths.table);
+    AnyFit fit = fresh.fit ? load_any_fit(paths.fit) : fit_of(item, paths.table, built);
     if (!fresh.fit) {
-      if (auto* of_width = std::get_if<Fit>(&fit)) add_converter(of_width);
+      if (auto* of_width = std::get_if<Fit>(&fit)) {
+        const Stopwatch stopwatch(&built->seconds.lowering);
+        add_converter(of_width);
+      }
       const std::string text = std::visit([](const auto& made) { return fit_to_json(made); }, fit);
       write_file(paths.fit, text);
       record->fit = sha256(text);
@@ -193,7 +214,18 @@ class Builder {
     record->header = sha256(text);
   }
 
-  Table table_of(const ManifestItem& item) const {
+  // `made`, which needs pictures, by a renderer that counts them.
+  template <class Make>
+  auto with_pictures(BuiltItem* built, const Make& made) const {
+    const TimedRenderer renderer(renderer_);
+    const Stopwatch stopwatch(&built->seconds.sweep);
+    auto result = made(renderer);
+    built->pictures = renderer.picture_count();
+    built->seconds.pictures = renderer.seconds();
+    return result;
+  }
+
+  Table table_of(const ManifestItem& item, BuiltItem* built) const {
     if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
       const std::string bytes = read_file(paths_of(folders_, inverse->of).fit);
       return inverse_table(fit_from_json(bytes, inverse->of), bytes);
@@ -212,13 +244,16 @@ class Builder {
     options.samples =
         grid_samples(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
     options.sampling = grid_text(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
-    return run_sweep(renderer_, options, {1, {}, execution_.cancelled});
+    return with_pictures(built, [&](const Renderer& renderer) {
+      return run_sweep(renderer, options, {1, {}, execution_.cancelled});
+    });
   }
 
-  AnyFit fit_of(const ManifestItem& item, const fs::path& table) const {
+  AnyFit fit_of(const ManifestItem& item, const fs::path& table, BuiltItem* built) const {
     if (const auto* finished = std::get_if<FinishedItem>(&item.kind)) return finished->fit;
     if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
-    if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item);
+    if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, built);
+    const Stopwatch stopwatch(&built->seconds.fit);
     const std::string bytes = read_file(table);
     FitOptions options;
     options.id = item.id;
@@ -228,7 +263,7 @@ class Builder {
     return fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;
   }
 
-  MaterialTable samples_of(const NetworkItem& item, std::uint64_t seed) const {
+  MaterialTable samples_of(const NetworkItem& item, std::uint64_t seed, BuiltItem* built) const {
     MaterialSampleOptions options;
     options.source = item.metallic;
     options.target = item.specular;
@@ -239,13 +274,16 @@ class Builder {
     options.count = item.count;
     options.seed = seed;
     options.varied = item.varied;
-    return run_material_sample(renderer_, options, {execution_.jobs, {}, execution_.cancelled});
+    return with_pictures(built, [&](const Renderer& renderer) {
+      return run_material_sample(renderer, options, {execution_.jobs, {}, execution_.cancelled});
+    });
   }
 
   // The item defines the workflows of both ends; the F0 of its dielectrics must be that of the samples. These
   // are megabytes that `remapc sample` makes again, so they become no file; the fit holds their hash.
-  WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item) const {
-    const std::string bytes = material_table_text(samples_of(network, item.seed));
+  WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item, BuiltItem* built) const {
+    const std::string bytes = material_table_text(samples_of(network, item.seed, built));
+    const Stopwatch stopwatch(&built->seconds.fit);
     MaterialNetworkOptions options;
     options.id = item.id;
     options.hidden = network.hidden;

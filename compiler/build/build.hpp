@@ -23,11 +23,21 @@ struct BuildExecution {
   const std::atomic<bool>* cancelled = nullptr;  // throws kInterrupted; finished items stay
 };
 
+// What an item took, in seconds of its one thread; 0 for what was up to date.
+struct BuildSeconds {
+  double sweep = 0.0;     // the table, or the samples of a network, with the waiting for pictures
+  double pictures = 0.0;  // of it, the waiting for the renderer
+  double fit = 0.0;
+  double lowering = 0.0;  // with its proofs
+  double all = 0.0;
+};
+
 // What was made for one item.
 struct BuiltItem {
   std::string id;
   bool table = false, fit = false, header = false;
-  double seconds = 0.0;
+  BuildSeconds seconds;
+  std::size_t pictures = 0;  // that were rendered or read from the cache
   std::string kept_table;  // why the table of an earlier build was reused; empty if it was up to date or made
 };
 

@@ -34,6 +34,23 @@ void run_check(const BuildCommand& command, const Manifest& manifest) {
                                        " out of date (run `remapc build`)");
 }
 
+std::string seconds_text(double seconds) { return number_text(rounded_up(seconds, 2)) + " s"; }
+
+// What took the time of an item, where it took some: ` (sweep 12 s, of it 9 s for 1409 pictures; fit 4 s)`.
+std::string stages_text(const BuiltItem& item) {
+  std::string text;
+  const auto add = [&](const char* stage, double seconds) {
+    if (seconds >= 0.1) text += (text.empty() ? " (" : "; ") + (stage + (" " + seconds_text(seconds)));
+  };
+  add("sweep", item.seconds.sweep);
+  if (!text.empty())
+    text += ", of it " + seconds_text(item.seconds.pictures) + " for " + std::to_string(item.pictures) +
+            " pictures";
+  add("fit", item.seconds.fit);
+  add("lowering", item.seconds.lowering);
+  return text.empty() ? "" : text + ")";
+}
+
 void report(const BuildCommand& command, const Manifest& manifest, const BuildResult& result,
             double seconds) {
   const std::vector<std::string> vanished = vanished_items(manifest, command.folders);
@@ -49,7 +66,13 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
                                {"fit", item.fit},
                                {"header", item.header},
                                {"kept_table", item.kept_table},
-                               {"seconds", item.seconds}});
+                               {"pictures", item.pictures},
+                               {"seconds",
+                                {{"sweep", item.seconds.sweep},
+                                 {"pictures", item.seconds.pictures},
+                                 {"fit", item.seconds.fit},
+                                 {"lowering", item.seconds.lowering},
+                                 {"all", item.seconds.all}}}});
     std::cout << json.dump(2) << "\n";
     return;
   }
@@ -64,9 +87,9 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
     if (!item.kept_table.empty()) std::cerr << item.id << ": table kept: " << item.kept_table << "\n";
   for (const BuiltItem& item : result.built)
     std::cerr << item.id << ": " << (item.table ? "table, " : "") << (item.fit ? "fit, " : "") << "header in "
-              << number_text(rounded_up(item.seconds, 2)) << " s\n";
+              << seconds_text(item.seconds.all) << stages_text(item) << "\n";
   std::cerr << manifest.items.size() << " items, " << result.built.size() << " built, "
-            << number_text(rounded_up(seconds, 2)) << " s\n";
+            << seconds_text(seconds) << "\n";
 }
 
 void run(const BuildCommand& command) {

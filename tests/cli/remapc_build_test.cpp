@@ -68,10 +68,23 @@ void append(const std::string& path, const std::string& text) { std::ofstream(pa
 TEST_CASE("remapc build: makes the items of the manifest, and none twice", "[slow]") {
   const Session session;
   session.write("fits/manifest.json", manifest());
-  CHECK(built_ids(session.remapc(build_of())) ==
-        std::vector<std::string>{"a_b_to_mitsuba_ward", "a_b_to_mitsuba_ward_duer",
-                                 "mitsuba_ward_duer_to_mitsuba_ward", "mitsuba_ward_to_a_b",
-                                 "mitsuba_ward_to_mitsuba_ward_duer"});
+  const ProcessResult first = session.remapc(build_of());
+  CHECK(built_ids(first) == std::vector<std::string>{"a_b_to_mitsuba_ward", "a_b_to_mitsuba_ward_duer",
+                                                     "mitsuba_ward_duer_to_mitsuba_ward",
+                                                     "mitsuba_ward_to_a_b",
+                                                     "mitsuba_ward_to_mitsuba_ward_duer"});
+  // Each stage is part of the whole; only the table of a sweep takes pictures.
+  const auto made = nlohmann::json::parse(first.output)["built"];
+  for (const auto& item : made) {
+    const auto& seconds = item["seconds"];
+    CHECK(seconds["pictures"] <= seconds["sweep"]);
+    CHECK(seconds["sweep"].get<double>() + seconds["fit"].get<double>() + seconds["lowering"].get<double>() <=
+          seconds["all"].get<double>());
+    CHECK(seconds["lowering"] > 0.0);
+    const std::string id = item["id"];
+    CHECK((item["pictures"] > 0) ==
+          (id.starts_with("mitsuba") && id.find("_to_mitsuba") != std::string::npos));
+  }
   CHECK(built_ids(session.remapc(build_of())).empty());
   CHECK(session.remapc(build_of("--check")).exit_code == 0);
   const Words emit = "emit --all --check --fits fits -o generated";
