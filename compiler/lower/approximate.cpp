@@ -178,7 +178,7 @@ std::vector<int> cut(const Matrix& magnitude, double budget, double* dropped) {
 
 // Operations per texel: a product and a sum per coefficient, and eight for its loads from a table; eight for
 // a division, and for an index; every power of specular is added for three channels.
-double cost_of(const Shape& shape) {
+double cost_of(const PolynomialShape& shape) {
   const auto count = static_cast<double>(coefficient_count(shape.degrees));
   double cost = 2.0 * count + 6.0 * static_cast<double>(shape.degrees.size() - 1);
   if (shape.pole != 0.0) cost += 8.0;
@@ -197,8 +197,8 @@ Matrix magnitudes_of(const MappedFunction& model, const ProofDomain& domain, dou
   return largest;
 }
 
-Shape shape_of(const Matrix& largest, double pole, const CellChoice& choice, double tolerance) {
-  Shape shape{pole, choice.count, {}, 0.0, 0.0};
+PolynomialShape shape_of(const Matrix& largest, double pole, const CellChoice& choice, double tolerance) {
+  PolynomialShape shape{pole, choice.count, {}, 0.0, 0.0};
   double dropped = 0.0;
   shape.degrees = cut(largest, 0.8 * tolerance, &dropped);
   if (choice.count > 1)  // at least a straight line, by which cells join
@@ -256,22 +256,26 @@ double sampled_error(const PiecewisePolynomial& polynomial, const SampleGrid& sa
 ShapeFinder::ShapeFinder(const MappedFunction& model, const ProofDomain& domain)
     : model_(model), domain_(domain), magnitudes_(kCellChoices.size()) {}
 
-std::vector<Shape> ShapeFinder::shapes(double tolerance, std::size_t size) {
+std::vector<PolynomialShape> ShapeFinder::shapes(double tolerance, std::size_t size) {
   auto& of_size = magnitudes_[size];
   if (of_size.empty())
     for (const double pole : kPoles)
       of_size.push_back(magnitudes_of(model_, domain_, pole, kCellChoices[size]));
-  std::vector<Shape> all;
+  std::vector<PolynomialShape> all;
   for (std::size_t i = 0; i < kPoles.size(); ++i)
     all.push_back(shape_of(of_size[i], kPoles[i], kCellChoices[size], tolerance));
-  const auto first = std::stable_partition(all.begin(), all.end(),
-                                           [&](const Shape& shape) { return shape.estimate <= tolerance; });
-  std::stable_sort(all.begin(), first, [](const Shape& a, const Shape& b) { return a.cost < b.cost; });
-  std::stable_sort(first, all.end(), [](const Shape& a, const Shape& b) { return a.estimate < b.estimate; });
+  const auto first = std::stable_partition(
+      all.begin(), all.end(), [&](const PolynomialShape& shape) { return shape.estimate <= tolerance; });
+  std::stable_sort(all.begin(), first,
+                   [](const PolynomialShape& a, const PolynomialShape& b) { return a.cost < b.cost; });
+  std::stable_sort(first, all.end(), [](const PolynomialShape& a, const PolynomialShape& b) {
+    return a.estimate < b.estimate;
+  });
   return all;
 }
 
-PiecewisePolynomial approximate(const MappedFunction& model, const ProofDomain& domain, const Shape& shape) {
+PiecewisePolynomial approximate(const MappedFunction& model, const ProofDomain& domain,
+                                const PolynomialShape& shape) {
   const Range alpha = domain.alpha;
   const double pole = rounded_to_float(shape.pole);
   const Cells cells(pole, shape.cell_count, alpha);

@@ -19,7 +19,7 @@ SampleGrid sample(const MappedFunction& model, const ProofDomain& domain);
 // The largest difference between the polynomial in real arithmetic and the samples.
 double sampled_error(const PiecewisePolynomial& polynomial, const SampleGrid& samples);
 
-struct Shape {
+struct PolynomialShape {
   double pole = 0.0;
   int cell_count = 1;
   std::vector<int> degrees;
@@ -36,7 +36,7 @@ class ShapeFinder {
   std::size_t size_count() const { return magnitudes_.size(); }
   // The shapes of one size: first those whose estimated error is within `tolerance`, by cost, then the others
   // by error.
-  std::vector<Shape> shapes(double tolerance, std::size_t size);
+  std::vector<PolynomialShape> shapes(double tolerance, std::size_t size);
 
  private:
   const MappedFunction& model_;
@@ -48,6 +48,7 @@ class ShapeFinder {
 
 // The polynomial of a shape: the Chebyshev series of every cell (Trefethen 2013, chapter 4), truncated to the
 // shape's degrees. Neighbouring cells join continuously.
-PiecewisePolynomial approximate(const MappedFunction& model, const ProofDomain& domain, const Shape& shape);
+PiecewisePolynomial approximate(const MappedFunction& model, const ProofDomain& domain,
+                                const PolynomialShape& shape);
 
 }  // namespace remap

@@ -83,7 +83,7 @@ class ShapeSearch {
 
   // The bound is infinite if the samples already exceed the tolerance, or if the budget is spent.
   // `must_rise`: also if the polynomial does not rise where the model does.
-  LoweredFunction operator()(const Shape& shape, double tolerance, bool must_rise) {
+  LoweredFunction operator()(const PolynomialShape& shape, double tolerance, bool must_rise) {
     const double top = wanted_.is_factor ? wanted_.specular_max : 1.0;
     const ProofDomain whole =
         wanted_.is_factor ? ProofDomain{wanted_.domain.alpha, {0.0, top}} : wanted_.domain;
@@ -131,7 +131,7 @@ class ShapeSearch {
 constexpr std::size_t kMostNumbers = 2048;  // of the table of one output
 constexpr std::array<double, 6> kCuts = {2.8, 2.0, 1.4, 1.0, 0.25, 0.06};
 
-std::size_t table_size(const Shape& shape) {
+std::size_t table_size(const PolynomialShape& shape) {
   return coefficient_count(shape.degrees) * static_cast<std::size_t>(shape.cell_count);
 }
 
@@ -145,7 +145,7 @@ LoweredFunction search(const LoweredOutput& wanted, double tolerance, ShapeSearc
   for (std::size_t size = 0; size < attempt->finder().size_count() && !(best.bound <= tolerance); ++size)
     for (const double cut : kCuts) {
       const double sought = cut * tolerance / top;
-      for (const Shape& shape : attempt->finder().shapes(sought, size)) {
+      for (const PolynomialShape& shape : attempt->finder().shapes(sought, size)) {
         if (table_size(shape) > kMostNumbers || !(shape.estimate <= 4.0 * sought)) continue;
         const LoweredFunction lowered = (*attempt)(shape, tolerance, best.bound <= tolerance);
         if (lowered.bound <= tolerance && attempt->keeps_rising(lowered)) return lowered;
