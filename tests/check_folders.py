@@ -8,12 +8,9 @@ import re
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-
-
-def listed_folders():
-    listed = re.search(r"<!-- folders -->\n```\n(.*?)```", (ROOT / "HACKING.md").read_text(), re.DOTALL)
-    return [line.split()[0].rstrip("/") for line in listed.group(1).splitlines() if line.strip()]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts/lib"))
+from includes import ROOT, listed_folders  # noqa: E402
 
 
 def quick_folders(built_tests):

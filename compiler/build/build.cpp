@@ -1,7 +1,6 @@
 #include "build/build.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -14,6 +13,7 @@
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
+#include "core/stopwatch.hpp"
 #include "emit/emit.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/inverse_table.hpp"
@@ -38,21 +38,6 @@ bool holds(const fs::path& path, const std::string& text) {
 void write_changed(const fs::path& path, const std::string& text) {
   if (!holds(path, text)) write_file(path, text);
 }
-
-// Adds the time from its start to its end to a number of seconds.
-class Stopwatch {
- public:
-  explicit Stopwatch(double* seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    *seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double* seconds_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 class Builder {
  public:
@@ -138,9 +123,10 @@ class Builder {
       record.recipe = recipe_hash(item, lock_);
     }
     try {
-      const Stopwatch stopwatch(&built.seconds.all);
+      const Stopwatch stopwatch;
       if (!fresh.table && keeps_table(item, &record, &built.kept_table)) fresh.table = true;
       make(item, fresh, &record, &built);
+      built.seconds.all = stopwatch.seconds();
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       const std::lock_guard lock(mutex_);
@@ -202,8 +188,9 @@ class Builder {
     AnyFit fit = fresh.fit ? load_any_fit(paths.fit) : fit_of(item, paths.table, built);
     if (!fresh.fit) {
       if (auto* of_width = std::get_if<Fit>(&fit)) {
-        const Stopwatch stopwatch(&built->seconds.lowering);
+        const Stopwatch stopwatch;
         add_converter(of_width);
+        built->seconds.lowering = stopwatch.seconds();
       }
       const std::string text = std::visit([](const auto& made) { return fit_to_json(made); }, fit);
       write_file(paths.fit, text);
@@ -218,8 +205,9 @@ class Builder {
   template <class Make>
   auto with_pictures(BuiltItem* built, const Make& made) const {
     const TimedRenderer renderer(renderer_);
-    const Stopwatch stopwatch(&built->seconds.sweep);
+    const Stopwatch stopwatch;
     auto result = made(renderer);
+    built->seconds.sweep = stopwatch.seconds();
     built->pictures = renderer.picture_count();
     built->seconds.pictures = renderer.seconds();
     return result;
@@ -253,14 +241,17 @@ class Builder {
     if (const auto* finished = std::get_if<FinishedItem>(&item.kind)) return finished->fit;
     if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
     if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, built);
-    const Stopwatch stopwatch(&built->seconds.fit);
+    const Stopwatch stopwatch;
     const std::string bytes = read_file(table);
     FitOptions options;
     options.id = item.id;
     options.regression.seed = item.seed;
     options.regression.jobs = 1;
     options.accept_light = item.accept_light;
-    return fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;
+    Fit fit =
+        fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;
+    built->seconds.fit = stopwatch.seconds();
+    return fit;
   }
 
   MaterialTable samples_of(const NetworkItem& item, std::uint64_t seed, BuiltItem* built) const {
@@ -283,7 +274,7 @@ class Builder {
   // are megabytes that `remapc sample` makes again, so they become no file; the fit holds their hash.
   WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item, BuiltItem* built) const {
     const std::string bytes = material_table_text(samples_of(network, item.seed, built));
-    const Stopwatch stopwatch(&built->seconds.fit);
+    const Stopwatch stopwatch;
     MaterialNetworkOptions options;
     options.id = item.id;
     options.hidden = network.hidden;
@@ -292,6 +283,7 @@ class Builder {
     options.jobs = 1;
     WorkflowFit fit = fit_material_network(parse_material_table(bytes, item.id + ".csv"), bytes, options,
                                            [&](double) { require_time(); });
+    built->seconds.fit = stopwatch.seconds();
     const double own = network.fit.conversion.metallic.dielectric_f0,
                  sampled = fit.conversion.metallic.dielectric_f0;
     if (std::fabs(own - sampled) > 1e-4)

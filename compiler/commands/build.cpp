@@ -1,7 +1,6 @@
 // `remapc build`: makes the items of a manifest that are out of date.
 #include "build/build.hpp"
 
-#include <chrono>
 #include <iostream>
 
 #include "command_line/command.hpp"
@@ -11,6 +10,7 @@
 #include "commands/renderer_options.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
+#include "core/stopwatch.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -93,7 +93,7 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
 }
 
 void run(const BuildCommand& command) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const Manifest manifest = load_manifest(command.folders.fits);
   if (command.check) {
     run_check(command, manifest);
@@ -112,8 +112,7 @@ void run(const BuildCommand& command) {
     execution.prune = command.prune;
     result = build(*renderer, manifest, command.folders, execution);
   }
-  report(command, manifest, result,
-         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  report(command, manifest, result, stopwatch.seconds());
 }
 
 }  // namespace

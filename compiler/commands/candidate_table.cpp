@@ -79,10 +79,6 @@ std::string errors_text(const Fit& fit, const std::string& rows) {
          text("alpha", fit.alpha_error) + ", " + text(fit.target.specular, fit.specular_error);
 }
 
-Json errors_json(const ErrorFigures& figures) {
-  return {{"rms", figures.rms}, {"p99", figures.p99}, {"max", figures.max}};
-}
-
 static Json relative_json(const RelativeError& error) {
   return {{"rms", error.rms}, {"standard_error", error.standard_error}};
 }
@@ -90,9 +86,9 @@ static Json relative_json(const RelativeError& error) {
 Json candidate_json(const CandidateRecord& candidate) {
   return {{"name", candidate.name},
           {"numbers", candidate.number_count},
-          {"alpha_error", errors_json(candidate.alpha)},
+          {"alpha_error", figures_json(candidate.alpha)},
           {"relative_alpha", relative_json(candidate.relative_alpha)},
-          {"specular_error", errors_json(candidate.specular)},
+          {"specular_error", figures_json(candidate.specular)},
           {"relative_specular", relative_json(candidate.relative_specular)},
           {"edge_alpha_rms", candidate.edge_alpha_rms},
           {"edge_specular_rms", candidate.edge_specular_rms},

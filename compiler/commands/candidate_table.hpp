@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/json.hpp"
-#include "lower/fit.hpp"
+#include "lower/fit_fields.hpp"
 
 namespace remap {
 
@@ -18,7 +18,5 @@ Json candidate_json(const CandidateRecord& candidate);
 // `on 144 rows held out: alpha rms 7.2e-04 max 1.5e-03, f0 rms ...`, or `errors unknown` where no rows were
 // held out. `rows`: describes the rows, as `held out`.
 std::string errors_text(const Fit& fit, const std::string& rows);
-
-Json errors_json(const ErrorFigures& figures);
 
 }  // namespace remap

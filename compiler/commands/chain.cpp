@@ -46,8 +46,8 @@ void run_chain(const ChainCommand& command) {
         {"domain",
          {{"alpha", {chain.domain.alpha.min, chain.domain.alpha.max}},
           {"specular", {chain.domain.specular.min, chain.domain.specular.max}}}},
-        {"alpha_error", errors_json(chain.alpha_error)},
-        {"specular_error", errors_json(chain.specular_error)},
+        {"alpha_error", figures_json(chain.alpha_error)},
+        {"specular_error", figures_json(chain.specular_error)},
         {"lowered_within", {{"alpha", lowered.alpha_bound()}, {"specular", lowered.specular_bound()}}},
         {"against_its_steps", steps_text}};
     std::cout << json.dump(2) << "\n";
@@ -74,8 +74,8 @@ void run_invert(const ChainCommand& command) {
                        {"id", inverse.id},
                        {"inverse_of", fit.id},
                        {"kind", kind_name(inverse.mapping)},
-                       {"alpha_error", errors_json(inverse.alpha_error)},
-                       {"specular_error", errors_json(inverse.specular_error)}};
+                       {"alpha_error", figures_json(inverse.alpha_error)},
+                       {"specular_error", figures_json(inverse.specular_error)}};
     std::cout << json.dump(2) << "\n";
     return;
   }

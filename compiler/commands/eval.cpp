@@ -72,8 +72,8 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
                        {"fitted_from_this_table", same_table},
                        {"rows", rows.size()},
                        {"rows_outside_domain", outside},
-                       {"alpha_error", errors_json(errors.alpha)},
-                       {"specular_error", errors_json(errors.specular)}};
+                       {"alpha_error", figures_json(errors.alpha)},
+                       {"specular_error", figures_json(errors.specular)}};
     std::cout << json.dump(2) << "\n";
     return;
   }

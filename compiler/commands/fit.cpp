@@ -65,8 +65,8 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
                  {"id", fit.id},
                  {"kind", kind_name(fit.mapping)},
                  {"method", fit.method},
-                 {"alpha_error", errors_json(fit.alpha_error)},
-                 {"specular_error", errors_json(fit.specular_error)},
+                 {"alpha_error", figures_json(fit.alpha_error)},
+                 {"specular_error", figures_json(fit.specular_error)},
                  {"candidates", Json::list()}};
     for (const CandidateRecord& candidate : fit.candidates)
       json["candidates"].push_back(candidate_json(candidate));
@@ -123,8 +123,8 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
                        {"id", fit.id},
                        {"kind", material_kind(fit)},
                        {"method", training.method},
-                       {"base_color_error", errors_json(training.base_color)},
-                       {"metallic_error", errors_json(training.metallic)}};
+                       {"base_color_error", figures_json(training.base_color)},
+                       {"metallic_error", figures_json(training.metallic)}};
     std::cout << json.dump(2) << "\n";
     return;
   }

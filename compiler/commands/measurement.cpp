@@ -144,7 +144,7 @@ void Measurement::write(const std::string& table, const Comments& comments) {
 void Measurement::report(const std::map<std::string, std::size_t>& statuses, double rms_error,
                          const Json& fields) const {
   const std::string table = options_.output.string();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double seconds = stopwatch_.seconds();
   const PictureCount pictures = renderer_->pictures();
   std::size_t rows = 0;
   std::string counts;

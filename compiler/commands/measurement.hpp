@@ -1,7 +1,6 @@
 // What `remapc sweep` and `remapc sample` share: two models, their pictures, and the table that is written.
 #pragma once
 
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "command_line/progress.hpp"
 #include "commands/renderer_options.hpp"
 #include "core/json.hpp"
+#include "core/stopwatch.hpp"
 #include "measure/sweep_options.hpp"
 #include "table/light.hpp"
 #include "table/table.hpp"
@@ -66,7 +66,7 @@ class Measurement {
   void report(const std::map<std::string, std::size_t>& statuses, double rms_error, const Json& fields) const;
 
   const MeasurementOptions& options_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
   std::optional<Progress> progress_;  // of rows; its label also counts the pictures of workers
   std::unique_ptr<RendererSet> renderer_;
   LightMatch light_;

@@ -2,7 +2,6 @@
 // get a converter; where a table (measured BRDFs or profiles) takes part, texels are copied.
 #include "warp/warp.hpp"
 
-#include <chrono>
 #include <iostream>
 
 #include "command_line/run_app.hpp"
@@ -12,6 +11,7 @@
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
+#include "core/stopwatch.hpp"
 #include "lower/fit_file.hpp"
 #include "remap/version.hpp"
 #include "report/warp_report.hpp"
@@ -136,10 +136,10 @@ void warp_textures(const WarpCommand& command) {
       read_texture_material(command.source, command.source_model, AlbedoAlone::kEnrich);
   const TextureMaterial target = read_texture_material(command.target, command.target_model);
   const std::vector<StrokePair> strokes = strokes_of(command, source.frame(), target.frame());
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const WarpFit fit =
       fit_warp(source.material, target.material, strokes, options_of(command, AppearanceDistance::kRelative));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   WarpMapFit file = fit_file(command, fit, strokes.size());
   if (source.is_albedo) file.method[kWarpSourceMaps] = kDiffuseAlone;
   file.copy_rms_error = rounded_up(copy_rms_error(fit, source.material, target.material), 3);

@@ -1,14 +1,13 @@
 #include "renderer/timed_renderer.hpp"
 
-#include <chrono>
+#include "core/stopwatch.hpp"
 
 namespace remap {
 
 Image TimedRenderer::render(const Material& material, const Scene& scene) const {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   Image image = inner_.render(material, scene);
-  nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+  seconds_ += stopwatch.seconds();
   ++pictures_;
   return image;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 
 #include "renderer/renderer.hpp"
 
@@ -14,7 +13,7 @@ class TimedRenderer final : public Renderer {
   explicit TimedRenderer(const Renderer& inner) : inner_(inner) {}
 
   std::size_t picture_count() const { return pictures_; }
-  double seconds() const { return 1e-9 * static_cast<double>(nanoseconds_); }
+  double seconds() const { return seconds_; }
 
   std::string version() const override { return inner_.version(); }
   std::string version_of(const std::string& model) const override { return inner_.version_of(model); }
@@ -25,7 +24,7 @@ class TimedRenderer final : public Renderer {
  private:
   const Renderer& inner_;
   mutable std::atomic<std::size_t> pictures_ = 0;
-  mutable std::atomic<std::int64_t> nanoseconds_ = 0;
+  mutable std::atomic<double> seconds_ = 0.0;
 };
 
 }  // namespace remap

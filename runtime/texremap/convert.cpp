@@ -1,7 +1,6 @@
 // `texremap convert`: converts texture sets by one converter or by a path of converters. It checks everything
 // that can be checked before it reads the first texel.
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "convert/converter_file.hpp"
+#include "core/stopwatch.hpp"
 #include "remap/error.hpp"
 #include "remap/path.hpp"
 #include "remap/warp.hpp"
@@ -161,7 +161,7 @@ void warn_of_encoding(const ConvertOptions& options, const JobList& list, const 
 
 void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chosen,
                      const TextureSetRequest& request) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   if (options.output.empty()) throw Error(ErrorKind::kUsage, "--output is required");
   const JobList list = conversion_jobs(options, chosen.workflow, request);
   warn_of_encoding(options, list, chosen.info().source);
@@ -174,7 +174,7 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
     if (list.is_tree) print_job(kProgram, outcome, report, options.quiet);
     if (as_lines) print_json_set(outcome, report);
   });
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.seconds = stopwatch.seconds();
   outcome.used = resource_use();
   if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
   if (!options.quiet) {

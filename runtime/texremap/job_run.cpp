@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -13,6 +12,7 @@
 #include "command_line/progress.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
+#include "core/stopwatch.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "texremap/conversion_hash.hpp"
@@ -277,7 +277,7 @@ void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const s
 
 void JobRunner::run(const ConversionJob& job, const std::function<void(double)>& progress,
                     JobReport& report) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   TextureSet set = open_texture_set(job.request);
   report.inputs = files_of(set);
   if (const SetParameter* specular = set.map_of(Parameter::kSpecular))
@@ -325,7 +325,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   report.statistics = run_texture_pass(set, targets, own ? *own : chosen_.converter(), pass);
   report.bytes_read = size_of(report.inputs);
   for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.seconds = stopwatch.seconds();
 }
 
 // The progress line of the whole run.
