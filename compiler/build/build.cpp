@@ -222,8 +222,7 @@ class Builder {
     SweepOptions options;
     options.source = source;
     options.target = target;
-    options.objective = objective_preset(recipe.objective);
-    options.objective_name = recipe.objective;
+    options.objective = recipe.objective;
     options.accept_light = item.accept_light;
     options.resolution = recipe.resolution;
     Range speculars = canonical_speculars(renderer_, renderer_.model(source));
@@ -259,8 +258,7 @@ class Builder {
     options.source = item.metallic;
     options.target = item.specular;
     options.source_roles.fixed = item.fixed;
-    options.objective = objective_preset("natural");
-    options.objective_name = "natural";
+    options.objective = objective_preset("natural-1");
     options.resolution = item.resolution;
     options.count = item.count;
     options.seed = seed;

@@ -53,7 +53,7 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) 
 
 void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   SweepRecipe recipe;
-  recipe.objective = group["objective"].text();
+  recipe.objective = recorded_objective(group["objective"].text());
   recipe.resolution = read_resolution(group["resolution"]);
   recipe.alphas = read_range(group["alpha"]);
   recipe.roughness_samples = read_count(group["roughness_samples"]);

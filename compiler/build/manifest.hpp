@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lower/any_fit.hpp"
+#include "measure/objective.hpp"
 
 namespace remap {
 
@@ -18,7 +19,7 @@ inline constexpr int kManifestVersion = 1;
 
 // How a group of pairs is swept and fitted.
 struct SweepRecipe {
-  std::string objective = "natural";
+  Objective objective;
   int resolution = 512;
   Range alphas{0.01, 1.0};
   std::size_t roughness_samples = 30;

@@ -72,9 +72,11 @@ void MeasurementOptions::add_table_options(Command& app, const std::string& tabl
 
 void MeasurementOptions::add_picture_options(Command& app) {
   app.option_group("Pictures and how they are compared");
-  app.add_option("--objective NAME", objective, objective_name(),
-                 "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights")
-      ->default_text("natural");
+  app.add_option(
+         "--objective NAME", objective, objective_name(),
+         "natural: light at 65 degrees, relative weights, and the mean; natural-1: light at 60 degrees, "
+         "relative weights; paper: headlight, uniform weights")
+      ->default_text("natural, now natural-2");
   app.add_option("--light LIGHTS", lights, list_of(light_angle()),
                  "Lights, comma-separated: headlight, or degrees from the camera (overrides --objective)");
   app.add_option("--weighting NAME", weighting, one_of(kWeightings, "weighting"),
@@ -107,9 +109,7 @@ PairOptions MeasurementOptions::chosen_pair() const {
   }
   for (Light& light : chosen.objective.lights) light.distance = distance;
   chosen.objective.weighting = weighting.value_or(preset.weighting);
-  const bool is_preset =
-      chosen.objective.lights == preset.lights && chosen.objective.weighting == preset.weighting;
-  chosen.objective_name = is_preset ? objective : "custom";
+  if (chosen.objective != preset) chosen.objective.name = "custom";
   chosen.match_irradiance = !keep_irradiance;
   return chosen;
 }

@@ -13,7 +13,9 @@ struct Comparison {
   std::size_t chosen = 0;
 };
 
-// Fits the parametric form of the paper and every kind of the list (kinds.hpp) to `rows`. Compares them:
+// Fits the parametric form of the paper and the kinds of the list (kinds.hpp) to `rows`. The slower half of
+// the list is fitted only if none of the faster half may be chosen with relative errors of at most 1e-3 in
+// both outputs. Compares them:
 // - by twice five-fold cross-validation on the rows (on 2000 random rows if there are more); forms and
 //   hyper-parameters are chosen on all of `rows`, coefficients are refitted in each fold;
 // - on the outermost rows, after fitting without them (edge.hpp);

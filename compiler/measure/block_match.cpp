@@ -49,7 +49,7 @@ class WidthMatch {
   // (uniform, or relative to a picture that only scales), one set of inner products serves all samples.
   void share_products() {
     AffinePictures pictures = take_affine(setup_.picture_taker, setup_.source, alpha_);
-    is_black_ = *std::ranges::max_element(pictures.full) <= 0.0f;
+    is_black_ = is_black(pictures.full);
     std::vector<std::vector<float>> basis = {std::move(pictures.slope)};
     if (!setup_.source.response.proportional()) basis.push_back(std::move(pictures.base));
     shared_.emplace(*setup_.target.bank, std::move(basis), setup_.picture_taker.weights(pictures.full));

@@ -24,7 +24,7 @@ struct JointOptions {
 // One color channel of the source: its picture, and w^2 for each pixel.
 struct JointChannel {
   std::vector<float> picture, weights;
-  bool is_black() const { return *std::ranges::max_element(picture) <= 0.0f; }
+  bool is_black() const { return remap::is_black(picture); }
 };
 
 struct JointMatch {

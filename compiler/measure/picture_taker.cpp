@@ -52,13 +52,18 @@ std::vector<std::vector<float>> PictureTaker::take_channels(const Material& mate
     require_form(image, resolution_, material.model);
     const auto channels = static_cast<std::size_t>(image.channels);
     rows.resize(channels);
-    for (const std::size_t pixel : pixels_)
-      for (std::size_t c = 0; c < channels; ++c) {
+    for (std::size_t c = 0; c < channels; ++c) {
+      double sum = 0.0;
+      for (const std::size_t pixel : pixels_) {
         const float value = image.values[channels * pixel + c];
         if (!std::isfinite(value))
           throw Error(ErrorKind::kInput, material.model + ": a pixel of the picture is infinite or NaN");
         rows[c].push_back(value);
+        sum += static_cast<double>(value);
       }
+      if (objective_.compares_means())
+        rows[c].push_back(static_cast<float>(sum / (static_cast<double>(resolution_) * resolution_)));
+    }
   }
   return rows;
 }

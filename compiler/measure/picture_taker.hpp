@@ -1,5 +1,6 @@
 // Renders the pictures that a match compares: under every light of the objective, only the pixels that show
-// the sphere, one picture after the other in one row of floats.
+// the sphere, one picture after the other in one row of floats, each followed by its mean over the square if
+// the objective compares means.
 #pragma once
 
 #include <map>
@@ -53,8 +54,8 @@ class PictureTaker {
  public:
   PictureTaker(const Renderer& renderer, const Objective& objective, int resolution, int samples_per_axis);
 
-  // Renders `model` under each light in turn, pixel_count() floats each. `specular` is the model's own
-  // parameter. Throws kInput for a picture of another size and for values that are not finite.
+  // Renders `model` under each light in turn: pixel_count() floats each, and the mean. `specular` is the
+  // model's own parameter. Throws kInput for a picture of another size and for values that are not finite.
   std::vector<float> take(const ModelDescription& model, const RoleValues& role_values) const;
 
   // The same for canonical specular, clamped to the model's range; the result is multiplied by the exposure.

@@ -73,11 +73,13 @@ void add_noise(const std::string& role, const SteadyRenderer& renderer, const st
 
 void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments) {
   comments->emplace_back("renderer", versions_text(renderer, options));
-  comments->emplace_back("objective", options.objective_name);
+  comments->emplace_back("objective", options.objective.name);
   comments->emplace_back("lights", lights_text(options.objective.lights));
   comments->emplace_back("weighting", std::string(name_of(kWeightings, options.objective.weighting)));
   if (options.objective.weighting == Weighting::kRelative)
     comments->emplace_back("weighting_floor", number_text(options.objective.floor));
+  if (options.objective.compares_means())
+    comments->emplace_back("mean_share", number_text(options.objective.mean_share));
 }
 
 void add_light_scale(const LightMatch& match, Comments* comments) {

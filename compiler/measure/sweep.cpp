@@ -259,7 +259,7 @@ std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range&
 }
 
 SpecularResponse specular_response(const Renderer& renderer, const ModelDescription& model) {
-  const PictureTaker picture_taker(renderer, objective_preset("natural"), kProbeResolution, 1);
+  const PictureTaker picture_taker(renderer, objective_preset("natural-1"), kProbeResolution, 1);
   return probe_specular(picture_taker, model, {0.1, model.alpha.max});
 }
 

@@ -24,7 +24,6 @@ struct PairOptions {
   std::string target;
   ParameterRoles source_roles, target_roles;
   Objective objective;
-  std::string objective_name;  // the preset, or `custom` if parts of it were changed
   int resolution = 512;
   int samples_per_axis = 1;
   bool match_irradiance = true;

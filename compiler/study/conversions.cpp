@@ -28,7 +28,6 @@ Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer,
   sweep.source = pair.source;
   sweep.target = pair.target;
   sweep.objective = objective_preset(objective);
-  sweep.objective_name = objective;
   sweep.resolution = options.match_resolution;
   sweep.samples = copied(options);
   SweepExecution execution;
@@ -130,12 +129,12 @@ Conversion best_of(const Search& search, const Conversion& start) {
 void add_materials(const EnvironmentsOptions& options, const Conversion& start,
                    std::vector<SphereMaterial>* materials) {
   const StudyPair& pair = options.pairs[start.pair];
-  materials->push_back({builtin_brdf(pair.source), start.alpha, options.specular});
+  materials->push_back({builtin_brdf(pair.source), start.alpha, options.specular, options.diffuse});
   for (int i = 0; i < kWidths; ++i) {
     const double ratio = std::pow(kWidthRatio, i - kWidths / 2);
     for (const double specular : {0.0, 1.0})
-      materials->push_back(
-          {builtin_brdf(pair.target), std::min(kWidestAlpha, start.target_alpha * ratio), specular});
+      materials->push_back({builtin_brdf(pair.target), std::min(kWidestAlpha, start.target_alpha * ratio),
+                            specular, options.diffuse});
   }
 }
 
@@ -158,7 +157,8 @@ Search search_of(const SpherePictures& pictures, std::span<const SphereMaterial>
 std::string pair_name(const StudyPair& pair) { return pair.source + " -> " + pair.target; }
 
 std::string method_name(Method method) {
-  constexpr std::array<const char*, 5> kNames = {"copy", "paper", "natural", "shipped", "best"};
+  constexpr std::array<const char*, 6> kNames = {"copy",      "paper",   "natural-1",
+                                                 "natural-2", "shipped", "best"};
   return kNames[static_cast<std::size_t>(method)];
 }
 
@@ -175,7 +175,8 @@ std::vector<Conversion> conversions_of(const EnvironmentsOptions& options,
     const StudyPair& pair = options.pairs[p];
     add(p, Method::kCopy, copied(options));
     add(p, Method::kPaper, matched(options, *renderer, pair, "paper"));
-    add(p, Method::kNatural, matched(options, *renderer, pair, "natural"));
+    add(p, Method::kNatural1, matched(options, *renderer, pair, "natural-1"));
+    add(p, Method::kNatural2, matched(options, *renderer, pair, "natural-2"));
     const Fit* fit = find_pair(options.fits, pair);
     add(p, Method::kShipped, fit == nullptr ? Parameters{} : shipped(options, *fit));
     if (fit == nullptr) remarks->push_back(pair_name(pair) + " has no fit, so `shipped` is not compared");

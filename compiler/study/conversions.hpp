@@ -23,11 +23,12 @@ struct StudyPair {
 std::string pair_name(const StudyPair& pair);
 
 enum class Method {
-  kCopy,     // alpha and specular are copied
-  kPaper,    // match by the objective `paper`
-  kNatural,  // match by the objective `natural`
-  kShipped,  // a fit, evaluated as generated headers and texremap do
-  kBest,     // least mean RMSE over the given environments; no conversion can be better
+  kCopy,      // alpha and specular are copied
+  kPaper,     // match by the objective `paper`
+  kNatural1,  // match by the objective `natural-1`
+  kNatural2,  // match by the objective `natural-2`
+  kShipped,   // a fit, evaluated as generated headers and texremap do
+  kBest,      // least mean RMSE over the given environments; no conversion can be better
 };
 std::string method_name(Method method);
 
@@ -36,9 +37,10 @@ struct EnvironmentsOptions : SphereSampling {
   std::vector<StudyPair> pairs;           // models of the built-in renderer
   std::vector<double> alphas;             // of the source
   double specular = 0.5;                  // of the source, linear, above 0 to 1
+  double diffuse = 0.0;                   // of source and target, linear, 0 to 1
   std::vector<Environment> environments;  // of different names and equal mean luminance
   std::vector<Fit> fits;                  // fits for kShipped
-  int match_resolution = 512;             // width and height of the pictures for kPaper and kNatural
+  int match_resolution = 512;             // width and height of the pictures of the matches
   bool least_error = false;               // compare kBest, too
   std::optional<double> sheet_alpha;      // one of `alphas`: draw contact sheets of it
 };

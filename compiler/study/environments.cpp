@@ -15,7 +15,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kMethodCount = 4;  // methods without kBest
+constexpr std::size_t kMethodCount = 5;  // methods without kBest
 
 double mean_radiance(const std::vector<float>& radiance) {
   double sum = 0.0;
@@ -88,8 +88,9 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
   std::vector<ComparedPair> pairs;
   for (const Conversion& c : conversions) {
     const StudyPair& pair = options.pairs[c.pair];
-    pairs.push_back({c, rendered.place({builtin_brdf(pair.source), c.alpha, options.specular}),
-                     rendered.place({builtin_brdf(pair.target), c.target_alpha, c.target_specular})});
+    pairs.push_back(
+        {c, rendered.place({builtin_brdf(pair.source), c.alpha, options.specular, options.diffuse}),
+         rendered.place({builtin_brdf(pair.target), c.target_alpha, c.target_specular, options.diffuse})});
   }
   const SpherePictures pictures = render_spheres(pyramid, rendered.materials, options);
   const std::size_t environment_count = options.environments.size();
@@ -117,12 +118,12 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
   result->comparisons.insert(result->comparisons.end(), comparisons.begin(), comparisons.end());
 }
 
-// Adds the best conversions. The search starts from the matches by the objective `natural`.
+// Adds the best conversions. The search starts from the matches by `natural-2`.
 void add_best(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
               std::vector<Conversion>* conversions) {
   std::vector<Conversion> starts;
   for (const Conversion& conversion : *conversions)
-    if (conversion.method == Method::kNatural) starts.push_back(conversion);
+    if (conversion.method == Method::kNatural2) starts.push_back(conversion);
   const std::vector<Conversion> best = best_conversions(options, pyramid, starts);
   conversions->insert(conversions->end(), best.begin(), best.end());
 }
@@ -145,6 +146,8 @@ void require_options(const EnvironmentsOptions& options) {
   if (!(options.specular > 0.0 && options.specular <= 1.0))
     throw Error(ErrorKind::kUsage,
                 "specular: " + number_text(options.specular) + " is out of range (above 0, at most 1)");
+  if (!(options.diffuse >= 0.0 && options.diffuse <= 1.0))
+    throw Error(ErrorKind::kUsage, "diffuse: " + number_text(options.diffuse) + " is out of range (0 to 1)");
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 namespace remap {
 namespace {
 
-constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural, Method::kShipped,
-                                 Method::kBest};
+constexpr std::array kMethods = {Method::kCopy,     Method::kPaper,   Method::kNatural1,
+                                 Method::kNatural2, Method::kShipped, Method::kBest};
 constexpr double kRmseStep = 0.01, kSsimStep = 0.001;  // last digits of the figures in the text
 
 std::string figures_text(const PictureSimilarity& image_similarity) {
@@ -32,6 +32,7 @@ Comments comments_of(const EnvironmentsOptions& options, const EnvironmentsResul
   return {{"tool", std::string("remap-study ") + kVersion},
           {"resolution", std::to_string(options.resolution)},
           {"samples", std::to_string(options.samples)},
+          {"diffuse", number_text(options.diffuse)},
           {"mean_luminance", brightness_text(options)},
           {"noise_percent", number_text(rounded_up(result.noise, 2))}};
 }
@@ -162,21 +163,22 @@ std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsR
 std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
   // In the order of Method.
   static constexpr std::array<const char*, kMethods.size()> kColors = {
-      "black", kPlotColors[1], kPlotColors[0], kPlotColors[2], "#999999"};
+      "black", kPlotColors[1], "#c0c0c0", kPlotColors[0], kPlotColors[2], "#999999"};
   std::ostringstream out;
   std::array<std::string, 2> curves;
   for (const Method method : methods_of(result)) {
     const std::string name = method_name(method);
     if (pair_count(options, result, method) != options.pairs.size())
       continue;  // means over different pairs cannot be compared
-    out << "$" << name << " << EOD\n";
+    const std::string block = "$method" + std::to_string(static_cast<int>(method));
+    out << block << " << EOD\n";
     for (const double alpha : options.alphas) {
       const PictureSimilarity mean = mean_similarity(at_alpha(comparisons_of(result, method), alpha));
       out << number_text(alpha) << ' ' << number_text(mean.rmse) << ' ' << number_text(mean.ssim) << '\n';
     }
     out << "EOD\n";
     for (std::size_t panel = 0; panel < curves.size(); ++panel)
-      curves[panel] += (curves[panel].empty() ? "plot $" : ", $") + name +
+      curves[panel] += (curves[panel].empty() ? "plot " : ", ") + block +
                        " using 1:" + std::to_string(panel + 2) +
                        " with linespoints linewidth 2 pointtype 7 pointsize 0.5 " + "linecolor rgb '" +
                        kColors[static_cast<std::size_t>(method)] + "' title '" + name + "'";

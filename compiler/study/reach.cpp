@@ -26,7 +26,7 @@ Objective objective_of(const Fit& fit) {
   const auto found = fit.table.comments.find("objective");
   if (found == fit.table.comments.end())
     throw input_error(fit.id + ": its table does not name an objective (use the fit of a sweep)");
-  return objective_preset(found->second);
+  return recorded_objective(found->second);
 }
 
 // The widths of a target with the two pictures of each, and the range of its specular.

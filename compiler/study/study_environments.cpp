@@ -69,6 +69,7 @@ void add_options(Command& app, EnvironmentsCommand& command) {
   app.add_flag("--plain", command.plain, "Use the default pairs without Fresnel (constant reflectance)");
   app.add_option("--alphas", study.alphas, "Source alphas, comma-separated")->delimiter(',');
   app.add_option("--specular", study.specular, "Specular reflectance of the source, linear");
+  app.add_option("--diffuse", study.diffuse, "Diffuse reflectance of source and target, linear");
   add_environment_options(app, command.environments);
   app.add_flag("--least-error", study.least_error,
                "Also search for the parameters of least mean RMSE under these environments (`best`)");
@@ -79,7 +80,7 @@ void add_options(Command& app, EnvironmentsCommand& command) {
       app, command.output, study.jobs,
       {"Write environments.csv, environments_summary.csv and environments.svg (needs gnuplot) to this folder",
        "Also write spheres_<environment>.png at the middle alpha: one row for each pair; columns source, "
-       "copy, paper, natural, shipped, best",
+       "copy, paper, natural-1, natural-2, shipped, best",
        "Results do not depend on it", "Print the means as JSON"});
 }
 
@@ -89,7 +90,7 @@ void add_environments_study(Command& study) {
   Command* command = study.add_subcommand(
       "environments",
       "Compare pictures of source and converted spheres under environment maps, for copied parameters, for "
-      "matches by both objectives and for the shipped fits");
+      "matches by every objective and for the shipped fits");
   EnvironmentsCommand& options = set_work<EnvironmentsCommand>(*command, run);
   add_options(*command, options);
   command->footer(

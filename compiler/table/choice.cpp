@@ -99,20 +99,20 @@ std::string failure_of(const std::string& what, const std::function<void()>& wor
   }
 }
 
-void cross_validate(std::vector<Candidate>* candidates, const std::vector<Fold>& folds,
-                    double (*weight)(double), unsigned jobs, const FitProgress& progress) {
-  std::vector<std::vector<FoldErrors>> errors(candidates->size(), std::vector<FoldErrors>(folds.size()));
-  const std::size_t count = candidates->size() * folds.size();
+void cross_validate(std::span<Candidate> candidates, const std::vector<Fold>& folds, double (*weight)(double),
+                    unsigned jobs, const FitProgress& progress) {
+  std::vector<std::vector<FoldErrors>> errors(candidates.size(), std::vector<FoldErrors>(folds.size()));
+  const std::size_t count = candidates.size() * folds.size();
   std::mutex mutex;
   std::size_t done = 0;
   run_parallel(count, jobs, [&](std::size_t task) {
     // The last candidates are the slowest, so they start first.
-    const std::size_t c = candidates->size() - 1 - task / folds.size(), f = task % folds.size();
-    errors[c][f] = errors_in(folds[f], (*candidates)[c], weight);
+    const std::size_t c = candidates.size() - 1 - task / folds.size(), f = task % folds.size();
+    errors[c][f] = errors_in(folds[f], candidates[c], weight);
     const std::lock_guard lock(mutex);
     if (progress) progress(static_cast<double>(++done) / static_cast<double>(count));
   });
-  for (std::size_t c = 0; c < candidates->size(); ++c) put_together(errors[c], &(*candidates)[c].record);
+  for (std::size_t c = 0; c < candidates.size(); ++c) put_together(errors[c], &candidates[c].record);
 }
 
 std::size_t choose(std::vector<Candidate>* candidates) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ std::string failure_of(const std::string& what, const std::function<void()>& wor
 // Fits each candidate that may be chosen to the training rows of each fold (Regression::again), and records
 // its errors on the judging rows; they are multiplied by `weight` of the value for the choice. A candidate
 // that fails in a fold, or whose errors are not finite, gets a verdict. Threads as in RegressionOptions.
-void cross_validate(std::vector<Candidate>* candidates, const std::vector<Fold>& folds,
+void cross_validate(std::span<Candidate> candidates, const std::vector<Fold>& folds,
                     double (*weight)(double value), unsigned jobs, const FitProgress& progress = {});
 
 // Returns the index of the candidate with the fewest numbers (the first of several) whose errors of alpha and

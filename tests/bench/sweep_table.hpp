@@ -14,7 +14,6 @@ inline remap::Table sweep_table(const std::string& objective, const std::string&
   options.source = source;
   options.target = target;
   options.objective = remap::objective_preset(objective);
-  options.objective_name = objective;
   options.sampling = "bench";
   options.samples = remap::grid_samples({0.01, 1.0}, 30, {0.0, 1.0}, 30);
   return remap::run_sweep(*renderer, options, {});

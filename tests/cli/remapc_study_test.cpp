@@ -52,12 +52,12 @@ TEST_CASE("remap-study environments: writes tables and a summary", "[needs][slow
       require_success(session.study(small_study("-o study --pictures --least-error", session.path("fits"))));
   CHECK(result.output.find("Spheres under sky, overcast, studio, mean luminance 1; alpha 0.2, 0.5, ") == 0);
   CHECK(result.output.find("shipped (1 of 2 pairs)") != std::string::npos);
-  CHECK(result.output.find("With `natural`, no pair is worse than copying.") != std::string::npos);
+  CHECK(result.output.find("With `natural-2`, no pair is worse than copying.") != std::string::npos);
   CHECK(result.output.find("mitsuba/beckmann -> mitsuba/ggx has no fit") != std::string::npos);
-  // 5 comments, the header; 9 pairs of models and methods, 2 alphas, 3 environments.
-  CHECK(line_count(session.content("study/environments.csv")) == 6 + 9 * 2 * 3);
-  // Means of 5 methods over all pairs, and of the 9.
-  CHECK(line_count(session.content("study/environments_summary.csv")) == 6 + 5 + 9);
+  // 6 comments, the header; 11 pairs of models and methods, 2 alphas, 3 environments.
+  CHECK(line_count(session.content("study/environments.csv")) == 7 + 11 * 2 * 3);
+  // Means of 6 methods over all pairs, and of the 11.
+  CHECK(line_count(session.content("study/environments_summary.csv")) == 7 + 6 + 11);
   check_plot(session, result, "environments.svg");
   for (const std::string name : {"sky", "overcast", "studio"})
     CHECK(contrast(session.path("study/spheres_" + name + ".png")) > 0.5f);

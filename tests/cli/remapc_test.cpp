@@ -21,7 +21,7 @@ TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") 
   CHECK(session.remapc("check t.csv").exit_code == 0);
   require_success(session.remapc(session.fit("t.csv")));
   const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
-  CHECK(load_fit(fit).table.comments.at("objective") == "natural");
+  CHECK(load_fit(fit).table.comments.at("objective") == "natural-2");
   require_success(session.remapc("emit --all --fits fits -o generated"));
   CHECK(fs::exists(session.path("generated/converters.json")));
   result = session.remapc("eval " + fit + " t.csv --json");

@@ -80,7 +80,7 @@ TEST_CASE(
   // `remapc sample` makes the samples that the fit names.
   require_success(session.remapc(
       "sample --source mitsuba/ggx-metallic --source-set specular=0.375 --vary metallic --target mitsuba/ggx "
-      "--resolution 16 --count 60 --seed 3 -o samples.csv"));
+      "--objective natural-1 --resolution 16 --count 60 --seed 3 -o samples.csv"));
   require_success(session.remapc("fit samples.csv --swap --layers 4 --seed 3 --id again -o mine"));
   const auto table_of = [&](const std::string& fit) {
     return nlohmann::json::parse(session.content(fit))["training"]["table"]["sha256"];

@@ -58,7 +58,7 @@ FormChoice<Form> choose_form(std::span<const Form> forms, RelativeError Candidat
     if (progress) progress(0.5 * static_cast<double>(++done) / static_cast<double>(forms.size()));
   });
   cross_validate(
-      &candidates, split_folds(rows, kFolds, options.seed), [](double) { return 1.0; }, options.jobs,
+      candidates, split_folds(rows, kFolds, options.seed), [](double) { return 1.0; }, options.jobs,
       part_of(progress, 0.5, 1.0));
   std::string errors;
   for (const auto& [record, regression] : candidates)

@@ -103,7 +103,7 @@ TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths, d
       return series_of(output, fit_series(some, output, box, shape));
     };
   }
-  cross_validate(&candidates, split_folds(rows, kSeriesFolds, seed), error_weight, 1);
+  cross_validate(candidates, split_folds(rows, kSeriesFolds, seed), error_weight, 1);
   const std::size_t chosen = choose(&candidates);
   if (chosen == candidates.size())
     throw Error(ErrorKind::kNumeric, "series: no degree follows the rows (errors are not finite)");

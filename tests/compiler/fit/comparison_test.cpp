@@ -62,16 +62,17 @@ TEST_CASE("comparison: auto chooses the form of the paper for a table made from 
   const Fit fit = fit_of(table_of(paper_surface), quick_options());
   REQUIRE(fit.method.count("form") == 1);
   CHECK(fit.method.at("form") == "paper");
-  REQUIRE(fit.candidates.size() == 4);
+  REQUIRE(fit.candidates.size() == 2);  // no svr and no mlp: these are near enough
   CHECK(fit.candidates[0].verdict == "chosen");
   CHECK(fit.candidates[0].chroma_shift < 1e-12);
-  CHECK(fit.candidates[1].chroma_shift > 1e-6);
+  CHECK(fit.candidates[1].name == "series");
   for (const CandidateRecord& one : fit.candidates) CHECK(one.edge_alpha_rms > 0.0);
 }
 
 TEST_CASE("comparison: auto chooses a richer form if the table needs it", "[slow]") {
   const Fit fit = fit_of(table_of(bumpy_surface, 18, 8), quick_options());
   CHECK(kind_name(fit.mapping) != "parametric");
+  CHECK(fit.candidates.size() == 5);     // all kinds
   CHECK(fit.specular_error.rms < 4e-3);  // the bump is 0.03 high
 }
 

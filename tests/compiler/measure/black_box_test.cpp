@@ -199,7 +199,7 @@ TEST_CASE("sweep: a target that clamps ends at its knee, a source that clamps is
     CHECK(to.rows[beyond].status == RowStatus::kBright);
     CHECK(to.rows[beyond].specular2 == 0.5);
   }
-  for (const std::string objective : {"natural", "paper"}) {
+  for (const std::string objective : {"natural-1", "natural-2", "paper"}) {
     const Table from = sweep(renderer, sweep_options("disguised/law", "mitsuba/ward", objective,
                                                      {{0.3, 0.25}, {0.3, 0.75}, {0.3, 2.0}}, 64));
     CHECK(from.rows[0].specular2 == Approx(0.25).epsilon(1e-5));
@@ -295,7 +295,7 @@ TEST_CASE("black box: a diffuse lobe of another shape is no other light: an erro
   const Table accepted = sweep(renderer, options);
   const LightMatch match = light_match(accepted.comments);
   CHECK(match.scale > 1.1);
-  CHECK(match.diffuse_error > 0.03);
+  CHECK(match.diffuse_error >= 0.03);
   CHECK(match.accepted);
   // What the rule is about: the same lobe, and yet another specular.
   for (const TableRow& row : accepted.rows)

@@ -19,7 +19,6 @@ MaterialSampleOptions random_options(const std::string& source, const std::strin
   options.source = source;
   options.target = target;
   options.objective = objective_preset("natural");
-  options.objective_name = "natural";
   options.resolution = 64;
   options.count = count;
   options.seed = 7;

@@ -1,14 +1,59 @@
 // Lights and weights of an objective.
 #include "measure/objective.hpp"
 
+#include <cmath>
+#include <numeric>
+
 #include <catch2/catch.hpp>
 
+#include "measure/sweep.hpp"
 #include "remap/error.hpp"
+#include "sweep_session.hpp"
 
 using namespace remap;
 
+namespace {
+
+// The loss of `natural-2`, from whole pictures and by its definition.
+class NaturalLoss {
+ public:
+  NaturalLoss(const Renderer& renderer, const Material& source, int side)
+      : renderer_(renderer), side_(side), source_(picture_of(source)) {
+    const std::vector<float> cosines = view_cosines(side, 1);
+    const double brightest = *std::ranges::max_element(source_);
+    for (std::size_t i = 0; i < source_.size(); ++i)
+      weights_.push_back(std::pow(static_cast<double>(cosines[i]) / (source_[i] / brightest + 0.1), 2));
+  }
+
+  // Relative to that of a black target.
+  double operator()(const Material& target) const {
+    const std::vector<double> found = picture_of(target);
+    double difference = 0.0, power = 0.0;
+    for (std::size_t i = 0; i < source_.size(); ++i) {
+      difference += weights_[i] * std::pow(found[i] - source_[i], 2);
+      power += weights_[i] * source_[i] * source_[i];
+    }
+    const auto sum = [](const std::vector<double>& picture) {
+      return std::accumulate(picture.begin(), picture.end(), 0.0);
+    };
+    return (difference / power + 5.0 * std::pow(sum(found) / sum(source_) - 1.0, 2)) / 6.0;
+  }
+
+ private:
+  std::vector<double> picture_of(const Material& material) const {
+    const Image image = renderer_.render(material, Scene{side_, 1, {65.0, 3.0}});
+    return {image.values.begin(), image.values.end()};
+  }
+
+  const Renderer& renderer_;
+  int side_;
+  std::vector<double> source_, weights_;
+};
+
+}  // namespace
+
 TEST_CASE("objective: natural weighs each pixel by cos_view / (I / max(I) + 0.1), squared") {
-  const Objective natural = objective_preset("natural");
+  const Objective natural = objective_preset("natural-1");
   REQUIRE(natural.lights == std::vector<Light>{{60.0, 3.0}});
   const std::vector<float> source = {0.0f, 1.0f, 4.0f}, cosines = {1.0f, 0.5f, 0.8f};
   const auto weights = squared_weights(natural, source, cosines);
@@ -18,12 +63,51 @@ TEST_CASE("objective: natural weighs each pixel by cos_view / (I / max(I) + 0.1)
 }
 
 TEST_CASE("objective: natural uses the brightest pixel of each light separately") {
-  Objective objective = objective_preset("natural");
+  Objective objective = objective_preset("natural-1");
   objective.lights = {Light{}, Light{60.0}};
   const std::vector<float> source = {1.0f, 2.0f, 10.0f, 20.0f}, cosines = {1.0f, 1.0f};
   const auto weights = squared_weights(objective, source, cosines);
   CHECK(weights[0] == weights[2]);
   CHECK(weights[1] == weights[3]);
+}
+
+TEST_CASE("objective: a mean that is off by all of itself costs its share of the power of the pixels") {
+  Objective objective = objective_preset("natural-2");
+  objective.lights = {Light{}, Light{60.0}};
+  const std::vector<float> source = {1.0f, 2.0f, 0.3f, 10.0f, 20.0f, 3.0f}, cosines = {1.0f, 0.5f};
+  const auto weights = squared_weights(objective, source, cosines);
+  for (const std::size_t i : {0u, 3u}) {
+    const double power = weights[i] * source[i] * source[i] + weights[i + 1] * source[i + 1] * source[i + 1];
+    CHECK(weights[i + 2] * source[i + 2] * source[i + 2] == Approx(5.0 * power));
+  }
+}
+
+TEST_CASE("objective: a black picture leaves finite weights") {
+  const std::vector<float> source(3, 0.0f), cosines = {1.0f, 0.5f};
+  for (const float weight : squared_weights(objective_preset("natural-2"), source, cosines))
+    CHECK(std::isfinite(weight));
+}
+
+TEST_CASE("objective: natural is its newest version, and a sweep finds the minimum of its loss") {
+  CHECK(objective_preset("natural") == objective_preset("natural-2"));
+  const auto renderer = make_builtin_renderer();
+  constexpr int kSide = 64;
+  for (const auto& [source, target] :
+       {std::pair{"mitsuba/ggx", "mitsuba/beckmann"}, std::pair{"mitsuba/ward", "mitsuba/ggx"}}) {
+    INFO(source);
+    const TableRow row =
+        sweep(*renderer, sweep_options(source, target, "natural-2", {{0.31, 0.37}}, kSide)).rows.front();
+    const NaturalLoss loss(*renderer, grey_material(renderer->model(source), 0.31, 0.37, 0.0), kSide);
+    const auto at = [&](double alpha, double specular) {
+      return loss(grey_material(renderer->model(target), alpha, specular, 0.0));
+    };
+    const double least = at(row.alpha2, row.specular2);
+    CHECK(row.error == Approx(std::sqrt(least)).epsilon(1e-4));
+    for (const double step : {-2e-3, 2e-3}) {
+      CHECK(at(row.alpha2 + step, row.specular2) > least);
+      CHECK(at(row.alpha2, row.specular2 + step) > least);
+    }
+  }
 }
 
 TEST_CASE("objective: paper is a headlight and weights of 1") {

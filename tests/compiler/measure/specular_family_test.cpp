@@ -70,7 +70,7 @@ class RenderedLoss {
       : picture_taker_(renderer, options.objective, options.resolution, 1),
         target_(renderer.model(options.target)),
         source_(picture_taker_.take(renderer.model(options.source), source)),
-        weights_(squared_weights(options.objective, source_, picture_taker_.view_cosines())) {}
+        weights_(picture_taker_.weights(source_)) {}
 
   double operator()(double alpha, double specular) const {
     const auto picture = picture_taker_.take(target_, {alpha, specular, 0.0});
@@ -174,7 +174,7 @@ TEST_CASE("sweep: a target that is quadratic in specular is matched as direct re
           "[slow]") {
   const BlendRenderer renderer = quadratic_blend();
   const std::vector<SamplePoint> samples = {{0.12, 0.3}, {0.3, 0.05}, {0.3, 0.6}, {0.5, 0.9}};
-  for (const std::string objective : {"natural", "paper"}) {
+  for (const std::string objective : {"natural-1", "natural-2", "paper"}) {
     const SweepOptions options = sweep_options("mitsuba/ward", "disguised/blend", objective, samples, 32);
     const Table table = sweep(renderer, options);
     CHECK(comment(table, "target_specular_law") == "other");
@@ -193,7 +193,7 @@ TEST_CASE("sweep: a target that is quadratic in specular is matched as direct re
 
 TEST_CASE("sweep: the family finds what the search by renders finds, with a fraction of the pictures") {
   const BlendRenderer renderer = quadratic_blend();
-  const SweepOptions options = sweep_options("mitsuba/ward", "disguised/blend", "natural",
+  const SweepOptions options = sweep_options("mitsuba/ward", "disguised/blend", "natural-1",
                                              grid_samples({0.1, 0.6}, 3, {0.0, 0.8}, 6), 48);
   const Table table = sweep(renderer, options);
   // Probes of the law and of the family, two pictures at each of 66 nodes at most, one for each sphere
@@ -205,7 +205,7 @@ TEST_CASE("sweep: the family finds what the search by renders finds, with a frac
   const RenderedPictures pictures(picture_taker, {target, {}}, kAlphas);
   for (const TableRow& row : table.rows) {
     auto source = picture_taker.take(renderer.model("mitsuba/ward"), {row.alpha1, row.specular1, 0.0});
-    auto weights = squared_weights(options.objective, source, picture_taker.view_cosines());
+    auto weights = picture_taker.weights(source);
     const JointMatcher matcher(pictures, {{std::move(source), std::move(weights)}}, {false, false});
     const JointMatch match = matcher.match({{row.alpha1, 0.5, 0.0}});
     // Central differences of float pictures, and the tolerances of Ceres.
@@ -285,7 +285,7 @@ TEST_CASE("material sample: a target without a law is matched by the bank's pict
   const BlendRenderer renderer = quadratic_blend();
   MaterialSampleOptions options;
   options.source = options.target = "disguised/blend";
-  options.objective = objective_preset("natural");
+  options.objective = objective_preset("natural-1");
   options.resolution = 32;
   options.count = 12;
   options.seed = 3;

@@ -15,7 +15,6 @@ inline SweepOptions sweep_options(const std::string& source, const std::string& 
   options.source = source;
   options.target = target;
   options.objective = objective_preset(objective);
-  options.objective_name = objective;
   options.resolution = resolution;
   options.sampling = "test";
   options.samples = std::move(samples);

@@ -12,7 +12,7 @@ using namespace remap;
 namespace {
 
 ReachOptions small_reach(Fit fit) {
-  fit.table.comments["objective"] = "natural";
+  fit.table.comments["objective"] = "natural-2";
   ReachOptions options;
   options.fits = {std::move(fit)};
   options.materials = 6;
@@ -51,7 +51,6 @@ TEST_CASE("reach: the least error is that of the sweep, which finds it another w
   sweep.source = "mitsuba/beckmann";
   sweep.target = "mitsuba/as";
   sweep.objective = objective_preset("natural");
-  sweep.objective_name = "natural";
   sweep.resolution = 48;
   for (const ReachedMaterial& material : reach.materials)
     sweep.samples.push_back({material.alpha, material.specular});

@@ -73,7 +73,7 @@ TEST_CASE("choice: a candidate without finite errors, or that fails in a fold, i
   candidates[2].regression.again = [](const std::vector<TableRow>&) -> MappingKind {
     throw Error(ErrorKind::kNumeric, "why");
   };
-  cross_validate(&candidates, split_folds(rows, 4, 1), error_weight, 2);
+  cross_validate(candidates, split_folds(rows, 4, 1), error_weight, 2);
   CHECK(candidates[0].record.alpha.max < 1e-15);
   CHECK(candidates[1].record.verdict == "errors are not finite");
   CHECK(candidates[2].record.verdict == "not fitted in a fold: why");

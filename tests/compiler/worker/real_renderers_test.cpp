@@ -68,7 +68,6 @@ Table small_sweep(const Renderer& renderers, const std::string& source, const st
   options.source = source;
   options.target = target;
   options.objective = objective_preset("paper");
-  options.objective_name = "paper";
   options.resolution = 256;
   options.samples = grid_samples(alphas, 6, {0.0, specular}, 2);
   return run_sweep(renderers, options, {});
