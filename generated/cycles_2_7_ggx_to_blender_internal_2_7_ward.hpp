@@ -4,11 +4,11 @@
 // cycles-2.7/ggx to blender-internal-2.7/ward: which parameters of the second give the same picture as those of the first.
 // Composed of cycles_2_7_ggx_to_mitsuba_ggx, then mitsuba_ggx_to_mitsuba_ward, then mitsuba_ward_to_blender_internal_2_7_ward.
 // Fit: chain.
-// Error of its steps together: alpha rms 0.00021, 99 % 0.0012, max 0.0027;
-// specular rms 2.6e-05, 99 % 0.00026, max 5e-04.
-// Lowered from the fit. Target alpha: degree 11, 4 in specular, proven within 7.4e-06 (sampled 6.3e-06), rising with alpha.
-// Target specular: degree 11, 4 in specular, proven within 1.5e-05 (sampled 1.4e-05), rising with specular.
-// Covers alpha 0.01227433850835 to 0.5867306771739, f0 0 to 0.41755737583968344.
+// Error of its steps together: alpha rms 0.00015, 99 % 0.00094, max 0.0011;
+// specular rms 4.9e-05, 99 % 4e-04, max 0.00048.
+// Lowered from the fit. Target alpha: degree 11, 7 in specular, proven within 1e-05 (sampled 8.7e-06), rising with alpha.
+// Target specular: degree 11, 9 in specular, proven within 1.5e-05 (sampled 1.4e-05), rising with specular.
+// Covers alpha 0.01227433850835 to 0.6113854556574, f0 0 to 0.40363879664502733.
 #ifndef REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 #define REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 
@@ -35,8 +35,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00021f;
-inline constexpr float kSpecularRmsError = 2.6e-05f;
+inline constexpr float kAlphaRmsError = 0.00015f;
+inline constexpr float kSpecularRmsError = 4.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = -1.0f;
@@ -54,7 +54,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.012274339f, 0.0f};
-inline constexpr Input kDomainMax{0.58673066f, 0.4175574f};
+inline constexpr Input kDomainMax{0.61138546f, 0.4036388f};
 
 namespace detail {
 
@@ -74,46 +74,74 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.29950312f;
+  const float u = alpha - 0.31183055f;
   const float u_2 = u * u;
-  float c0 = -4730.0f;
-  float c0_next = -931.8117f;
-  c0 = c0 * u_2 + 1904.5885f;
-  c0_next = c0_next * u_2 + 15.962652f;
-  c0 = c0 * u_2 + -389.7453f;
-  c0_next = c0_next * u_2 + 16.721312f;
-  c0 = c0 * u_2 + 51.72975f;
-  c0_next = c0_next * u_2 + 0.11001429f;
-  c0 = c0 * u_2 + -4.405227f;
-  c0_next = c0_next * u_2 + -0.39317605f;
-  c0 = c0 * u_2 + 1.36685f;
-  c0_next = c0_next * u_2 + 0.38702163f;
+  float c0 = 1489.474f;
+  float c0_next = -2933.9546f;
+  c0 = c0 * u_2 + 467.50006f;
+  c0_next = c0_next * u_2 + 891.51044f;
+  c0 = c0 * u_2 + -237.52557f;
+  c0_next = c0_next * u_2 + -110.39461f;
+  c0 = c0 * u_2 + 41.740086f;
+  c0_next = c0_next * u_2 + 8.873007f;
+  c0 = c0 * u_2 + -3.8896053f;
+  c0_next = c0_next * u_2 + -0.6930606f;
+  c0 = c0 * u_2 + 1.2980071f;
+  c0_next = c0_next * u_2 + 0.38957417f;
   c0 = c0 * u + c0_next;
-  float c1 = -18.899693f;
-  float c1_next = -23.608826f;
-  c1 = c1 * u_2 + -1.8339082f;
-  c1_next = c1_next * u_2 + 2.26876f;
-  c1 = c1 * u_2 + 0.15966895f;
-  c1_next = c1_next * u_2 + -0.035126932f;
-  c1 = c1 * u_2 + 0.02272168f;
-  c1_next = c1_next * u_2 + 0.004382169f;
-  c1 = c1 * u + c1_next;
-  float c2 = 16.590523f;
-  float c2_next = 3.9859316f;
-  c2 = c2 * u_2 + -0.8320683f;
-  c2_next = c2_next * u_2 + 0.36388445f;
-  c2 = c2 * u_2 + -0.09138941f;
-  c2_next = c2_next * u_2 + -0.14514282f;
-  c2 = c2 * u_2 + -0.021754256f;
+  float c1 = 91.901855f;
+  float c1_next = -9.897411f;
+  c1 = c1 * u_2 + -19.43598f;
+  c1_next = c1_next * u_2 + 3.465619f;
+  c1 = c1 * u_2 + 1.6857245f;
+  c1_next = c1_next * u_2 + -0.30775973f;
+  c1 = c1 * u_2 + -0.05622136f;
+  c1_next = c1_next * u_2 + 0.022984246f;
+  c1 = c1 * u_2 + 0.00432784f;
+  c1 = c1_next * u + c1;
+  float c2 = -299.6568f;
+  float c2_next = -10.959028f;
+  c2 = c2 * u_2 + 75.31786f;
+  c2_next = c2_next * u_2 + -9.58994f;
+  c2 = c2 * u_2 + -6.9270477f;
+  c2_next = c2_next * u_2 + 1.449773f;
+  c2 = c2 * u_2 + 0.1893283f;
+  c2_next = c2_next * u_2 + -0.07518549f;
+  c2 = c2 * u_2 + -0.0056585683f;
   c2 = c2_next * u + c2;
-  float c3 = -0.9801946f;
-  c3 = c3 * u + 0.1508828f;
-  c3 = c3 * u + 0.2663085f;
-  c3 = c3 * u + 0.040967297f;
-  float c4 = -0.12795217f;
-  c4 = c4 * u + -0.02913515f;
-  const float w = specular - 0.20877911f;
-  float sum = c4;
+  float c3 = -63.277256f;
+  float c3_next = 61.88332f;
+  c3 = c3 * u_2 + 19.206083f;
+  c3_next = c3_next * u_2 + -10.218715f;
+  c3 = c3 * u_2 + 0.2624074f;
+  c3_next = c3_next * u_2 + 1.0260221f;
+  c3 = c3 * u_2 + 0.057120275f;
+  c3 = c3_next * u + c3;
+  float c4 = -271.74646f;
+  float c4_next = -113.824036f;
+  c4 = c4 * u_2 + 43.441906f;
+  c4_next = c4_next * u_2 + 1.6017543f;
+  c4 = c4 * u_2 + -8.512225f;
+  c4_next = c4_next * u_2 + -1.2487831f;
+  c4 = c4 * u + c4_next;
+  float c5 = 537.5048f;
+  float c5_next = 312.66205f;
+  c5 = c5 * u_2 + -107.407104f;
+  c5_next = c5_next * u_2 + -20.88579f;
+  c5 = c5 * u_2 + 35.872677f;
+  c5_next = c5_next * u_2 + 8.183005f;
+  c5 = c5 * u + c5_next;
+  float c6 = 130.72961f;
+  c6 = c6 * u + 29.86387f;
+  c6 = c6 * u + -89.78574f;
+  c6 = c6 * u + -26.225708f;
+  float c7 = 109.43778f;
+  c7 = c7 * u + 37.123142f;
+  const float w = specular - 0.2018198f;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -124,7 +152,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock], c8[kBlock], c9[kBlock];
 };
 
 template <class Count>
@@ -139,60 +167,105 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.29950312f;
+    const float u = alpha - 0.31183055f;
     const float u_2 = u * u;
-    float c0 = 3621.4812f;
-    float c0_next = -750.0579f;
-    c0 = c0 * u_2 + -840.6793f;
-    c0_next = c0_next * u_2 + 342.6853f;
-    c0 = c0 * u_2 + 3.6350467f;
-    c0_next = c0_next * u_2 + -26.595589f;
-    c0 = c0 * u_2 + 4.500704f;
-    c0_next = c0_next * u_2 + 1.2159504f;
-    c0 = c0 * u_2 + -0.51915014f;
-    c0_next = c0_next * u_2 + -0.077592134f;
-    c0 = c0 * u_2 + 0.026109356f;
-    c0_next = c0_next * u_2 + 0.07133278f;
+    float c0 = 5445.366f;
+    float c0_next = -1327.1613f;
+    c0 = c0 * u_2 + -1631.9102f;
+    c0_next = c0_next * u_2 + 541.14154f;
+    c0 = c0 * u_2 + 104.99784f;
+    c0_next = c0_next * u_2 + -50.738216f;
+    c0 = c0 * u_2 + -1.4610575f;
+    c0_next = c0_next * u_2 + 2.6015344f;
+    c0 = c0 * u_2 + -0.14067781f;
+    c0_next = c0_next * u_2 + -0.16298422f;
+    c0 = c0 * u_2 + -0.016662722f;
+    c0_next = c0_next * u_2 + 0.08479036f;
     c0 = c0 * u + c0_next;
-    float c1 = -3898.2134f;
-    float c1_next = -43.387676f;
-    c1 = c1 * u_2 + 1702.3612f;
-    c1_next = c1_next * u_2 + -315.419f;
-    c1 = c1 * u_2 + -128.8207f;
-    c1_next = c1_next * u_2 + 34.339985f;
-    c1 = c1 * u_2 + 5.7588587f;
-    c1_next = c1_next * u_2 + -2.7068596f;
-    c1 = c1 * u_2 + -0.37393466f;
-    c1_next = c1_next * u_2 + 0.12585305f;
-    c1 = c1 * u_2 + 0.33943418f;
-    c1 = c1_next * u + c1;
-    float c2 = 11.441096f;
-    float c2_next = 2.3945663f;
-    c2 = c2 * u_2 + -1.0171419f;
-    c2_next = c2_next * u_2 + -0.18808971f;
-    c2 = c2 * u_2 + 0.009840181f;
-    c2_next = c2_next * u_2 + 0.0035304117f;
-    c2 = c2 * u_2 + 0.0005685186f;
+    float c1 = 28716.1f;
+    float c1_next = -3791.9465f;
+    c1 = c1 * u_2 + -8984.407f;
+    c1_next = c1_next * u_2 + 2018.6404f;
+    c1 = c1 * u_2 + 676.8388f;
+    c1_next = c1_next * u_2 + -195.96123f;
+    c1 = c1 * u_2 + -16.275272f;
+    c1_next = c1_next * u_2 + 10.293481f;
+    c1 = c1 * u_2 + -0.68941957f;
+    c1_next = c1_next * u_2 + -0.72636163f;
+    c1 = c1 * u_2 + -0.07303457f;
+    c1_next = c1_next * u_2 + 0.41474098f;
+    c1 = c1 * u + c1_next;
+    float c2 = 29688.256f;
+    float c2_next = -4616.153f;
+    c2 = c2 * u_2 + -6988.277f;
+    c2_next = c2_next * u_2 + 867.8034f;
+    c2 = c2 * u_2 + 661.5662f;
+    c2_next = c2_next * u_2 + -27.197163f;
+    c2 = c2 * u_2 + -32.332123f;
+    c2_next = c2_next * u_2 + -0.43505856f;
+    c2 = c2 * u_2 + 0.47255844f;
+    c2_next = c2_next * u_2 + -0.08185686f;
+    c2 = c2 * u_2 + -0.006841587f;
     c2 = c2_next * u + c2;
-    float c3 = -2.3151875f;
-    float c3_next = -0.46709433f;
-    c3 = c3 * u_2 + 0.24430588f;
-    c3_next = c3_next * u_2 + 0.07616038f;
-    c3 = c3 * u_2 + 0.0059162807f;
-    c3 = c3_next * u + c3;
-    float c4 = -0.12166027f;
-    c4 = c4 * u + -0.025414275f;
+    float c3 = -1452.486f;
+    float c3_next = 220.78658f;
+    c3 = c3 * u_2 + 36.836533f;
+    c3_next = c3_next * u_2 + 29.255667f;
+    c3 = c3 * u_2 + 19.27373f;
+    c3_next = c3_next * u_2 + -4.114435f;
+    c3 = c3 * u_2 + -0.39099342f;
+    c3_next = c3_next * u_2 + 0.0022090604f;
+    c3 = c3 * u + c3_next;
+    float c4 = -1613.6727f;
+    float c4_next = -774.302f;
+    c4 = c4 * u_2 + 235.37027f;
+    c4_next = c4_next * u_2 + -14.046423f;
+    c4 = c4 * u_2 + 6.951247f;
+    c4_next = c4_next * u_2 + 7.016659f;
+    c4 = c4 * u_2 + 0.52542925f;
+    c4 = c4_next * u + c4;
+    float c5 = 4428.3037f;
+    float c5_next = -1127.8118f;
+    c5 = c5 * u_2 + -538.1881f;
+    c5_next = c5_next * u_2 + 83.720375f;
+    c5 = c5 * u_2 + -17.996408f;
+    c5_next = c5_next * u_2 + -0.019276049f;
+    c5 = c5 * u + c5_next;
+    float c6 = 1807.606f;
+    float c6_next = 2255.3723f;
+    c6 = c6 * u_2 + -423.36304f;
+    c6_next = c6_next * u_2 + -74.707596f;
+    c6 = c6 * u_2 + -22.54759f;
+    c6 = c6_next * u + c6;
+    float c7 = -4974.9985f;
+    c7 = c7 * u + 555.82806f;
+    c7 = c7 * u + 741.4911f;
+    c7 = c7 * u + 36.452568f;
+    float c8 = -3271.9426f;
+    c8 = c8 * u + 389.1307f;
+    float c9 = 6679.2354f;
+    c9 = c9 * u + -1143.0675f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
     terms.c3[i] = c3;
     terms.c4[i] = c4;
+    terms.c5[i] = c5;
+    terms.c6[i] = c6;
+    terms.c7[i] = c7;
+    terms.c8[i] = c8;
+    terms.c9[i] = c9;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.20877911f;
-  float sum = terms.c4[i];
+  const float w = specular - 0.2018198f;
+  float sum = terms.c9[i];
+  sum = sum * w + terms.c8[i];
+  sum = sum * w + terms.c7[i];
+  sum = sum * w + terms.c6[i];
+  sum = sum * w + terms.c5[i];
+  sum = sum * w + terms.c4[i];
   sum = sum * w + terms.c3[i];
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
@@ -269,7 +342,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 2.3948803f};
+                                 kDomainMax.f0, 2.4774625f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -515,19 +588,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.012274339f, 0.4175574f}, {0.015268557f, 0.14732927f}, {7.8e-06f, 1.5e-05f}},
-      {{0.08408138f, 0.39146006f}, {0.10285579f, 0.1255689f}, {7.9e-06f, 1.5e-05f}},
-      {{0.15588842f, 0.3653627f}, {0.19318314f, 0.11795368f}, {7.9e-06f, 1.5e-05f}},
-      {{0.22769547f, 0.33926538f}, {0.28856373f, 0.11227964f}, {8e-06f, 1.5e-05f}},
-      {{0.2995025f, 0.31316805f}, {0.38728303f, 0.10677064f}, {8e-06f, 1.5e-05f}},
-      {{0.37130955f, 0.2870707f}, {0.48190358f, 0.09973614f}, {8.1e-06f, 1.5e-05f}},
-      {{0.44311658f, 0.26097336f}, {0.56538326f, 0.090560935f}, {8.1e-06f, 1.5e-05f}},
-      {{0.51492363f, 0.23487604f}, {0.6384975f, 0.07986556f}, {8.1e-06f, 1.5e-05f}},
-      {{0.58673066f, 0.2087787f}, {0.7085282f, 0.06865115f}, {8.2e-06f, 1.5e-05f}},
-      {{0.0061371694f, 0.2087787f}, {0.015267557f, 0.07390705f}, {7.8e-06f, 1.5e-05f}},
-      {{0.88009596f, 0.10438935f}, {0.7070831f, 0.034494705f}, {8.2e-06f, 1.5e-05f}},
-      {{0.2995025f, 0.0f}, {0.38472882f, 0.0003905455f}, {8e-06f, 1.5e-05f}},
-      {{0.2995025f, 0.8351148f}, {0.38730767f, 0.2844537f}, {8e-06f, 3e-05f}},
+      {{0.012274339f, 0.4036388f}, {0.014580203f, 0.18590689f}, {1.1e-05f, 1.6e-05f}},
+      {{0.08716323f, 0.37841138f}, {0.1025098f, 0.15803969f}, {1.1e-05f, 1.6e-05f}},
+      {{0.16205212f, 0.35318395f}, {0.1934455f, 0.14784285f}, {1.1e-05f, 1.6e-05f}},
+      {{0.23694101f, 0.32795653f}, {0.29051587f, 0.13786803f}, {1.1e-05f, 1.6e-05f}},
+      {{0.3118299f, 0.3027291f}, {0.3899455f, 0.12660456f}, {1.1e-05f, 1.6e-05f}},
+      {{0.38671878f, 0.27750167f}, {0.48200363f, 0.113253914f}, {1.1e-05f, 1.6e-05f}},
+      {{0.4616077f, 0.25227425f}, {0.56186867f, 0.09857621f}, {1.1e-05f, 1.6e-05f}},
+      {{0.5364966f, 0.22704683f}, {0.63333213f, 0.08383466f}, {1.1e-05f, 1.6e-05f}},
+      {{0.61138546f, 0.2018194f}, {0.70501345f, 0.07004696f}, {1.1e-05f, 1.5e-05f}},
+      {{0.0061371694f, 0.2018194f}, {0.0145811625f, 0.093585394f}, {1.1e-05f, 1.6e-05f}},
+      {{0.9170782f, 0.1009097f}, {0.7028136f, 0.035255503f}, {1.1e-05f, 1.5e-05f}},
+      {{0.3118299f, 0.0f}, {0.3809055f, 0.0013537607f}, {1.1e-05f, 1.5e-05f}},
+      {{0.3118299f, 0.8072776f}, {0.3900904f, 0.3370005f}, {1.1e-05f, 3.1e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_ggx.csv, sha256 20ba2a8fb0b8ce26d12949f1029fb388166f01e8ab85095a6ee2ab21d1b881ee;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: series, seed 1, 824 rows trained, 206 held out.
-// Error on the rows held out: alpha rms 2e-04, 99 % 0.00077, max 0.00086;
-// f0 rms 5.2e-05, 99 % 0.00021, max 0.00044.
-// Lowered from the fit. Target alpha: degree 10, 4 in specular, proven within 9.9e-06 (sampled 8.4e-06), rising with alpha.
-// Target specular: degree 14 in alpha / (alpha + 0.3), proven within 8.7e-05 (sampled 6.5e-05), rising with specular.
-// Where alpha is at its limit, target specular: degree 2, proven within 9.9e-05 (sampled 9.7e-05), rising with specular.
-// Where specular is at its limit, target alpha: degree 8, 7 in specular, proven within 3.6e-05 (sampled 2.1e-06).
-// All together within 9.2e-05 in alpha, 0.00012 in specular.
+// Table mitsuba_as_to_mitsuba_ggx.csv, sha256 e79ba66c24917196684c013494b1c88dd4d65a2a11b81319d8c24e31fa82c745;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Fit: series, seed 1, 822 rows trained, 205 held out.
+// Error on the rows held out: alpha rms 0.00012, 99 % 0.00059, max 0.00097;
+// f0 rms 1.9e-05, 99 % 5.2e-05, max 6.5e-05.
+// Lowered from the fit. Target alpha: degree 12, 11 in specular, proven within 7.5e-06 (sampled 5.7e-06), rising with alpha.
+// Target specular: degree 11, proven within 2.5e-05 (sampled 1.4e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 2 in alpha / (alpha + 0.3), proven within 1e-04 (sampled 9.7e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 10, 9 in specular, proven within 7.8e-05 (sampled 2.5e-05).
+// All together within 0.00016 in alpha, 0.00012 in specular.
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_GGX_HPP
@@ -39,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 2e-04f;
-inline constexpr float kSpecularRmsError = 5.2e-05f;
+inline constexpr float kAlphaRmsError = 0.00012f;
+inline constexpr float kSpecularRmsError = 1.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.26f;
+inline constexpr float kImageRmsError = 0.12f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -78,57 +78,108 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.44050965f;
+  const float u = alpha - 0.45313302f;
   const float u_2 = u * u;
-  float c0 = -283.4883f;
-  float c0_next = -59.70044f;
-  c0 = c0 * u_2 + 145.83784f;
-  c0_next = c0_next * u_2 + 30.489521f;
-  c0 = c0 * u_2 + -23.876522f;
-  c0_next = c0_next * u_2 + -6.691517f;
-  c0 = c0 * u_2 + -0.7755846f;
-  c0_next = c0_next * u_2 + 0.60330576f;
-  c0 = c0 * u_2 + 0.9819582f;
-  c0_next = c0_next * u_2 + 1.1583726f;
-  c0 = c0 * u_2 + 0.3958937f;
+  float c0 = -129.21613f;
+  float c0_next = 608.0143f;
+  c0 = c0 * u_2 + -3.5739517f;
+  c0_next = c0_next * u_2 + -418.4173f;
+  c0 = c0 * u_2 + 25.876827f;
+  c0_next = c0_next * u_2 + 111.50531f;
+  c0 = c0 * u_2 + -2.673876f;
+  c0_next = c0_next * u_2 + -14.212287f;
+  c0 = c0 * u_2 + -2.2841287f;
+  c0_next = c0_next * u_2 + 0.5995573f;
+  c0 = c0 * u_2 + 0.92800045f;
+  c0_next = c0_next * u_2 + 1.1844016f;
+  c0 = c0 * u_2 + 0.41559392f;
   c0 = c0_next * u + c0;
-  float c1 = -20.047953f;
-  float c1_next = -11.633833f;
-  c1 = c1 * u_2 + 4.715308f;
-  c1_next = c1_next * u_2 + 3.5722287f;
-  c1 = c1 * u_2 + -0.12029992f;
-  c1_next = c1_next * u_2 + -0.31468913f;
-  c1 = c1 * u_2 + -0.027157936f;
-  c1_next = c1_next * u_2 + 0.002819956f;
-  c1 = c1 * u_2 + 2.8475022e-05f;
-  c1_next = c1_next * u_2 + 9.5307674e-05f;
+  float c1 = -4.4351926f;
+  float c1_next = -0.7452554f;
+  c1 = c1 * u_2 + 1.771543f;
+  c1_next = c1_next * u_2 + 0.4763144f;
+  c1 = c1 * u_2 + -0.18150255f;
+  c1_next = c1_next * u_2 + -0.09778886f;
+  c1 = c1 * u_2 + 0.00013682627f;
+  c1_next = c1_next * u_2 + 0.012089107f;
+  c1 = c1 * u_2 + 0.002211056f;
+  c1_next = c1_next * u_2 + -0.00015632229f;
   c1 = c1 * u + c1_next;
-  float c2 = 15.105382f;
-  float c2_next = 7.399743f;
-  c2 = c2 * u_2 + -3.9847589f;
-  c2_next = c2_next * u_2 + -1.7541344f;
-  c2 = c2 * u_2 + 0.3268115f;
-  c2_next = c2_next * u_2 + 0.12257851f;
-  c2 = c2 * u_2 + 0.008235957f;
-  c2_next = c2_next * u_2 + 0.0024277759f;
-  c2 = c2 * u_2 + -0.00020491228f;
-  c2 = c2_next * u + c2;
-  float c3 = -0.2856959f;
-  float c3_next = -0.26192388f;
-  c3 = c3 * u_2 + 0.14251597f;
-  c3_next = c3_next * u_2 + 0.14474377f;
-  c3 = c3 * u_2 + 0.018308973f;
-  c3_next = c3_next * u_2 + -0.0028917012f;
+  float c2 = 10.541606f;
+  float c2_next = -0.51127875f;
+  c2 = c2 * u_2 + -5.9792075f;
+  c2_next = c2_next * u_2 + -0.20536949f;
+  c2 = c2 * u_2 + 1.2357124f;
+  c2_next = c2_next * u_2 + 0.106939614f;
+  c2 = c2 * u_2 + -0.099934876f;
+  c2_next = c2_next * u_2 + -0.021457355f;
+  c2 = c2 * u_2 + -0.0064396076f;
+  c2_next = c2_next * u_2 + -0.001210846f;
+  c2 = c2 * u + c2_next;
+  float c3 = 2.2478182f;
+  float c3_next = -2.2864034f;
+  c3 = c3 * u_2 + -1.7542379f;
+  c3_next = c3_next * u_2 + 0.16539377f;
+  c3 = c3 * u_2 + 0.14781706f;
+  c3_next = c3_next * u_2 + -0.074164994f;
+  c3 = c3 * u_2 + -0.027148165f;
+  c3_next = c3_next * u_2 + 0.002892854f;
   c3 = c3 * u + c3_next;
-  float c4 = -0.7248832f;
-  float c4_next = 0.16163905f;
-  c4 = c4 * u_2 + -0.12562522f;
-  c4_next = c4_next * u_2 + -0.28700596f;
-  c4 = c4 * u_2 + -0.051310726f;
-  c4_next = c4_next * u_2 + 0.005465695f;
-  c4 = c4 * u + c4_next;
+  float c4 = 3.8500736f;
+  float c4_next = -1.7475578f;
+  c4 = c4 * u_2 + -0.15791938f;
+  c4_next = c4_next * u_2 + -0.29877314f;
+  c4 = c4 * u_2 + -0.22519428f;
+  c4_next = c4_next * u_2 + 0.20179573f;
+  c4 = c4 * u_2 + 0.05830561f;
+  c4 = c4_next * u + c4;
+  float c5 = 16.789913f;
+  float c5_next = 10.221632f;
+  c5 = c5 * u_2 + 2.304978f;
+  c5_next = c5_next * u_2 + 1.8681965f;
+  c5 = c5 * u_2 + 2.5327213f;
+  c5_next = c5_next * u_2 + 0.5790006f;
+  c5 = c5 * u_2 + -0.103132054f;
+  c5 = c5_next * u + c5;
+  float c6 = -30.491333f;
+  float c6_next = 5.1828732f;
+  c6 = c6 * u_2 + -4.161154f;
+  c6_next = c6_next * u_2 + 5.952039f;
+  c6 = c6 * u_2 + 0.57162315f;
+  c6_next = c6_next * u_2 + -3.547152f;
+  c6 = c6 * u_2 + -0.73205346f;
+  c6 = c6_next * u + c6;
+  float c7 = -27.164644f;
+  float c7_next = -30.777174f;
+  c7 = c7 * u_2 + -25.218225f;
+  c7_next = c7_next * u_2 + -23.269821f;
+  c7 = c7 * u_2 + -4.032427f;
+  c7_next = c7_next * u_2 + 1.1846288f;
+  c7 = c7 * u + c7_next;
+  float c8 = 56.29773f;
+  float c8_next = -22.621819f;
+  c8 = c8 * u_2 + 14.403362f;
+  c8_next = c8_next * u_2 + 23.424683f;
+  c8 = c8 * u_2 + 3.637391f;
+  c8 = c8_next * u + c8;
+  float c9 = 77.73611f;
+  c9 = c9 * u + 84.509575f;
+  c9 = c9 * u + 8.317154f;
+  c9 = c9 * u + -5.7188926f;
+  float c10 = -105.85393f;
+  c10 = c10 * u + -58.693222f;
+  c10 = c10 * u + -5.6105795f;
+  float c11 = 20.517214f;
+  c11 = c11 * u + 8.590346f;
   const float w = specular - 0.500001f;
-  float sum = c4;
+  float sum = c11;
+  sum = sum * w + c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -156,41 +207,34 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.3f);
-    const float u = t - 0.38803545f;
+    const float u = alpha - 0.45313302f;
     const float u_2 = u * u;
-    float c0 = 32637.105f;
-    float c0_next = 2225.7202f;
-    c0 = c0 * u_2 + -14100.449f;
-    c0_next = c0_next * u_2 + -730.322f;
-    c0 = c0 * u_2 + 2419.1455f;
-    c0_next = c0_next * u_2 + 80.37175f;
-    c0 = c0 * u_2 + -210.60269f;
-    c0_next = c0_next * u_2 + -2.9425147f;
-    c0 = c0 * u_2 + 9.537139f;
-    c0_next = c0_next * u_2 + -0.11372165f;
-    c0 = c0 * u_2 + -0.20386557f;
-    c0_next = c0_next * u_2 + 0.013936984f;
-    c0 = c0 * u_2 + 0.0033388508f;
-    c0_next = c0_next * u_2 + 0.00016783073f;
-    c0 = c0 * u_2 + 8.8454195e-05f;
-    c0 = c0_next * u + c0;
-    float c1 = 1914283.9f;
-    float c1_next = 534893.8f;
-    c1 = c1 * u_2 + -803369.7f;
-    c1_next = c1_next * u_2 + -257070.97f;
-    c1 = c1 * u_2 + 107318.195f;
-    c1_next = c1_next * u_2 + 39494.254f;
-    c1 = c1 * u_2 + -5145.562f;
-    c1_next = c1_next * u_2 + -2451.822f;
-    c1 = c1 * u_2 + 58.59665f;
-    c1_next = c1_next * u_2 + 93.75106f;
-    c1 = c1 * u_2 + 21.734549f;
-    c1_next = c1_next * u_2 + 5.2141557f;
-    c1 = c1 * u_2 + 0.77841556f;
-    c1_next = c1_next * u_2 + 0.018652197f;
-    c1 = c1 * u_2 + 1.0382715f;
-    c1 = c1_next * u + c1;
+    float c0 = 4.319389f;
+    float c0_next = 0.85936236f;
+    c0 = c0 * u_2 + -1.8052008f;
+    c0_next = c0_next * u_2 + -0.13598217f;
+    c0 = c0 * u_2 + 0.21915205f;
+    c0_next = c0_next * u_2 + -0.052879598f;
+    c0 = c0 * u_2 + 0.0068406058f;
+    c0_next = c0_next * u_2 + 0.01151257f;
+    c0 = c0 * u_2 + -0.009660547f;
+    c0_next = c0_next * u_2 + -0.0026115854f;
+    c0 = c0 * u_2 + 0.0018285608f;
+    c0_next = c0_next * u_2 + 0.00062873884f;
+    c0 = c0 * u + c0_next;
+    float c1 = 1859.3245f;
+    float c1_next = -658.1827f;
+    c1 = c1 * u_2 + -1226.8213f;
+    c1_next = c1_next * u_2 + 386.43552f;
+    c1 = c1 * u_2 + 330.0269f;
+    c1_next = c1_next * u_2 + -85.11732f;
+    c1 = c1 * u_2 + -45.123913f;
+    c1_next = c1_next * u_2 + 5.266814f;
+    c1 = c1 * u_2 + 1.6768566f;
+    c1_next = c1_next * u_2 + 1.5527699f;
+    c1 = c1 * u_2 + 1.2608323f;
+    c1_next = c1_next * u_2 + 1.2319828f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -204,13 +248,14 @@ inline float target_specular(const Terms& terms, std::size_t i, float specular) 
 
 // Target specular where target alpha is at its limit.
 inline float wide_specular(float alpha, float specular) noexcept {
-  const float u = alpha - 0.9313873f;
-  float c0 = -0.012256919f;
-  c0 = c0 * u + -0.001984043f;
-  c0 = c0 * u + 0.00066502154f;
-  float c1 = 0.7447653f;
-  c1 = c1 * u + -2.7148333f;
-  c1 = c1 * u + 1.6877742f;
+  const float t = alpha / (alpha + 0.3f);
+  const float u = t - 0.7566841f;
+  float c0 = -0.121254794f;
+  c0 = c0 * u + -0.022258889f;
+  c0 = c0 * u + 0.001320826f;
+  float c1 = -29.285755f;
+  c1 = c1 * u + -12.629063f;
+  c1 = c1 * u + 1.7676281f;
   float sum = c1;
   sum = sum * specular + c0;
   return sum;
@@ -220,57 +265,82 @@ inline float wide_specular(float alpha, float specular) noexcept {
 inline float bright_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 25.647861f;
-  float c0_next = 2.0371003f;
-  c0 = c0 * u_2 + -28.668396f;
-  c0_next = c0_next * u_2 + 6.135282f;
-  c0 = c0 * u_2 + 6.8403873f;
-  c0_next = c0_next * u_2 + -1.8869864f;
-  c0 = c0 * u_2 + -0.6071694f;
-  c0_next = c0_next * u_2 + 1.1392161f;
-  c0 = c0 * u_2 + 0.48094308f;
+  float c0 = 143.85004f;
+  float c0_next = 162.82878f;
+  c0 = c0 * u_2 + -264.87704f;
+  c0_next = c0_next * u_2 + -46.775055f;
+  c0 = c0 * u_2 + 149.33592f;
+  c0_next = c0_next * u_2 + -54.543213f;
+  c0 = c0 * u_2 + 0.69913423f;
+  c0_next = c0_next * u_2 + 3.290537f;
+  c0 = c0 * u_2 + -0.3433967f;
+  c0_next = c0_next * u_2 + 0.690061f;
+  c0 = c0 * u_2 + 0.4839489f;
   c0 = c0_next * u + c0;
-  float c1 = -42.497032f;
-  float c1_next = 111.70908f;
-  c1 = c1 * u_2 + -80.4922f;
-  c1_next = c1_next * u_2 + 7.293259f;
-  c1 = c1 * u_2 + 11.049176f;
-  c1_next = c1_next * u_2 + -2.5780466f;
-  c1 = c1 * u_2 + -0.9630192f;
-  c1_next = c1_next * u_2 + -0.24435219f;
+  float c1 = -929.7149f;
+  float c1_next = 1312.0879f;
+  c1 = c1 * u_2 + -132.0135f;
+  c1_next = c1_next * u_2 + -626.37317f;
+  c1 = c1 * u_2 + 362.73798f;
+  c1_next = c1_next * u_2 + -49.947174f;
+  c1 = c1 * u_2 + -13.1092f;
+  c1_next = c1_next * u_2 + 4.3612695f;
+  c1 = c1 * u_2 + -0.45197034f;
+  c1_next = c1_next * u_2 + -0.7193624f;
   c1 = c1 * u + c1_next;
-  float c2 = -308.608f;
-  float c2_next = 570.575f;
-  c2 = c2 * u_2 + -273.51505f;
-  c2_next = c2_next * u_2 + -8.870764f;
-  c2 = c2 * u_2 + 32.631084f;
-  c2_next = c2_next * u_2 + -6.5239916f;
-  c2 = c2 * u_2 + 0.9887355f;
+  float c2 = -2767.761f;
+  float c2_next = 3712.7847f;
+  c2 = c2 * u_2 + -1425.766f;
+  c2_next = c2_next * u_2 + 130.87369f;
+  c2 = c2 * u_2 + -140.3516f;
+  c2_next = c2_next * u_2 + 124.041115f;
+  c2 = c2 * u_2 + -30.629253f;
+  c2_next = c2_next * u_2 + 0.9560688f;
+  c2 = c2 * u_2 + 1.0872258f;
   c2 = c2_next * u + c2;
-  float c3 = -1096.2286f;
-  float c3_next = 1148.6306f;
-  c3 = c3 * u_2 + -231.7415f;
-  c3_next = c3_next * u_2 + -107.91103f;
-  c3 = c3 * u_2 + 46.813587f;
-  c3_next = c3_next * u_2 + -5.5040455f;
+  float c3 = -6431.59f;
+  float c3_next = 9710.01f;
+  c3 = c3 * u_2 + -5337.4233f;
+  c3_next = c3_next * u_2 + 1331.151f;
+  c3 = c3 * u_2 + -251.72171f;
+  c3_next = c3_next * u_2 + 96.42191f;
+  c3 = c3 * u_2 + -24.300076f;
+  c3_next = c3_next * u_2 + 1.357081f;
   c3 = c3 * u + c3_next;
-  float c4 = -1013.47064f;
-  float c4_next = 539.4357f;
-  c4 = c4 * u_2 + 184.47087f;
-  c4_next = c4_next * u_2 + -134.90047f;
-  c4 = c4 * u_2 + 17.525505f;
+  float c4 = -6552.5044f;
+  float c4_next = 1693.1747f;
+  c4 = c4 * u_2 + 5244.423f;
+  c4_next = c4_next * u_2 + -3522.2627f;
+  c4 = c4 * u_2 + 739.7722f;
+  c4_next = c4_next * u_2 + -36.095104f;
+  c4 = c4 * u_2 + -4.419843f;
   c4 = c4_next * u + c4;
-  float c5 = 371.617f;
-  c5 = c5 * u + -764.583f;
-  c5 = c5 * u + 360.00964f;
-  c5 = c5 * u + -45.53431f;
-  float c6 = 1094.4353f;
-  c6 = c6 * u + -899.69147f;
-  c6 = c6 * u + 178.1984f;
-  float c7 = 802.05304f;
-  c7 = c7 * u + -323.19174f;
-  const float w = specular - 0.7666671f;
-  float sum = c7;
+  float c5 = 17222.648f;
+  float c5_next = -25333.422f;
+  c5 = c5 * u_2 + 15821.693f;
+  c5_next = c5_next * u_2 + -5788.8823f;
+  c5 = c5 * u_2 + 1121.5239f;
+  c5_next = c5_next * u_2 + -68.463585f;
+  c5 = c5 * u + c5_next;
+  float c6 = 3739.0151f;
+  float c6_next = -9899.679f;
+  c6 = c6 * u_2 + 7358.284f;
+  c6_next = c6_next * u_2 + -2274.1426f;
+  c6 = c6 * u_2 + 331.93484f;
+  c6 = c6_next * u + c6;
+  float c7 = -8610.975f;
+  c7 = c7 * u + 21332.086f;
+  c7 = c7 * u + -8159.3037f;
+  c7 = c7 * u + 417.658f;
+  float c8 = -41195.164f;
+  c8 = c8 * u + 29157.46f;
+  c8 = c8 * u + -5748.1587f;
+  float c9 = -24055.662f;
+  c9 = c9 * u + 10448.669f;
+  const float w = specular - 0.7614705f;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
@@ -383,12 +453,12 @@ struct Mapping {
   static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
-  static constexpr float mapping_to = 0.87101746f;  // the mapping has reached the limit of alpha before
+  static constexpr float mapping_to = 0.89626414f;  // the mapping has reached the limit of alpha before
   static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.8627744f), clamped_above(specular, 0.0f));
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.8725049f), clamped_above(specular, 0.0f));
   }
   static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.53333336f));
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.52294004f));
   }
   template <class Count>
   static void find_wide_terms(Count, Terms&) noexcept {}
@@ -730,19 +800,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.008236943f, 1.0f}, {9.3e-05f, 0.00012f}},
-      {{0.13375f, 0.9375f}, {0.1099306f, 0.9748014f}, {9.3e-05f, 0.00012f}},
-      {{0.2575f, 0.875f}, {0.21263242f, 0.9160893f}, {9.3e-05f, 0.00012f}},
-      {{0.38125f, 0.8125f}, {0.33052963f, 0.9073107f}, {9.3e-05f, 0.00012f}},
-      {{0.505f, 0.75f}, {0.47482893f, 0.94458544f}, {9.3e-05f, 0.00012f}},
-      {{0.62875f, 0.6875f}, {0.64586705f, 1.0f}, {9.3e-05f, 0.00012f}},
-      {{0.7525f, 0.625f}, {0.80850315f, 1.0f}, {9.3e-05f, 0.00012f}},
-      {{0.87625f, 0.5625f}, {0.9836679f, 1.0f}, {9.3e-05f, 0.00012f}},
-      {{1.0f, 0.5f}, {1.0f, 0.7530002f}, {9.3e-05f, 0.00012f}},
-      {{0.005f, 0.5f}, {0.008205262f, 0.5189413f}, {9.3e-05f, 0.00012f}},
-      {{1.5f, 0.25f}, {1.0f, 0.37676585f}, {9.3e-05f, 0.00012f}},
-      {{0.505f, 0.0f}, {0.47497156f, 0.00032694434f}, {9.3e-05f, 0.00012f}},
-      {{0.505f, 2.0f}, {0.44487765f, 2.0f}, {9.3e-05f, 0.00023f}},
+      {{0.01f, 1.0f}, {0.008236493f, 1.0f}, {0.00016f, 0.00012f}},
+      {{0.13375f, 0.9375f}, {0.11020497f, 0.9432562f}, {0.00016f, 0.00012f}},
+      {{0.2575f, 0.875f}, {0.21445912f, 0.9152483f}, {0.00016f, 0.00012f}},
+      {{0.38125f, 0.8125f}, {0.3349561f, 0.93402106f}, {0.00016f, 0.00012f}},
+      {{0.505f, 0.75f}, {0.4795814f, 0.9770722f}, {0.00016f, 0.00012f}},
+      {{0.62875f, 0.6875f}, {0.6291241f, 1.0f}, {0.00016f, 0.00012f}},
+      {{0.7525f, 0.625f}, {0.78189415f, 1.0f}, {0.00016f, 0.00012f}},
+      {{0.87625f, 0.5625f}, {0.9531928f, 1.0f}, {0.00016f, 0.00012f}},
+      {{1.0f, 0.5f}, {1.0f, 0.8033397f}, {0.00016f, 0.00012f}},
+      {{0.005f, 0.5f}, {0.008233967f, 0.50237024f}, {0.00016f, 0.00012f}},
+      {{1.5f, 0.25f}, {1.0f, 0.40218738f}, {0.00016f, 0.00012f}},
+      {{0.505f, 0.0f}, {0.4794782f, 0.00071508f}, {0.00016f, 0.00012f}},
+      {{0.505f, 2.0f}, {0.37080574f, 2.0f}, {0.00016f, 0.00023f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba_ward_balanced.csv, sha256 6c59a2094e05a7bc304839277b5123a69e3ed6f626dcbe9629f0c71d59d7bc19;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: series, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 7.5e-05, 99 % 0.00029, max 0.00036;
-// specular rms 8.5e-05, 99 % 0.00039, max 0.00044.
-// Lowered from the fit. Target alpha: degree 16 in alpha / (alpha + 1), 9 in specular, proven within 9.8e-06 (sampled 6.8e-06), rising with alpha.
-// Target specular: degree 12 in alpha / (alpha + 0.3), proven within 9.5e-05 (sampled 8.5e-05), rising with specular.
-// Where alpha is at its limit, target specular: degree 3, proven within 1.2e-05 (sampled 6.6e-06), rising with specular.
-// All together within 9.8e-06 in alpha, 0.00011 in specular.
+// Table mitsuba_ggx_to_mitsuba_ward_balanced.csv, sha256 158be58810f9709987674c601fc07e64cb71a35ce98488dc2495d200afea60da;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Fit: series, seed 1, 756 rows trained, 189 held out.
+// Error on the rows held out: alpha rms 7.6e-05, 99 % 0.00046, max 0.00086;
+// specular rms 3.2e-05, 99 % 8.4e-05, max 8.8e-05.
+// Lowered from the fit. Target alpha: degree 12, 11 in specular, proven within 9.8e-06 (sampled 7.1e-06), rising with alpha.
+// Target specular: degree 9, proven within 2.7e-05 (sampled 3e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, proven within 1.8e-05 (sampled 9.7e-06), rising with specular.
+// Where specular is at its limit, target alpha: degree 6, 2 in specular, proven within 1.5e-06 (sampled 2.4e-08), rising with alpha.
+// All together within 3.8e-05 in alpha, 3.2e-05 in specular.
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_BALANCED_HPP
@@ -38,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 7.5e-05f;
-inline constexpr float kSpecularRmsError = 8.5e-05f;
+inline constexpr float kAlphaRmsError = 7.6e-05f;
+inline constexpr float kSpecularRmsError = 3.2e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.25f;
+inline constexpr float kImageRmsError = 0.12f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -77,104 +78,107 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float t = alpha / (alpha + 1.0f);
-  const float u = t - 0.23701297f;
+  const float u = alpha - 0.45140573f;
   const float u_2 = u * u;
-  float c0 = -1325416448.0f;
-  float c0_next = -385758176.0f;
-  c0 = c0 * u_2 + 176265408.0f;
-  c0_next = c0_next * u_2 + 55064388.0f;
-  c0 = c0 * u_2 + -7833936.0f;
-  c0_next = c0_next * u_2 + -2394211.5f;
-  c0 = c0 * u_2 + 271955.47f;
-  c0_next = c0_next * u_2 + 26839.209f;
-  c0 = c0 * u_2 + -22034.498f;
-  c0_next = c0_next * u_2 + -1772.5706f;
-  c0 = c0 * u_2 + 1188.9397f;
-  c0_next = c0_next * u_2 + 240.85478f;
-  c0 = c0 * u_2 + -32.352055f;
-  c0_next = c0_next * u_2 + -11.487871f;
-  c0 = c0 * u_2 + 2.5508084f;
-  c0_next = c0_next * u_2 + 2.442816f;
-  c0 = c0 * u_2 + 0.408422f;
+  float c0 = -1854.1494f;
+  float c0_next = 289.755f;
+  c0 = c0 * u_2 + 1210.6975f;
+  c0_next = c0_next * u_2 + -252.59557f;
+  c0 = c0 * u_2 + -288.2466f;
+  c0_next = c0_next * u_2 + 89.00137f;
+  c0 = c0 * u_2 + 24.725687f;
+  c0_next = c0_next * u_2 + -14.592389f;
+  c0 = c0 * u_2 + 1.4856375f;
+  c0_next = c0_next * u_2 + 0.63921195f;
+  c0 = c0 * u_2 + -0.57266027f;
+  c0_next = c0_next * u_2 + 1.2302096f;
+  c0 = c0 * u_2 + 0.58003074f;
   c0 = c0_next * u + c0;
-  float c1 = 40830.64f;
-  float c1_next = 4031.3213f;
-  c1 = c1 * u_2 + -6359.804f;
-  c1_next = c1_next * u_2 + -507.82217f;
-  c1 = c1 * u_2 + 392.1977f;
-  c1_next = c1_next * u_2 + 26.919739f;
-  c1 = c1 * u_2 + -10.989023f;
-  c1_next = c1_next * u_2 + -0.70706445f;
-  c1 = c1 * u_2 + 0.09195296f;
-  c1_next = c1_next * u_2 + 0.008016036f;
-  c1 = c1 * u_2 + 0.003684852f;
-  c1_next = c1_next * u_2 + 0.0005636422f;
+  float c1 = -5.012565f;
+  float c1_next = -0.6792706f;
+  c1 = c1 * u_2 + 2.4066653f;
+  c1_next = c1_next * u_2 + 0.123782985f;
+  c1 = c1 * u_2 + -0.42543936f;
+  c1_next = c1_next * u_2 + 0.020731756f;
+  c1 = c1 * u_2 + 0.02664007f;
+  c1_next = c1_next * u_2 + -0.0015560396f;
+  c1 = c1 * u_2 + 0.004099715f;
+  c1_next = c1_next * u_2 + 0.0012355346f;
   c1 = c1 * u + c1_next;
-  float c2 = -286.69437f;
-  float c2_next = 55.362324f;
-  c2 = c2 * u_2 + 52.90093f;
-  c2_next = c2_next * u_2 + 2.5628946f;
-  c2 = c2 * u_2 + -1.0160797f;
-  c2_next = c2_next * u_2 + 0.15712076f;
-  c2 = c2 * u_2 + 0.028593764f;
-  c2_next = c2_next * u_2 + 0.001258457f;
-  c2 = c2 * u_2 + 0.0013731912f;
-  c2 = c2_next * u + c2;
-  float c3 = -1790.4332f;
-  float c3_next = -863.01855f;
-  c3 = c3 * u_2 + 68.864296f;
-  c3_next = c3_next * u_2 + 50.932026f;
-  c3 = c3 * u_2 + -2.274128f;
-  c3_next = c3_next * u_2 + -0.67701477f;
-  c3 = c3 * u_2 + 0.28083807f;
-  c3_next = c3_next * u_2 + -0.0069315364f;
-  c3 = c3 * u_2 + -0.011338888f;
+  float c2 = 15.305225f;
+  float c2_next = 8.89389f;
+  c2 = c2 * u_2 + -4.3108034f;
+  c2_next = c2_next * u_2 + -2.5271456f;
+  c2 = c2 * u_2 + -0.030915562f;
+  c2_next = c2_next * u_2 + 0.00406427f;
+  c2 = c2 * u_2 + 0.011872868f;
+  c2_next = c2_next * u_2 + 0.0020467616f;
+  c2 = c2 * u_2 + -0.016779102f;
+  c2_next = c2_next * u_2 + -0.005922262f;
+  c2 = c2 * u + c2_next;
+  float c3 = 15.234751f;
+  float c3_next = 3.2861416f;
+  c3 = c3 * u_2 + -1.3195566f;
+  c3_next = c3_next * u_2 + 1.845706f;
+  c3 = c3 * u_2 + 0.22013788f;
+  c3_next = c3_next * u_2 + -0.4021721f;
+  c3 = c3 * u_2 + -0.18374313f;
+  c3_next = c3_next * u_2 + -0.012268716f;
+  c3 = c3 * u_2 + 0.016893452f;
   c3 = c3_next * u + c3;
-  float c4 = 4470.0825f;
-  float c4_next = 512.5947f;
-  c4 = c4 * u_2 + -561.98126f;
-  c4_next = c4_next * u_2 + -124.09781f;
-  c4 = c4 * u_2 + -5.818274f;
-  c4_next = c4_next * u_2 + -3.7308302f;
-  c4 = c4 * u_2 + -1.0810792f;
-  c4_next = c4_next * u_2 + -0.40446264f;
-  c4 = c4 * u_2 + -0.07755433f;
+  float c4 = -65.3165f;
+  float c4_next = -37.31487f;
+  c4 = c4 * u_2 + 9.534288f;
+  c4_next = c4_next * u_2 + 14.506954f;
+  c4 = c4 * u_2 + 2.4467747f;
+  c4_next = c4_next * u_2 + 0.16345453f;
+  c4 = c4 * u_2 + 0.54745203f;
+  c4_next = c4_next * u_2 + 0.44872636f;
+  c4 = c4 * u_2 + 0.1583601f;
   c4 = c4_next * u + c4;
-  float c5 = 2147.804f;
-  float c5_next = 513.0411f;
-  c5 = c5 * u_2 + 98.07216f;
-  c5_next = c5_next * u_2 + 20.410402f;
-  c5 = c5 * u_2 + -8.58602f;
-  c5_next = c5_next * u_2 + -2.4068375f;
-  c5 = c5 * u_2 + 1.0356674f;
-  c5_next = c5_next * u_2 + 0.26880634f;
+  float c5 = 42.6991f;
+  float c5_next = -16.001892f;
+  c5 = c5 * u_2 + -39.356033f;
+  c5_next = c5_next * u_2 + -4.2549577f;
+  c5 = c5 * u_2 + 2.8182952f;
+  c5_next = c5_next * u_2 + 3.2469378f;
+  c5 = c5 * u_2 + 0.5779828f;
+  c5_next = c5_next * u_2 + -0.3773031f;
   c5 = c5 * u + c5_next;
-  float c6 = 85.67122f;
-  float c6_next = 141.42697f;
-  c6 = c6 * u_2 + 57.860855f;
-  c6_next = c6_next * u_2 + 11.382732f;
-  c6 = c6 * u_2 + 4.421291f;
-  c6_next = c6_next * u_2 + 0.76887935f;
-  c6 = c6 * u + c6_next;
-  float c7 = -551.02325f;
-  float c7_next = -184.49712f;
-  c7 = c7 * u_2 + 8.345756f;
-  c7_next = c7_next * u_2 + 0.16903141f;
-  c7 = c7 * u_2 + -9.966773f;
-  c7_next = c7_next * u_2 + -2.0664482f;
+  float c6 = 50.01012f;
+  float c6_next = -12.757377f;
+  c6 = c6 * u_2 + -15.20661f;
+  c6_next = c6_next * u_2 + -13.134047f;
+  c6 = c6 * u_2 + -10.922425f;
+  c6_next = c6_next * u_2 + -9.136574f;
+  c6 = c6 * u_2 + -3.0561209f;
+  c6 = c6_next * u + c6;
+  float c7 = 73.50045f;
+  float c7_next = 35.846542f;
+  c7 = c7 * u_2 + 17.735577f;
+  c7_next = c7_next * u_2 + -20.006502f;
+  c7 = c7 * u_2 + 1.5993769f;
+  c7_next = c7_next * u_2 + 6.026619f;
   c7 = c7 * u + c7_next;
-  float c8 = -177.94392f;
-  float c8_next = -101.672585f;
-  c8 = c8 * u_2 + -43.5075f;
-  c8_next = c8_next * u_2 + -18.105783f;
-  c8 = c8 * u_2 + -2.581954f;
+  float c8 = -29.732698f;
+  float c8_next = 47.971138f;
+  c8 = c8 * u_2 + 69.65152f;
+  c8_next = c8_next * u_2 + 67.578094f;
+  c8 = c8 * u_2 + 21.605955f;
   c8 = c8_next * u + c8;
-  float c9 = 49.47971f;
-  c9 = c9 * u + 36.896748f;
-  c9 = c9 * u + 5.919106f;
+  float c9 = -97.90652f;
+  c9 = c9 * u + 31.388563f;
+  c9 = c9 * u + -56.736797f;
+  c9 = c9 * u + -39.73277f;
+  float c10 = -121.9046f;
+  c10 = c10 * u + -180.32535f;
+  c10 = c10 * u + -56.031635f;
+  float c11 = 229.29655f;
+  c11 = c11 * u + 101.52236f;
   const float w = specular - 0.500001f;
-  float sum = c9;
+  float sum = c11;
+  sum = sum * w + c10;
+  sum = sum * w + c9;
   sum = sum * w + c8;
   sum = sum * w + c7;
   sum = sum * w + c6;
@@ -207,35 +211,29 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.3f);
-    const float u = t - 0.38749582f;
+    const float u = alpha - 0.45140573f;
     const float u_2 = u * u;
-    float c0 = -16196.701f;
-    float c0_next = 277.2965f;
-    c0 = c0 * u_2 + 6112.1597f;
-    c0_next = c0_next * u_2 + -92.55739f;
-    c0 = c0 * u_2 + -859.7194f;
-    c0_next = c0_next * u_2 + 11.498352f;
-    c0 = c0 * u_2 + 54.936176f;
-    c0_next = c0_next * u_2 + -0.6158552f;
-    c0 = c0 * u_2 + -1.5337079f;
-    c0_next = c0_next * u_2 + 0.005797441f;
-    c0 = c0 * u_2 + 0.012176628f;
-    c0_next = c0_next * u_2 + -0.00027207952f;
-    c0 = c0 * u_2 + 0.0011057409f;
-    c0 = c0_next * u + c0;
-    float c1 = -14169.935f;
-    float c1_next = -2634.7397f;
-    c1 = c1 * u_2 + 5176.9746f;
-    c1_next = c1_next * u_2 + 1215.4363f;
-    c1 = c1 * u_2 + -577.8818f;
-    c1_next = c1_next * u_2 + -201.78043f;
-    c1 = c1 * u_2 + -13.521402f;
-    c1_next = c1_next * u_2 + 0.37605178f;
-    c1 = c1 * u_2 + 2.125802f;
-    c1_next = c1_next * u_2 + 1.3883957f;
-    c1 = c1 * u_2 + 0.39081177f;
-    c1_next = c1_next * u_2 + 0.8226703f;
+    float c0 = -0.026274346f;
+    float c0_next = -0.14613687f;
+    c0 = c0 * u_2 + -0.028358744f;
+    c0_next = c0_next * u_2 + 0.046270847f;
+    c0 = c0 * u_2 + 0.0005143467f;
+    c0_next = c0_next * u_2 + -0.0064195557f;
+    c0 = c0 * u_2 + 0.0042777713f;
+    c0_next = c0_next * u_2 + -0.00013065724f;
+    c0 = c0 * u_2 + -0.0025855827f;
+    c0_next = c0_next * u_2 + 0.0020479674f;
+    c0 = c0 * u + c0_next;
+    float c1 = -97.306786f;
+    float c1_next = 26.65222f;
+    c1 = c1 * u_2 + 52.079117f;
+    c1_next = c1_next * u_2 + -14.216782f;
+    c1 = c1 * u_2 + -11.233443f;
+    c1_next = c1_next * u_2 + 4.561692f;
+    c1 = c1 * u_2 + 0.93863344f;
+    c1_next = c1_next * u_2 + -1.3106692f;
+    c1 = c1 * u_2 + -0.10965108f;
+    c1_next = c1_next * u_2 + 1.0490859f;
     c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
@@ -250,17 +248,47 @@ inline float target_specular(const Terms& terms, std::size_t i, float specular) 
 
 // Target specular where target alpha is at its limit.
 inline float wide_specular(float alpha, float specular) noexcept {
-  const float u = alpha - 0.91967064f;
-  float c0 = 0.03228842f;
-  c0 = c0 * u + -0.0024114125f;
-  c0 = c0 * u + -0.00082039286f;
-  c0 = c0 * u + 0.00072894664f;
-  float c1 = 1.9216999f;
-  c1 = c1 * u + 0.21630983f;
-  c1 = c1 * u + -1.2021528f;
-  c1 = c1 * u + 0.78938097f;
+  const float u = alpha - 0.9202362f;
+  float c0 = 0.0019936694f;
+  c0 = c0 * u + -0.0024694805f;
+  c0 = c0 * u + 0.0014507199f;
+  float c1 = 0.7734963f;
+  c1 = c1 * u + -1.1844381f;
+  c1 = c1 * u + 0.7829075f;
   float sum = c1;
   sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.5903457f;
+  const float u_2 = u * u;
+  float c0 = 31.377308f;
+  float c0_next = 15.57146f;
+  c0 = c0 * u_2 + -4.798493f;
+  c0_next = c0_next * u_2 + -2.0716255f;
+  c0 = c0 * u_2 + 0.4902336f;
+  c0_next = c0_next * u_2 + 1.446194f;
+  c0 = c0 * u_2 + 0.75216854f;
+  c0 = c0_next * u + c0;
+  float c1 = 138.98079f;
+  float c1_next = 164.06636f;
+  c1 = c1 * u_2 + 71.06212f;
+  c1_next = c1_next * u_2 + 16.216082f;
+  c1 = c1 * u_2 + -0.116793565f;
+  c1_next = c1_next * u_2 + -0.8645886f;
+  c1 = c1 * u + c1_next;
+  float c2 = -631.6524f;
+  float c2_next = -495.19272f;
+  c2 = c2 * u_2 + -173.79422f;
+  c2_next = c2_next * u_2 + -27.595995f;
+  c2 = c2 * u_2 + -0.16978113f;
+  c2 = c2_next * u + c2;
+  const float w = specular - 0.97462547f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -363,15 +391,15 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
-  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
-  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
-  static constexpr float mapping_to = 0.86610496f;  // the mapping has reached the limit of alpha before
+  static constexpr float mapping_to = 0.89280957f;  // the mapping has reached the limit of alpha before
   static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.839341f), clamped_above(specular, 0.0f));
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.840472f), clamped_above(specular, 0.0f));
   }
   static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::target_alpha(terms.alpha[i], specular);
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.18068965f), clamped_above(specular, 0.9492508f));
   }
   template <class Count>
   static void find_wide_terms(Count, Terms&) noexcept {}
@@ -713,19 +741,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.01214778f, 0.7729581f}, {1.1e-05f, 0.00011f}},
-      {{0.13375f, 0.9375f}, {0.16410585f, 0.7506334f}, {1.1e-05f, 0.00011f}},
-      {{0.2575f, 0.875f}, {0.3327329f, 0.7538504f}, {1.1e-05f, 0.00011f}},
-      {{0.38125f, 0.8125f}, {0.50697094f, 0.75967705f}, {1.1e-05f, 0.00011f}},
-      {{0.505f, 0.75f}, {0.6629862f, 0.73175347f}, {1.1e-05f, 0.00011f}},
-      {{0.62875f, 0.6875f}, {0.79854894f, 0.6659558f}, {1.1e-05f, 0.00011f}},
-      {{0.7525f, 0.625f}, {0.9206584f, 0.5801057f}, {1.1e-05f, 0.00011f}},
-      {{0.87625f, 0.5625f}, {1.0f, 0.47428986f}, {1.1e-05f, 0.00011f}},
-      {{1.0f, 0.5f}, {1.0f, 0.34826452f}, {1.1e-05f, 0.00011f}},
-      {{0.005f, 0.5f}, {0.012149359f, 0.38703978f}, {1.1e-05f, 0.00011f}},
-      {{1.5f, 0.25f}, {1.0f, 0.17446266f}, {1.1e-05f, 0.00011f}},
-      {{0.505f, 0.0f}, {0.6517862f, 0.00086027454f}, {1.1e-05f, 0.00011f}},
-      {{0.505f, 2.0f}, {0.6631171f, 1.9507691f}, {1.1e-05f, 0.00021f}},
+      {{0.01f, 1.0f}, {0.011565332f, 0.95070946f}, {3.8e-05f, 3.3e-05f}},
+      {{0.13375f, 0.9375f}, {0.15784551f, 0.92024636f}, {3.8e-05f, 3.3e-05f}},
+      {{0.2575f, 0.875f}, {0.3214787f, 0.897239f}, {3.8e-05f, 3.3e-05f}},
+      {{0.38125f, 0.8125f}, {0.49092478f, 0.8554586f}, {3.8e-05f, 3.3e-05f}},
+      {{0.505f, 0.75f}, {0.6446799f, 0.7816247f}, {3.9e-05f, 3.3e-05f}},
+      {{0.62875f, 0.6875f}, {0.78390014f, 0.68638957f}, {3.9e-05f, 3.3e-05f}},
+      {{0.7525f, 0.625f}, {0.9129717f, 0.5847613f}, {3.9e-05f, 3.3e-05f}},
+      {{0.87625f, 0.5625f}, {1.0f, 0.4721034f}, {3.9e-05f, 3.2e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.34794316f}, {3.9e-05f, 3.2e-05f}},
+      {{0.005f, 0.5f}, {0.011564432f, 0.47674847f}, {3.8e-05f, 3.2e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.17460515f}, {3.9e-05f, 3.2e-05f}},
+      {{0.505f, 0.0f}, {0.62148833f, 0.0019086063f}, {3.9e-05f, 3.2e-05f}},
+      {{0.505f, 2.0f}, {0.614452f, 2.0f}, {3.9e-05f, 6.5e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_as.csv, sha256 95e2a793b35956b2f544b0e88c200051c3bcf39c8d81baac6d9c4c47ecdaa70d;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Table mitsuba_ward_balanced_to_mitsuba_as.csv, sha256 b0c3304a249ac3a7fd6ae60ae635464a244c8d0dc5164a38abd9dc8fd8959109;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 8.1e-05, 99 % 0.00029, max 0.00031;
-// f0 rms 3.2e-05, 99 % 0.00012, max 0.00012.
-// Lowered from the fit. Target alpha: degree 8, 7 in specular, proven within 7.6e-06 (sampled 6.5e-06), rising with alpha.
-// Target specular: degree 8 in alpha / (alpha + 1), proven within 9.2e-05 (sampled 8.6e-05), rising with specular.
+// Error on the rows held out: alpha rms 5.7e-05, 99 % 2e-04, max 3e-04;
+// f0 rms 7.7e-05, 99 % 0.00028, max 0.00031.
+// Lowered from the fit. Target alpha: degree 10, 9 in specular, proven within 9.8e-06 (sampled 8.4e-06), rising with alpha.
+// Target specular: degree 7, proven within 2e-05 (sampled 3.6e-06), rising with specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_AS_HPP
@@ -36,11 +36,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 8.1e-05f;
-inline constexpr float kSpecularRmsError = 3.2e-05f;
+inline constexpr float kAlphaRmsError = 5.7e-05f;
+inline constexpr float kSpecularRmsError = 7.7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.098f;
+inline constexpr float kImageRmsError = 0.04f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -77,52 +77,74 @@ inline constexpr std::size_t kBlock = 128;
 inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = -5.010583f;
-  float c0_next = -0.72965044f;
-  c0 = c0 * u_2 + 3.5901535f;
-  c0_next = c0_next * u_2 + -0.111111f;
-  c0 = c0 * u_2 + -0.8052403f;
-  c0_next = c0_next * u_2 + 0.32258302f;
-  c0 = c0 * u_2 + -0.17787862f;
-  c0_next = c0_next * u_2 + 0.6535419f;
-  c0 = c0 * u_2 + 0.4211862f;
+  float c0 = 10.148531f;
+  float c0_next = 13.044997f;
+  c0 = c0 * u_2 + -9.256599f;
+  c0_next = c0_next * u_2 + -8.628725f;
+  c0 = c0 * u_2 + 4.170409f;
+  c0_next = c0_next * u_2 + 1.6472998f;
+  c0 = c0 * u_2 + -0.8987001f;
+  c0_next = c0_next * u_2 + 0.14567263f;
+  c0 = c0 * u_2 + -0.14710341f;
+  c0_next = c0_next * u_2 + 0.6692213f;
+  c0 = c0 * u_2 + 0.42138538f;
   c0 = c0_next * u + c0;
-  float c1 = 0.0020420277f;
-  float c1_next = 0.0030449f;
-  c1 = c1 * u_2 + 0.00071645225f;
-  c1_next = c1_next * u_2 + -0.0035300069f;
-  c1 = c1 * u_2 + -0.0015835499f;
-  c1_next = c1_next * u_2 + 3.0751216e-05f;
+  float c1 = 0.07452285f;
+  float c1_next = -0.016269943f;
+  c1 = c1 * u_2 + -0.051635943f;
+  c1_next = c1_next * u_2 + 0.0002716358f;
+  c1 = c1 * u_2 + 0.009001115f;
+  c1_next = c1_next * u_2 + 0.001257603f;
+  c1 = c1 * u_2 + -0.0017189169f;
+  c1_next = c1_next * u_2 + -0.0008213778f;
   c1 = c1 * u + c1_next;
-  float c2 = 0.028967446f;
-  float c2_next = 0.01268615f;
-  c2 = c2 * u_2 + -0.0070876046f;
-  c2_next = c2_next * u_2 + 0.008899845f;
-  c2 = c2 * u_2 + 0.013985183f;
-  c2_next = c2_next * u_2 + 0.004064218f;
-  c2 = c2 * u + c2_next;
-  float c3 = -0.09753128f;
-  float c3_next = -0.038850434f;
-  c3 = c3 * u_2 + 0.013381377f;
-  c3_next = c3_next * u_2 + 0.059811898f;
-  c3 = c3 * u_2 + -0.0054302425f;
-  c3_next = c3_next * u_2 + -0.015630692f;
-  c3 = c3 * u + c3_next;
-  float c4 = -0.014388398f;
-  c4 = c4 * u + -0.1682802f;
-  c4 = c4 * u + -0.19797902f;
-  c4 = c4 * u + -0.05897736f;
-  float c5 = 0.06202816f;
-  c5 = c5 * u + -0.33615282f;
-  c5 = c5 * u + 0.18522722f;
-  c5 = c5 * u + 0.17640981f;
-  float c6 = 0.8422042f;
-  c6 = c6 * u + 0.9734165f;
-  c6 = c6 * u + 0.2762907f;
-  float c7 = -1.3904957f;
-  c7 = c7 * u + -0.67675555f;
+  float c2 = -0.05086797f;
+  float c2_next = -0.04920148f;
+  c2 = c2 * u_2 + 0.0013523587f;
+  c2_next = c2_next * u_2 + 0.0051253205f;
+  c2 = c2 * u_2 + -0.0063013183f;
+  c2_next = c2_next * u_2 + -0.010644377f;
+  c2 = c2 * u_2 + -0.003947684f;
+  c2 = c2_next * u + c2;
+  float c3 = 0.23007181f;
+  float c3_next = 0.3215016f;
+  c3 = c3 * u_2 + 0.012020929f;
+  c3_next = c3_next * u_2 + -0.05570884f;
+  c3 = c3 * u_2 + -0.14698821f;
+  c3_next = c3_next * u_2 + -0.028376302f;
+  c3 = c3 * u_2 + 0.019407187f;
+  c3 = c3_next * u + c3;
+  float c4 = 0.55934536f;
+  float c4_next = 0.1750593f;
+  c4 = c4 * u_2 + -0.036815543f;
+  c4_next = c4_next * u_2 + 0.35532963f;
+  c4 = c4 * u_2 + 0.49181506f;
+  c4_next = c4_next * u_2 + 0.15848978f;
+  c4 = c4 * u + c4_next;
+  float c5 = -1.8075845f;
+  float c5_next = -0.54037744f;
+  c5 = c5 * u_2 + 0.21991327f;
+  c5_next = c5_next * u_2 + 1.683018f;
+  c5 = c5 * u_2 + -0.1610147f;
+  c5_next = c5_next * u_2 + -0.46793547f;
+  c5 = c5 * u + c5_next;
+  float c6 = -0.58739895f;
+  c6 = c6 * u + -3.7861311f;
+  c6 = c6 * u + -4.7106075f;
+  c6 = c6 * u + -1.4791209f;
+  float c7 = 1.1061863f;
+  c7 = c7 * u + -5.8850145f;
+  c7 = c7 * u + 4.3966956f;
+  c7 = c7 * u + 3.6524954f;
+  float c8 = 12.70687f;
+  c8 = c8 * u + 15.680412f;
+  c8 = c8 * u + 4.6592655f;
+  float c9 = -21.167906f;
+  c9 = c9 * u + -10.301208f;
   const float w = specular - 0.500001f;
-  float sum = c7;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
@@ -137,6 +159,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -151,29 +175,26 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.25495073f;
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = 6.3587174f;
-    float c0_next = 0.090829805f;
-    c0 = c0 * u_2 + -0.6425334f;
-    c0_next = c0_next * u_2 + -0.003989931f;
-    c0 = c0 * u_2 + 0.020582562f;
-    c0_next = c0_next * u_2 + -0.0005116605f;
-    c0 = c0 * u_2 + 0.0023720951f;
-    c0_next = c0_next * u_2 + 0.0014369529f;
-    c0 = c0 * u_2 + -0.0012734093f;
-    c0 = c0_next * u + c0;
-    float c1 = 2023.6536f;
-    float c1_next = 458.1741f;
-    c1 = c1 * u_2 + -366.2643f;
-    c1_next = c1_next * u_2 + -78.82568f;
-    c1 = c1 * u_2 + 30.947441f;
-    c1_next = c1_next * u_2 + 8.426452f;
-    c1 = c1 * u_2 + -2.1884353f;
-    c1_next = c1_next * u_2 + -1.1345916f;
-    c1 = c1 * u_2 + 0.8747409f;
-    c1 = c1_next * u + c1;
+    float c0 = 8.860628e-06f;
+    float c0_next = 0.0009577656f;
+    c0 = c0 * u_2 + -0.0007175573f;
+    c0_next = c0_next * u_2 + 0.0013475581f;
+    c0 = c0 * u_2 + -0.0006792162f;
+    c0_next = c0_next * u_2 + -5.409974e-05f;
+    c0 = c0 * u_2 + 0.0016120468f;
+    c0_next = c0_next * u_2 + -0.0023309495f;
+    c0 = c0 * u + c0_next;
+    float c1 = -4.957341f;
+    float c1_next = 2.4874966f;
+    c1 = c1 * u_2 + 2.7696419f;
+    c1_next = c1_next * u_2 + -2.1407235f;
+    c1 = c1 * u_2 + 0.12910381f;
+    c1_next = c1_next * u_2 + 0.57159466f;
+    c1 = c1 * u_2 + -0.5109289f;
+    c1_next = c1_next * u_2 + 0.7638285f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -251,6 +272,22 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
@@ -268,6 +305,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -375,8 +426,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -386,13 +442,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -404,15 +549,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -420,16 +572,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -500,19 +655,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.010002342f, 0.9998346f}, {8e-06f, 9.2e-05f}},
-      {{0.13375f, 0.9375f}, {0.1313334f, 0.91692597f}, {8.1e-06f, 9.2e-05f}},
-      {{0.2575f, 0.875f}, {0.24151488f, 0.80830073f}, {8.2e-06f, 9.2e-05f}},
-      {{0.38125f, 0.8125f}, {0.33676925f, 0.68936634f}, {8.2e-06f, 9.2e-05f}},
-      {{0.505f, 0.75f}, {0.42116925f, 0.5796432f}, {8.2e-06f, 9.2e-05f}},
-      {{0.62875f, 0.6875f}, {0.49978173f, 0.48857754f}, {8.3e-06f, 9.2e-05f}},
-      {{0.7525f, 0.625f}, {0.5745292f, 0.41437918f}, {8.3e-06f, 9.2e-05f}},
-      {{0.87625f, 0.5625f}, {0.6465829f, 0.35275784f}, {8.4e-06f, 9.2e-05f}},
-      {{1.0f, 0.5f}, {0.7180274f, 0.30048683f}, {8.4e-06f, 9.2e-05f}},
-      {{0.005f, 0.5f}, {0.0100003695f, 0.49918777f}, {8e-06f, 9.2e-05f}},
-      {{1.5f, 0.25f}, {0.7186765f, 0.14985985f}, {8.4e-06f, 9.2e-05f}},
-      {{0.505f, 0.0f}, {0.42454895f, 0.0f}, {8.2e-06f, 9.2e-05f}},
-      {{0.505f, 2.0f}, {0.42112562f, 1.5464771f}, {8.2e-06f, 0.00019f}},
+      {{0.01f, 1.0f}, {0.010000347f, 1.0f}, {1.1e-05f, 2e-05f}},
+      {{0.13375f, 0.9375f}, {0.13123408f, 0.9128963f}, {1.1e-05f, 2e-05f}},
+      {{0.2575f, 0.875f}, {0.24085827f, 0.7966755f}, {1.1e-05f, 2e-05f}},
+      {{0.38125f, 0.8125f}, {0.33573624f, 0.67590463f}, {1.1e-05f, 2e-05f}},
+      {{0.505f, 0.75f}, {0.42128867f, 0.5705374f}, {1.1e-05f, 2e-05f}},
+      {{0.62875f, 0.6875f}, {0.501905f, 0.48543268f}, {1.1e-05f, 2e-05f}},
+      {{0.7525f, 0.625f}, {0.57858f, 0.41629466f}, {1.1e-05f, 2e-05f}},
+      {{0.87625f, 0.5625f}, {0.65289754f, 0.3582984f}, {1.1e-05f, 2e-05f}},
+      {{1.0f, 0.5f}, {0.7266632f, 0.30889824f}, {1.1e-05f, 2e-05f}},
+      {{0.005f, 0.5f}, {0.0099976985f, 0.49854946f}, {1.1e-05f, 2e-05f}},
+      {{1.5f, 0.25f}, {0.7276987f, 0.15366994f}, {1.1e-05f, 2e-05f}},
+      {{0.505f, 0.0f}, {0.42958814f, 0.0f}, {1.1e-05f, 2e-05f}},
+      {{0.505f, 2.0f}, {0.4212003f, 1.5229893f}, {1.1e-05f, 4e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_beckmann.csv, sha256 56deb66e05c117c9752c1ef82b14b609245dab83c88195ebf92df8f6a9482f70;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Table mitsuba_ward_balanced_to_mitsuba_beckmann.csv, sha256 2d00b4c55b208ca1cd532f8164ffd4d15fa24bbd0a73f7a8589ab9d65f747e41;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 9e-05, 99 % 0.00029, max 0.00037;
-// f0 rms 3.9e-05, 99 % 0.00014, max 0.00015.
-// Lowered from the fit. Target alpha: degree 8, 7 in specular, proven within 9e-06 (sampled 7.8e-06), rising with alpha.
-// Target specular: degree 10 in alpha / (alpha + 0.3), proven within 9.5e-05 (sampled 9e-05), rising with specular.
+// Error on the rows held out: alpha rms 6.1e-05, 99 % 0.00022, max 0.00031;
+// f0 rms 7.7e-05, 99 % 0.00027, max 3e-04.
+// Lowered from the fit. Target alpha: degree 10, 9 in specular, proven within 1e-05 (sampled 9.2e-06), rising with alpha.
+// Target specular: degree 7, proven within 2.1e-05 (sampled 3.8e-06), rising with specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_BECKMANN_HPP
@@ -36,11 +36,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 9e-05f;
-inline constexpr float kSpecularRmsError = 3.9e-05f;
+inline constexpr float kAlphaRmsError = 6.1e-05f;
+inline constexpr float kSpecularRmsError = 7.7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.065f;
+inline constexpr float kImageRmsError = 0.03f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -77,51 +77,72 @@ inline constexpr std::size_t kBlock = 128;
 inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = -4.3727508f;
-  float c0_next = -0.8406389f;
-  c0 = c0 * u_2 + 3.014556f;
-  c0_next = c0_next * u_2 + 0.064939864f;
-  c0 = c0 * u_2 + -0.7280466f;
-  c0_next = c0_next * u_2 + 0.18654563f;
-  c0 = c0 * u_2 + -0.076852225f;
-  c0_next = c0_next * u_2 + 0.7839982f;
-  c0 = c0 * u_2 + 0.4504693f;
+  float c0 = 3.708836f;
+  float c0_next = 10.736149f;
+  c0 = c0 * u_2 + -3.7750173f;
+  c0_next = c0_next * u_2 + -6.753597f;
+  c0 = c0 * u_2 + 2.2673557f;
+  c0_next = c0_next * u_2 + 1.1347483f;
+  c0 = c0 * u_2 + -0.6834836f;
+  c0_next = c0_next * u_2 + 0.13098034f;
+  c0 = c0 * u_2 + -0.04325938f;
+  c0_next = c0_next * u_2 + 0.7883679f;
+  c0 = c0 * u_2 + 0.44844225f;
   c0 = c0_next * u + c0;
-  float c1 = 0.0012491203f;
-  float c1_next = 0.0023930506f;
-  c1 = c1 * u_2 + -0.00058263284f;
-  c1_next = c1_next * u_2 + -0.0035779625f;
-  c1 = c1 * u_2 + -0.0014689534f;
-  c1_next = c1_next * u_2 + -8.6082923e-07f;
+  float c1 = -0.013481192f;
+  float c1_next = 0.0009513695f;
+  c1 = c1 * u_2 + 0.0052851965f;
+  c1_next = c1_next * u_2 + 0.0004244231f;
+  c1 = c1 * u_2 + -0.0018083139f;
+  c1_next = c1_next * u_2 + -0.0007865561f;
   c1 = c1 * u + c1_next;
-  float c2 = 0.022709247f;
-  float c2_next = 0.0030621486f;
-  c2 = c2 * u_2 + -0.0035033966f;
-  c2_next = c2_next * u_2 + 0.012344797f;
-  c2 = c2 * u_2 + 0.014157471f;
-  c2_next = c2_next * u_2 + 0.0040430394f;
+  float c2 = -0.032534905f;
+  float c2_next = -0.03647753f;
+  c2 = c2 * u_2 + -0.011124043f;
+  c2_next = c2_next * u_2 + -0.002726616f;
+  c2 = c2 * u_2 + -0.008466491f;
+  c2_next = c2_next * u_2 + -0.0037165817f;
   c2 = c2 * u + c2_next;
-  float c3 = -0.07848084f;
-  float c3_next = -0.015241474f;
-  c3 = c3 * u_2 + 0.03479475f;
-  c3_next = c3_next * u_2 + 0.05738353f;
-  c3 = c3 * u_2 + -0.0075922166f;
-  c3_next = c3_next * u_2 + -0.015000405f;
+  float c3 = 0.22049032f;
+  float c3_next = -0.015161206f;
+  c3 = c3 * u_2 + -0.04814218f;
+  c3_next = c3_next * u_2 + -0.12746096f;
+  c3 = c3 * u_2 + -0.02989599f;
+  c3_next = c3_next * u_2 + 0.016749406f;
   c3 = c3 * u + c3_next;
-  float c4 = -0.033461325f;
-  c4 = c4 * u + -0.18135917f;
-  c4 = c4 * u + -0.2025435f;
-  c4 = c4 * u + -0.059931625f;
-  float c5 = -0.35537833f;
-  c5 = c5 * u + 0.1800219f;
-  c5 = c5 * u + 0.1728717f;
-  float c6 = 0.8955596f;
-  c6 = c6 * u + 1.0146722f;
-  c6 = c6 * u + 0.28332615f;
-  float c7 = -1.391505f;
-  c7 = c7 * u + -0.6764126f;
+  float c4 = 0.4161111f;
+  float c4_next = 0.44423005f;
+  c4 = c4 * u_2 + 0.17000073f;
+  c4_next = c4_next * u_2 + 0.3325992f;
+  c4 = c4 * u_2 + 0.46066424f;
+  c4_next = c4_next * u_2 + 0.15356903f;
+  c4 = c4 * u + c4_next;
+  float c5 = -1.3116275f;
+  float c5_next = 0.18116559f;
+  c5 = c5 * u_2 + 0.14370762f;
+  c5_next = c5_next * u_2 + 1.4731241f;
+  c5 = c5 * u_2 + -0.10877589f;
+  c5_next = c5_next * u_2 + -0.42868853f;
+  c5 = c5 * u + c5_next;
+  float c6 = -1.5149698f;
+  float c6_next = -1.4109001f;
+  c6 = c6 * u_2 + -3.6155012f;
+  c6_next = c6_next * u_2 + -4.543826f;
+  c6 = c6 * u_2 + -1.447099f;
+  c6 = c6_next * u + c6;
+  float c7 = 1.7558079f;
+  c7 = c7 * u + -5.621128f;
+  c7 = c7 * u + 3.9403787f;
+  c7 = c7 * u + 3.442203f;
+  float c8 = 12.707494f;
+  c8 = c8 * u + 15.577993f;
+  c8 = c8 * u + 4.6043496f;
+  float c9 = -20.441492f;
+  c9 = c9 * u + -9.944189f;
   const float w = specular - 0.500001f;
-  float sum = c7;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
@@ -136,6 +157,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -150,33 +173,26 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.3f);
-    const float u = t - 0.40074456f;
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = 4.9122286f;
-    float c0_next = 0.41931018f;
-    c0 = c0 * u_2 + -1.8401799f;
-    c0_next = c0_next * u_2 + -0.14890613f;
-    c0 = c0 * u_2 + 0.2555172f;
-    c0_next = c0_next * u_2 + 0.021237714f;
-    c0 = c0 * u_2 + -0.010929605f;
-    c0_next = c0_next * u_2 + 0.0017894154f;
-    c0 = c0 * u_2 + 0.0017643557f;
-    c0_next = c0_next * u_2 + 0.0005644269f;
-    c0 = c0 * u_2 + -0.0013805446f;
-    c0 = c0_next * u + c0;
-    float c1 = 754.81476f;
-    float c1_next = -110.37415f;
-    c1 = c1 * u_2 + -399.6827f;
-    c1_next = c1_next * u_2 + -1.9911621f;
-    c1 = c1 * u_2 + 80.97677f;
-    c1_next = c1_next * u_2 + 17.41526f;
-    c1 = c1 * u_2 + -3.3099685f;
-    c1_next = c1_next * u_2 + -2.9452589f;
-    c1 = c1 * u_2 + -1.3614874f;
-    c1_next = c1_next * u_2 + -0.41570348f;
-    c1 = c1 * u_2 + 0.9476055f;
-    c1 = c1_next * u + c1;
+    float c0 = 0.003845953f;
+    float c0_next = 0.0012105958f;
+    c0 = c0 * u_2 + -0.002998137f;
+    c0_next = c0_next * u_2 + 0.0006396273f;
+    c0 = c0 * u_2 + -0.00050990336f;
+    c0_next = c0_next * u_2 + 6.363422e-05f;
+    c0 = c0 * u_2 + 0.0016256493f;
+    c0_next = c0_next * u_2 + -0.0023334466f;
+    c0 = c0 * u + c0_next;
+    float c1 = -4.249237f;
+    float c1_next = 2.4168594f;
+    c1 = c1 * u_2 + 2.244406f;
+    c1_next = c1_next * u_2 + -2.1881027f;
+    c1 = c1 * u_2 + 0.26488104f;
+    c1_next = c1_next * u_2 + 0.62028205f;
+    c1 = c1 * u_2 + -0.51199174f;
+    c1_next = c1_next * u_2 + 0.76126385f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -254,6 +270,22 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
@@ -271,6 +303,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -378,8 +424,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -389,13 +440,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -407,15 +547,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -423,16 +570,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -503,19 +653,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.010002451f, 0.9998051f}, {9.5e-06f, 9.6e-05f}},
-      {{0.13375f, 0.9375f}, {0.13212794f, 0.91395855f}, {9.5e-06f, 9.6e-05f}},
-      {{0.2575f, 0.875f}, {0.24677254f, 0.80045223f}, {9.6e-06f, 9.5e-05f}},
-      {{0.38125f, 0.8125f}, {0.3517244f, 0.6782043f}, {9.6e-06f, 9.5e-05f}},
-      {{0.505f, 0.75f}, {0.45044908f, 0.56815994f}, {9.7e-06f, 9.5e-05f}},
-      {{0.62875f, 0.6875f}, {0.54651445f, 0.4793011f}, {9.7e-06f, 9.5e-05f}},
-      {{0.7525f, 0.625f}, {0.640546f, 0.40871683f}, {9.8e-06f, 9.5e-05f}},
-      {{0.87625f, 0.5625f}, {0.73258203f, 0.351106f}, {9.8e-06f, 9.5e-05f}},
-      {{1.0f, 0.5f}, {0.82302743f, 0.30204368f}, {9.9e-06f, 9.5e-05f}},
-      {{0.005f, 0.5f}, {0.010000524f, 0.49917316f}, {9.5e-06f, 9.5e-05f}},
-      {{1.5f, 0.25f}, {0.8237051f, 0.15064979f}, {9.9e-06f, 9.5e-05f}},
-      {{0.505f, 0.0f}, {0.45391834f, 0.0f}, {9.7e-06f, 9.5e-05f}},
-      {{0.505f, 2.0f}, {0.450406f, 1.5158525f}, {9.7e-06f, 0.00019f}},
+      {{0.01f, 1.0f}, {0.010000414f, 1.0f}, {1.1e-05f, 2.1e-05f}},
+      {{0.13375f, 0.9375f}, {0.13198698f, 0.9124491f}, {1.1e-05f, 2.1e-05f}},
+      {{0.2575f, 0.875f}, {0.24583143f, 0.79568994f}, {1.1e-05f, 2.1e-05f}},
+      {{0.38125f, 0.8125f}, {0.34972283f, 0.6743246f}, {1.1e-05f, 2.1e-05f}},
+      {{0.505f, 0.75f}, {0.44834423f, 0.56861115f}, {1.1e-05f, 2.1e-05f}},
+      {{0.62875f, 0.6875f}, {0.5452995f, 0.48425162f}, {1.1e-05f, 2.1e-05f}},
+      {{0.7525f, 0.625f}, {0.6413249f, 0.41728318f}, {1.1e-05f, 2.1e-05f}},
+      {{0.87625f, 0.5625f}, {0.7364081f, 0.36201173f}, {1.1e-05f, 2.1e-05f}},
+      {{1.0f, 0.5f}, {0.829657f, 0.31435814f}, {1.1e-05f, 2.1e-05f}},
+      {{0.005f, 0.5f}, {0.009998193f, 0.4985455f}, {1.1e-05f, 2.1e-05f}},
+      {{1.5f, 0.25f}, {0.830666f, 0.15638727f}, {1.1e-05f, 2.1e-05f}},
+      {{0.505f, 0.0f}, {0.45671543f, 0.0f}, {1.1e-05f, 2.1e-05f}},
+      {{0.505f, 2.0f}, {0.44825646f, 1.5178545f}, {1.1e-05f, 4.2e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

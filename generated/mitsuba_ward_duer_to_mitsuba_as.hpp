@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_as.csv, sha256 118f8afc929c418de24796521527ec913374a4112ced6f8f1d75f6399fb5a28a;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Table mitsuba_ward_duer_to_mitsuba_as.csv, sha256 35569bf44cdde0bcd79d8b81610333480cb13bc4d083da3600b791ea48ecf201;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00038, 99 % 0.0012, max 0.0012;
-// f0 rms 9.2e-05, 99 % 0.00028, max 0.00028.
-// Lowered from the fit. Target alpha: degree 10, 4 in specular, proven within 6.8e-06 (sampled 5.4e-06), rising with alpha.
-// Target specular: degree 7, proven within 3e-05 (sampled 5.4e-06), rising with specular.
+// f0 rms 6.1e-05, 99 % 0.00021, max 0.00022.
+// Lowered from the fit. Target alpha: degree 10, 9 in specular, proven within 8.6e-06 (sampled 7e-06), rising with alpha.
+// Target specular: degree 7, proven within 1.6e-05 (sampled 2.9e-06), rising with specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_AS_HPP
@@ -37,10 +37,10 @@ inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 0.00038f;
-inline constexpr float kSpecularRmsError = 9.2e-05f;
+inline constexpr float kSpecularRmsError = 6.1e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.078f;
+inline constexpr float kImageRmsError = 0.036f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -77,55 +77,81 @@ inline constexpr std::size_t kBlock = 128;
 inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = -161.09549f;
-  float c0_next = -46.613663f;
-  c0 = c0 * u_2 + 103.14345f;
-  c0_next = c0_next * u_2 + 31.423199f;
-  c0 = c0 * u_2 + -21.547764f;
-  c0_next = c0_next * u_2 + -8.151534f;
-  c0 = c0 * u_2 + 1.2630213f;
-  c0_next = c0_next * u_2 + 1.1269435f;
-  c0 = c0 * u_2 + -0.23108116f;
-  c0_next = c0_next * u_2 + 0.5815088f;
-  c0 = c0 * u_2 + 0.40620208f;
+  float c0 = -67.63158f;
+  float c0_next = -52.199276f;
+  c0 = c0 * u_2 + 27.387661f;
+  c0_next = c0_next * u_2 + 30.740984f;
+  c0 = c0 * u_2 + 0.66780293f;
+  c0_next = c0_next * u_2 + -6.633878f;
+  c0 = c0 * u_2 + -1.5438395f;
+  c0_next = c0_next * u_2 + 0.7869966f;
+  c0 = c0 * u_2 + -0.0777337f;
+  c0_next = c0_next * u_2 + 0.621821f;
+  c0 = c0 * u_2 + 0.4097483f;
   c0 = c0_next * u + c0;
-  float c1 = -0.2020625f;
-  float c1_next = -0.007114497f;
-  c1 = c1 * u_2 + 0.0066557177f;
-  c1_next = c1_next * u_2 + 0.001935943f;
-  c1 = c1 * u_2 + 0.024781208f;
-  c1_next = c1_next * u_2 + 0.001829368f;
-  c1 = c1 * u_2 + -0.00091401825f;
-  c1_next = c1_next * u_2 + 0.0018083826f;
-  c1 = c1 * u_2 + 0.0004784738f;
+  float c1 = -1.3727995f;
+  float c1_next = -0.41905233f;
+  c1 = c1 * u_2 + 0.6991887f;
+  c1_next = c1_next * u_2 + 0.2584433f;
+  c1 = c1 * u_2 + -0.0830668f;
+  c1_next = c1_next * u_2 + -0.03903139f;
+  c1 = c1 * u_2 + 0.0009485172f;
+  c1_next = c1_next * u_2 + -0.0005878961f;
+  c1 = c1 * u_2 + -0.00094645337f;
   c1 = c1_next * u + c1;
-  float c2 = 2.139592f;
-  float c2_next = 0.8287744f;
-  c2 = c2 * u_2 + -1.3420798f;
-  c2_next = c2_next * u_2 + -0.75503236f;
-  c2 = c2 * u_2 + 0.12256814f;
-  c2_next = c2_next * u_2 + 0.14217104f;
-  c2 = c2 * u_2 + 0.0025151179f;
-  c2_next = c2_next * u_2 + -0.0159349f;
-  c2 = c2 * u_2 + -0.0030702527f;
+  float c2 = 2.0980642f;
+  float c2_next = 1.3646904f;
+  c2 = c2 * u_2 + -0.9326492f;
+  c2_next = c2_next * u_2 + -0.3703336f;
+  c2 = c2 * u_2 + 0.1838631f;
+  c2_next = c2_next * u_2 + 0.011060712f;
+  c2 = c2 * u_2 + -0.032380056f;
+  c2_next = c2_next * u_2 + -0.009922815f;
+  c2 = c2 * u_2 + -0.0018186171f;
   c2 = c2_next * u + c2;
-  float c3 = 0.7649043f;
-  float c3_next = 0.0357671f;
-  c3 = c3 * u_2 + -0.3400217f;
-  c3_next = c3_next * u_2 + -0.051178757f;
-  c3 = c3 * u_2 + -0.027481599f;
-  c3_next = c3_next * u_2 + -0.041355804f;
-  c3 = c3 * u_2 + -0.009687393f;
-  c3 = c3_next * u + c3;
-  float c4 = 1.413317f;
-  float c4_next = 0.69754946f;
-  c4 = c4 * u_2 + -0.26330724f;
-  c4_next = c4_next * u_2 + 0.0034473678f;
-  c4 = c4 * u_2 + 0.123060614f;
-  c4_next = c4_next * u_2 + 0.028567463f;
+  float c3 = -1.1310477f;
+  float c3_next = -0.45530954f;
+  c3 = c3 * u_2 + -0.48981547f;
+  c3_next = c3_next * u_2 + -0.28589046f;
+  c3 = c3 * u_2 + 0.016581621f;
+  c3_next = c3_next * u_2 + -0.18219125f;
+  c3 = c3 * u_2 + -0.03664223f;
+  c3_next = c3_next * u_2 + 0.027704895f;
+  c3 = c3 * u + c3_next;
+  float c4 = -1.661797f;
+  float c4_next = -0.55455595f;
+  c4 = c4 * u_2 + 0.35243443f;
+  c4_next = c4_next * u_2 + 0.76486874f;
+  c4 = c4 * u_2 + 0.5963537f;
+  c4_next = c4_next * u_2 + 0.13781105f;
   c4 = c4 * u + c4_next;
+  float c5 = 3.7292356f;
+  float c5_next = 1.8586911f;
+  c5 = c5 * u_2 + 0.4312793f;
+  c5_next = c5_next * u_2 + 2.5499976f;
+  c5 = c5 * u_2 + -0.06409643f;
+  c5_next = c5_next * u_2 + -0.5771834f;
+  c5 = c5 * u + c5_next;
+  float c6 = 0.84073573f;
+  c6 = c6 * u + -6.185314f;
+  c6 = c6 * u + -6.123509f;
+  c6 = c6 * u + -1.4351237f;
+  float c7 = -3.7326949f;
+  c7 = c7 * u + -10.830402f;
+  c7 = c7 * u + 4.3278403f;
+  c7 = c7 * u + 4.192659f;
+  float c8 = 21.672043f;
+  c8 = c8 * u + 20.006311f;
+  c8 = c8 * u + 4.640292f;
+  float c9 = -23.076078f;
+  c9 = c9 * u + -11.154395f;
   const float w = specular - 0.500001f;
-  float sum = c4;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -137,8 +163,6 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
-  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
-  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -155,23 +179,23 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = -0.031958908f;
-    float c0_next = 0.00398721f;
-    c0 = c0 * u_2 + 0.012212817f;
-    c0_next = c0_next * u_2 + -0.0009605276f;
-    c0 = c0 * u_2 + -0.0014685339f;
-    c0_next = c0_next * u_2 + 9.085349e-05f;
-    c0 = c0 * u_2 + 0.0007455176f;
-    c0_next = c0_next * u_2 + -0.0011662083f;
+    float c0 = -0.00020250068f;
+    float c0_next = 0.0068355836f;
+    c0 = c0 * u_2 + -0.0030985868f;
+    c0_next = c0_next * u_2 + -0.0016372591f;
+    c0 = c0 * u_2 + 0.0002578453f;
+    c0_next = c0_next * u_2 + 0.00039268128f;
+    c0 = c0 * u_2 + 0.0014958623f;
+    c0_next = c0_next * u_2 + -0.0023641076f;
     c0 = c0 * u + c0_next;
-    float c1 = -3.0270462f;
-    float c1_next = 1.889081f;
-    c1 = c1 * u_2 + 1.6900198f;
-    c1_next = c1_next * u_2 + -1.9504355f;
-    c1 = c1 * u_2 + 0.3848379f;
-    c1_next = c1_next * u_2 + 0.46302304f;
-    c1 = c1 * u_2 + -0.68385345f;
-    c1_next = c1_next * u_2 + 0.7136016f;
+    float c1 = -4.17648f;
+    float c1_next = 2.1174648f;
+    c1 = c1 * u_2 + 2.7629051f;
+    c1_next = c1_next * u_2 + -2.2682867f;
+    c1 = c1 * u_2 + 0.048877154f;
+    c1_next = c1_next * u_2 + 0.6050345f;
+    c1 = c1 * u_2 + -0.6121657f;
+    c1_next = c1_next * u_2 + 0.7141811f;
     c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
@@ -250,22 +274,6 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
-// A number from 0, clamped to the least and at the largest that it may be.
-inline Float clamped_above(Float value, Float least) noexcept {
-  return float_from_bits(larger(bits(value), bits(least)));
-}
-inline Float clamped_below(Float value, Float limit) noexcept {
-  return float_from_bits(smaller(bits(value), bits(limit)));
-}
-
-// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
-// `inverse`: 200 / limit.
-inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
-  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
-}
-
-inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
-
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
@@ -283,20 +291,6 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
-  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
-  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
-  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
-  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
-  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::target_specular(terms, i, specular);
-  }
-  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::target_alpha(terms.alpha[i], specular);
-  }
-  template <class Count>
-  static void find_wide_terms(Count, Terms&) noexcept {}
-  template <class Count>
-  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -404,34 +398,9 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
-// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
-// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
-// its limit (bright). A block without such texels does not look at them.
-
-// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
   const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float alpha = load(terms.alpha + i);
-    store(terms.source_alpha + i, alpha);
-    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
-  }
-}
-
-// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
-template <class Count>
-inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  Bits any = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -441,81 +410,12 @@ inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexc
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Float width = mapping.target_alpha(terms, i, top);
-    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
-    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
-    any = any | above(bits(width), bits(mapping.alpha_limit));
-  }
-  return any;
-}
-
-// Target specular of a channel, without its limit.
-template <bool kAnyWide>
-inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
-  const Float inside = mapping.target_specular(terms, i, specular);
-  if constexpr (kAnyWide)
-    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
-  else
-    return inside;
-}
-
-// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
-template <bool kAnyWide, class Count>
-inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  Bits any = 0;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
-    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
-    any = any | above(bits(specular), bits(mapping.specular_limit));
-  }
-  return any;
-}
-
-template <class Count>
-inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  mapping.find_bright_terms(count, terms);
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
-    const Float free = clamped_below(bright, mapping.alpha_limit);
-    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
-  }
-}
-
-template <class Count>
-inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
     const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
   }
 }
 
-template <bool kInside, bool kAnyWide, class Count>
+template <bool kInside, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -527,22 +427,15 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
-    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
-    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
-    const Float limited = clamped_below(mapped, mapping.specular_limit);
-    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
+    if constexpr (kInside) {
+      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
+      store(out + i, clamped_channel(mapped) * load(block.scale + i));
+    } else {
+      const Float clamped = clamped_channel(load(in + i));
+      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
+      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
+    }
   }
-}
-
-template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
-inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
-                            float* const* specular_out, Block& block) noexcept {
-  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
-    use_bright_widths(count, mapping, block);
-  store_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -550,19 +443,16 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
-  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
-  if (any_wide) mapping.find_wide_terms(count, block.terms);
-  const auto convert = [&](auto is_inside, auto is_wide) {
-    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
-  };
-  if (inside)
-    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
-  else
-    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
+  convert_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c) {
+    if (inside)
+      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
+    else
+      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
+  }
 }
 
 }  // namespace detail
@@ -633,19 +523,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.009997993f, 0.9999348f}, {7.3e-06f, 3e-05f}},
-      {{0.13375f, 0.9375f}, {0.13076706f, 0.9084555f}, {7.4e-06f, 3e-05f}},
-      {{0.2575f, 0.875f}, {0.23804869f, 0.7836272f}, {7.4e-06f, 3e-05f}},
-      {{0.38125f, 0.8125f}, {0.32894528f, 0.6520679f}, {7.5e-06f, 3e-05f}},
-      {{0.505f, 0.75f}, {0.40608814f, 0.53404087f}, {7.5e-06f, 3e-05f}},
-      {{0.62875f, 0.6875f}, {0.4766783f, 0.43644226f}, {7.5e-06f, 3e-05f}},
-      {{0.7525f, 0.625f}, {0.54822046f, 0.35716748f}, {7.6e-06f, 3e-05f}},
-      {{0.87625f, 0.5625f}, {0.6115615f, 0.29165676f}, {7.6e-06f, 3e-05f}},
-      {{1.0f, 0.5f}, {0.66585356f, 0.23623152f}, {7.6e-06f, 3e-05f}},
-      {{0.005f, 0.5f}, {0.009997915f, 0.499238f}, {7.3e-06f, 3e-05f}},
-      {{1.5f, 0.25f}, {0.6657706f, 0.11770752f}, {7.6e-06f, 3e-05f}},
-      {{0.505f, 0.0f}, {0.40819356f, 0.0f}, {7.5e-06f, 3e-05f}},
-      {{0.505f, 2.0f}, {0.40625018f, 1.4248829f}, {7.5e-06f, 5.9e-05f}},
+      {{0.01f, 1.0f}, {0.010002066f, 0.9998531f}, {9.1e-06f, 1.7e-05f}},
+      {{0.13375f, 0.9375f}, {0.13076128f, 0.9059142f}, {9.1e-06f, 1.7e-05f}},
+      {{0.2575f, 0.875f}, {0.23838161f, 0.77748615f}, {9.2e-06f, 1.7e-05f}},
+      {{0.38125f, 0.8125f}, {0.329897f, 0.64624226f}, {9.2e-06f, 1.7e-05f}},
+      {{0.505f, 0.75f}, {0.40973508f, 0.53327507f}, {9.2e-06f, 1.7e-05f}},
+      {{0.62875f, 0.6875f}, {0.4863651f, 0.44287086f}, {9.3e-06f, 1.7e-05f}},
+      {{0.7525f, 0.625f}, {0.5606938f, 0.36976102f}, {9.3e-06f, 1.7e-05f}},
+      {{0.87625f, 0.5625f}, {0.6250482f, 0.3079868f}, {9.3e-06f, 1.7e-05f}},
+      {{1.0f, 0.5f}, {0.6836384f, 0.25441578f}, {9.4e-06f, 1.6e-05f}},
+      {{0.005f, 0.5f}, {0.009998768f, 0.49845606f}, {9.1e-06f, 1.7e-05f}},
+      {{1.5f, 0.25f}, {0.68522567f, 0.12641558f}, {9.4e-06f, 1.6e-05f}},
+      {{0.505f, 0.0f}, {0.41769147f, 0.0f}, {9.3e-06f, 1.6e-05f}},
+      {{0.505f, 2.0f}, {0.4095356f, 1.423641f}, {9.2e-06f, 3.3e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

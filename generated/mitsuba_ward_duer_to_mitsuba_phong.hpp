@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_phong.csv, sha256 480b6d23d76a18582d1164377933f7911676ab6afe41528b1e9389de19647bb5;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 752 rows trained, 188 held out.
-// Error on the rows held out: alpha rms 1.2e-05, 99 % 2.7e-05, max 4.5e-05;
-// specular rms 4.8e-05, 99 % 2e-04, max 0.00025.
-// Lowered from the fit. Target alpha: degree 5 on 16 pieces in alpha / (alpha + 1), proven within 9.2e-06 (sampled 8.2e-06), rising with alpha.
-// Target specular: degree 6 on 4 pieces, 3 in specular, proven within 8.4e-05 (sampled 7.6e-05), rising with specular.
-// Where specular is at its limit, target alpha: degree 4, 2 in specular, proven within 3e-05 (sampled 1.4e-05), rising with alpha.
-// All together within 3.5e-05 in alpha, 8.4e-05 in specular.
+// Table mitsuba_ward_duer_to_mitsuba_phong.csv, sha256 8ae0f2c95b7eb677289b22ea7fb8b52166f4108d2ac8f2413472cb034889a7b2;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Fit: series, seed 1, 767 rows trained, 192 held out.
+// Error on the rows held out: alpha rms 6e-04, 99 % 0.002, max 0.002;
+// specular rms 0.00018, 99 % 0.00087, max 9e-04.
+// Lowered from the fit. Target alpha: degree 5 on 32 pieces, proven within 2.9e-06 (sampled 1.1e-06), rising with alpha.
+// Target specular: degree 9, proven within 8.2e-05 (sampled 7.4e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 9 in alpha / (alpha + 1), 3 in specular, proven within 1e-04 (sampled 9e-05), rising with alpha.
+// All together within 0.00013 in alpha, 8.2e-05 in specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_PHONG_HPP
@@ -38,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.2e-05f;
-inline constexpr float kSpecularRmsError = 4.8e-05f;
+inline constexpr float kAlphaRmsError = 6e-04f;
+inline constexpr float kSpecularRmsError = 0.00018f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.3f;
+inline constexpr float kImageRmsError = 0.15f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -83,28 +83,43 @@ inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
   return last + (below & (below >> 31));
 }
 
-inline constexpr float kAlphaTable[16][6] = {
-    {0.042667188f, 0.053107582f, 0.0015304976f, -3.5197725e-05f, -3.0408687e-06f, 2.2918947e-08f},
-    {0.09726705f, 0.056050934f, 0.0014068848f, -4.713943e-05f, -2.9354978e-06f, 1.7500438e-08f},
-    {0.15467481f, 0.058711626f, 0.0012480115f, -5.8729947e-05f, -2.8640447e-06f, 1.3440449e-08f},
-    {0.21457286f, 0.061020076f, 0.0010547967f, -7.0009206e-05f, -2.7517801e-06f, 3.7969688e-08f},
-    {0.27657503f, 0.062908866f, 0.00082875416f, -8.0457576e-05f, -2.4013852e-06f, 1.1053838e-07f},
-    {0.3402299f, 0.06431603f, 0.0005743037f, -8.861762e-05f, -1.5559763e-06f, 2.3572673e-07f},
-    {0.4050303f, 0.06519385f, 0.00030179555f, -9.2004586e-05f, 1.7403407e-08f, 3.919971e-07f},
-    {0.47043437f, 0.06552352f, 2.996885e-05f, -8.785058e-05f, 1.94239e-06f, 2.5272954e-07f},
-    {0.5359021f, 0.0653281f, -0.00022198033f, -8.19403e-05f, -1.5023073e-06f, -2.3690884e-06f},
-    {0.6009218f, 0.06461633f, -0.00051231246f, -0.0001278205f, -2.1682372e-05f, -1.2934892e-06f},
-    {0.66488034f, 0.06315555f, -0.00090911373f, -1.6461985e-05f, 0.00012958107f, 2.830041e-05f},
-    {0.7271742f, 0.061218493f, -0.002219926f, -0.0020904108f, 0.001242957f, 0.0035604597f},
-    {0.7883713f, 0.06672048f, 0.0066165873f, -0.01034688f, -0.007412995f, 0.010851531f},
-    {0.8529103f, 0.0588236f, -0.0054289717f, 0.00129662f, -0.00046131853f, -0.00056937285f},
-    {0.9069058f, 0.049327455f, -0.004637896f, 3.876164e-05f, 3.20449e-05f, -1.8555216e-05f},
-    {0.95164126f, 0.040166583f, -0.004589939f, -6.957907e-05f, -3.845083e-05f, 1.6309075e-05f},
+inline constexpr float kAlphaTable[32][6] = {
+    {0.039208062f, 0.049041558f, 0.0011477736f, -0.0031858073f, 0.002644586f, -0.0011160478f},
+    {0.08789461f, 0.04784918f, -0.0007540106f, 0.00033016995f, 5.4325854e-05f, -0.00013852016f},
+    {0.13526778f, 0.047076337f, -0.00022617943f, -2.9927724e-05f, -7.9737954e-05f, 2.5553229e-05f},
+    {0.18203409f, 0.04634369f, -0.00054145383f, -0.000107454805f, 2.3228557e-05f, 9.052625e-06f},
+    {0.22775868f, 0.045059323f, -0.0006818541f, 8.727677e-06f, 1.9141768e-05f, -6.9355724e-06f},
+    {0.27215695f, 0.04376297f, -0.00061129156f, 1.6599699e-05f, -1.1648359e-05f, -3.517405e-06f},
+    {0.31531087f, 0.042531606f, -0.0006507099f, -4.215495e-05f, -1.116448e-05f, 3.0855417e-06f},
+    {0.35714182f, 0.041076496f, -0.000808011f, -4.9256527e-05f, 7.981613e-06f, 3.4897735e-06f},
+    {0.39737216f, 0.03935962f, -0.00088016974f, 6.564945e-06f, 1.5847052e-05f, -6.114103e-07f},
+    {0.435873f, 0.037676327f, -0.00077984284f, 5.198326e-05f, 3.8625126e-06f, -3.6397719e-06f},
+    {0.47282165f, 0.036269598f, -0.0006375531f, 3.107715e-05f, -1.3190759e-05f, -2.5072104e-06f},
+    {0.5084694f, 0.03502499f, -0.0006411168f, -3.5526635e-05f, -1.6120504e-05f, 1.5241369e-06f},
+    {0.5428036f, 0.03358225f, -0.0008209314f, -7.294111e-05f, 5.7468486e-07f, 4.7176522e-06f},
+    {0.5754974f, 0.03174808f, -0.000987599f, -2.189552e-05f, 2.4301073e-05f, 4.0561895e-06f},
+    {0.60626394f, 0.029822113f, -0.000874415f, 0.00010429687f, 3.42868e-05f, -5.133209e-07f},
+    {0.6353491f, 0.028516563f, -0.00037285278f, 0.00021880993f, 1.7569533e-05f, -5.980453e-06f},
+    {0.6637228f, 0.028464865f, 0.00032146685f, 0.00021859215f, -1.9883897e-05f, -8.203756e-06f},
+    {0.6926998f, 0.029644098f, 0.000779305f, 6.296139e-05f, -5.4503485e-05f, -4.7163517e-06f},
+    {0.72312766f, 0.031155055f, 0.00060859986f, -0.00018017754f, -5.9242288e-05f, 3.2177165e-06f},
+    {0.75465596f, 0.03161703f, -0.0002377181f, -0.00035956549f, -2.309119e-05f, 1.066537e-05f},
+    {0.7856637f, 0.030026684f, -0.0013407147f, -0.0003353444f, 3.620031e-05f, 1.1651009e-05f},
+    {0.8140617f, 0.026538482f, -0.002024353f, -9.213563e-05f, 7.7314486e-05f, 3.4330847e-06f},
+    {0.8385631f, 0.02253047f, -0.0018292469f, 0.00021169067f, 6.145212e-05f, -9.869473e-06f},
+    {0.8595264f, 0.019695248f, -0.0009471564f, 0.00032643162f, -1.1601241e-05f, -1.7414579e-05f},
+    {0.87857217f, 0.018648656f, -0.00020512736f, 0.00011846065f, -8.328061e-05f, -8.113257e-06f},
+    {0.89704496f, 0.01823583f, -0.0003850231f, -0.00022677651f, -6.4642314e-05f, 1.6833103e-05f},
+    {0.9146237f, 0.016628753f, -0.0012355339f, -0.00024770928f, 6.9469694e-05f, 3.1925814e-05f},
+    {0.92986923f, 0.013841588f, -0.0012760289f, 0.0002896096f, 0.00016185344f, -6.4138035e-06f},
+    {0.9428712f, 0.012711672f, 0.00032030925f, 0.00060181867f, -9.950307e-05f, -0.00010030585f},
+    {0.95629907f, 0.014217566f, 0.00042207417f, -0.0009092016f, -0.0006017741f, -3.7056223e-05f},
+    {0.9694397f, 0.010105458f, -0.0051868325f, -0.0018557655f, 0.0011167878f, 0.0009937835f},
+    {0.9748724f, 0.005490291f, 0.011461612f, 0.021400312f, 0.014519404f, 0.0051359134f},
 };
 inline float target_alpha(float alpha, float) noexcept {
-  const float t = alpha / (alpha + 1.0f);
-  const float x = t * 32.646427f - 0.32323083f;
-  const std::int32_t cell = cell_of(x, 15);
+  const float x = alpha * 32.323162f - 0.32323048f;
+  const std::int32_t cell = cell_of(x, 31);
   const float u = x - (static_cast<float>(cell) + 0.5f);
   const float* row = kAlphaTable[cell];
   const float u_2 = u * u;
@@ -121,17 +136,11 @@ inline float target_alpha(float alpha, float) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
   float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
   float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
-inline constexpr float kSpecularTable[4][20] = {
-    {0.60422695f, -0.07254306f, -0.054567296f, 0.01685515f, -0.012368959f, 0.021122186f, -0.0066354834f, 1.2085825f, -0.14570913f, -0.10980729f, 0.037989296f, -0.026215266f, 0.031385146f, 0.0007227812f, 1.6590202e-05f, -0.001122688f, 0.00010396259f, 0.0038478218f, -0.0006269742f, 0.001316772f},
-    {0.49385598f, -0.1304406f, -0.005455049f, 0.010843075f, 0.00029220208f, 0.0033424806f, -0.0042958967f, 0.9877109f, -0.2611663f, -0.010836805f, 0.024763307f, 0.0018728746f, 0.00046179382f, -0.013669414f, 0.00017166721f, 0.00015545824f, -0.00055902905f, -6.427073e-05f, -5.4985572e-05f, -0.00017279472f},
-    {0.3676038f, -0.112193935f, 0.03110537f, -0.0037548554f, -0.08412902f, 0.0029269115f, 0.13350046f, 0.73516417f, -0.22405392f, 0.059384685f, -0.011784727f, -0.1438246f, 0.015959827f, 0.21819216f, -0.00014637422f, 0.0007771924f, 0.0010804228f, -0.0029317609f, 5.016318e-05f, 0.00038309232f},
-    {0.26830468f, -0.08834548f, 0.012850826f, -0.00039551925f, 0.0052534444f, 0.005820039f, -0.00978276f, 0.53642505f, -0.17669949f, 0.027523803f, -0.00085962727f, 0.0014262104f, 0.009068674f, -0.008941263f, 4.9379858e-05f, 0.0012189441f, -0.0008419471f, -0.007331495f, 0.00054251554f, 0.00060161244f},
-};
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
   const std::size_t size = count;
@@ -144,68 +153,85 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float x = alpha * 4.0403953f - 0.04040381f;
-    const std::int32_t cell = cell_of(x, 3);
-    const float u = x - (static_cast<float>(cell) + 0.5f);
-    const float* row = kSpecularTable[cell];
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = row[6];
-    float c0_next = row[5];
-    c0 = c0 * u_2 + row[4];
-    c0_next = c0_next * u_2 + row[3];
-    c0 = c0 * u_2 + row[2];
-    c0_next = c0_next * u_2 + row[1];
-    c0 = c0 * u_2 + row[0];
-    c0 = c0_next * u + c0;
-    float c1 = row[13];
-    float c1_next = row[12];
-    c1 = c1 * u_2 + row[11];
-    c1_next = c1_next * u_2 + row[10];
-    c1 = c1 * u_2 + row[9];
-    c1_next = c1_next * u_2 + row[8];
-    c1 = c1 * u_2 + row[7];
+    float c0 = 9.137724f;
+    float c0_next = -0.11100608f;
+    c0 = c0 * u_2 + -5.032538f;
+    c0_next = c0_next * u_2 + 0.05839325f;
+    c0 = c0 * u_2 + 0.92244464f;
+    c0_next = c0_next * u_2 + -0.009383279f;
+    c0 = c0 * u_2 + -0.062440824f;
+    c0_next = c0_next * u_2 + 0.0004818904f;
+    c0 = c0 * u_2 + 0.0011318428f;
+    c0_next = c0_next * u_2 + -3.0785006e-06f;
+    c0 = c0 * u + c0_next;
+    float c1 = 11.877245f;
+    float c1_next = -3.779951f;
+    c1 = c1 * u_2 + -6.144704f;
+    c1_next = c1_next * u_2 + 2.2920058f;
+    c1 = c1 * u_2 + -0.08340548f;
+    c1_next = c1_next * u_2 + 0.6496192f;
+    c1 = c1 * u_2 + 0.15841183f;
+    c1_next = c1_next * u_2 + -1.1402819f;
+    c1 = c1 * u_2 + 0.9906605f;
     c1 = c1_next * u + c1;
-    float c2 = row[17];
-    c2 = c2 * u + row[16];
-    c2 = c2 * u + row[15];
-    c2 = c2 * u + row[14];
-    float c3 = row[19];
-    c3 = c3 * u + row[18];
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
 // Target alpha where target specular is at its limit.
 inline float bright_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.50500107f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = 2.789202f;
-  float c0_next = 2.7393825f;
-  c0 = c0 * u_2 + -0.09268294f;
-  c0_next = c0_next * u_2 + 0.9237332f;
-  c0 = c0 * u_2 + 0.66151315f;
-  c0 = c0_next * u + c0;
-  float c1 = -0.42777503f;
-  c1 = c1 * u + -0.6558936f;
-  c1 = c1 * u + -0.09781896f;
-  c1 = c1 * u + 0.06295408f;
-  float c2 = 0.1716948f;
-  c2 = c2 * u + 0.05165702f;
-  c2 = c2 * u + -0.017463254f;
-  const float w = specular - 0.90113795f;
-  float sum = c2;
+  float c0 = 11640.11f;
+  float c0_next = 5928.301f;
+  c0 = c0 * u_2 + 1144.4077f;
+  c0_next = c0_next * u_2 + 331.66782f;
+  c0 = c0 * u_2 + 109.00704f;
+  c0_next = c0_next * u_2 + 3.6136825f;
+  c0 = c0 * u_2 + -9.327423f;
+  c0_next = c0_next * u_2 + -1.7247624f;
+  c0 = c0 * u_2 + 1.9074594f;
+  c0_next = c0_next * u_2 + 0.48189563f;
+  c0 = c0 * u + c0_next;
+  float c1 = -26661.826f;
+  float c1_next = -12556.719f;
+  c1 = c1 * u_2 + -1961.0017f;
+  c1_next = c1_next * u_2 + -763.5975f;
+  c1 = c1 * u_2 + -405.31866f;
+  c1_next = c1_next * u_2 + -110.672386f;
+  c1 = c1 * u_2 + -14.996808f;
+  c1_next = c1_next * u_2 + 0.8709563f;
+  c1 = c1 * u_2 + 0.89109236f;
+  c1_next = c1_next * u_2 + 0.128261f;
+  c1 = c1 * u + c1_next;
+  float c2 = -5664.209f;
+  float c2_next = -2385.174f;
+  c2 = c2 * u_2 + -302.72766f;
+  c2_next = c2_next * u_2 + -72.679085f;
+  c2 = c2 * u_2 + -23.345798f;
+  c2_next = c2_next * u_2 + -2.0566552f;
+  c2 = c2 * u_2 + -0.036856677f;
+  c2_next = c2_next * u_2 + -0.018717127f;
+  c2 = c2 * u + c2_next;
+  float c3 = 213.52788f;
+  float c3_next = 77.51678f;
+  c3 = c3 * u_2 + 7.8281875f;
+  c3_next = c3_next * u_2 + 0.51854014f;
+  c3 = c3 * u_2 + 0.04967306f;
+  c3 = c3_next * u + c3;
+  const float w = specular - 0.85166276f;
+  float sum = c3;
+  sum = sum * w + c2;
   sum = sum * w + c1;
   sum = sum * w + c0;
   return sum;
@@ -318,7 +344,7 @@ struct Mapping {
     return detail::target_specular(terms, i, specular);
   }
   static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.80227554f));
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.703325f));
   }
   template <class Count>
   static void find_wide_terms(Count, Terms&) noexcept {}
@@ -660,19 +686,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {6918.77f, 1.0f}, {29.0f, 8.5e-05f}},
-      {{0.13375f, 0.9375f}, {39.428947f, 1.0f}, {0.013f, 8.5e-05f}},
-      {{0.2575f, 0.875f}, {10.751997f, 0.9733492f}, {0.0023f, 8.5e-05f}},
-      {{0.38125f, 0.8125f}, {4.6560154f, 0.80251575f}, {0.00084f, 8.5e-05f}},
-      {{0.505f, 0.75f}, {2.4137115f, 0.64302856f}, {0.00046f, 8.4e-05f}},
-      {{0.62875f, 0.6875f}, {1.3379188f, 0.505442f}, {3e-04f, 8.4e-05f}},
-      {{0.7525f, 0.625f}, {0.6781487f, 0.3946711f}, {0.00022f, 8.4e-05f}},
-      {{0.87625f, 0.5625f}, {0.32758874f, 0.30184314f}, {0.00018f, 8.4e-05f}},
-      {{1.0f, 0.5f}, {0.1231465f, 0.2276302f}, {0.00016f, 8.4e-05f}},
-      {{0.005f, 0.5f}, {7343.934f, 0.6232248f}, {31.0f, 8.4e-05f}},
-      {{1.5f, 0.25f}, {0.1231465f, 0.11385141f}, {0.00016f, 8.4e-05f}},
-      {{0.505f, 0.0f}, {2.4137115f, 4.5110337e-05f}, {0.00046f, 8.4e-05f}},
-      {{0.505f, 2.0f}, {2.4137115f, 1.7148014f}, {0.00046f, 0.00017f}},
+      {{0.01f, 1.0f}, {7473.5186f, 1.0f}, {120.0f, 8.2e-05f}},
+      {{0.13375f, 0.9375f}, {42.077633f, 1.0f}, {0.051f, 8.2e-05f}},
+      {{0.2575f, 0.875f}, {11.489184f, 1.0f}, {0.0086f, 8.2e-05f}},
+      {{0.38125f, 0.8125f}, {5.233749f, 0.92036337f}, {0.0034f, 8.2e-05f}},
+      {{0.505f, 0.75f}, {2.7404132f, 0.7430132f}, {0.0018f, 8.2e-05f}},
+      {{0.62875f, 0.6875f}, {1.370118f, 0.5866451f}, {0.0011f, 8.2e-05f}},
+      {{0.7525f, 0.625f}, {0.64737046f, 0.4551539f}, {0.00075f, 8.2e-05f}},
+      {{0.87625f, 0.5625f}, {0.280338f, 0.34965435f}, {6e-04f, 8.2e-05f}},
+      {{1.0f, 0.5f}, {0.064633146f, 0.26596335f}, {0.00052f, 8.2e-05f}},
+      {{0.005f, 0.5f}, {8245.151f, 0.71090484f}, {140.0f, 8.2e-05f}},
+      {{1.5f, 0.25f}, {0.064633146f, 0.13297936f}, {0.00052f, 8.2e-05f}},
+      {{0.505f, 0.0f}, {2.7404132f, 1.6888996e-05f}, {0.0018f, 8.2e-05f}},
+      {{0.505f, 2.0f}, {2.7404132f, 1.9813572f}, {0.0018f, 0.00017f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_ward.csv, sha256 4ffe6d2a5e43b9d7f9cc11dee4779c28bc0138417be2d086903d5cbc03a9ace4;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: series, seed 1, 827 rows trained, 207 held out.
-// Error on the rows held out: alpha rms 0.0014, 99 % 0.0052, max 0.006;
-// specular rms 0.00011, 99 % 0.00045, max 7e-04.
-// Lowered from the fit. Target alpha: degree 6, proven within 3.8e-07 (sampled 3.3e-08), rising with alpha.
-// Target specular: degree 6, proven within 3.6e-05 (sampled 3.4e-05), rising with specular.
-// Where alpha is at its limit, target specular: degree 3 in alpha / (alpha + 1), proven within 8.8e-05 (sampled 8.2e-05), rising with specular.
-// Where specular is at its limit, target alpha: degree 14 in alpha / (alpha + 1), 8 in specular, proven within 1e-04 (sampled 8.9e-05), rising with alpha.
-// All together within 0.00015 in alpha, 8.8e-05 in specular.
+// Table mitsuba_ward_duer_to_mitsuba_ward.csv, sha256 3e4c09f54a13e85f999b8ee3a0683142bbba255f06a05ca53200738361a4bc47;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Fit: series, seed 1, 829 rows trained, 207 held out.
+// Error on the rows held out: alpha rms 0.00028, 99 % 0.0012, max 0.0014;
+// specular rms 6.3e-05, 99 % 0.00028, max 0.00035.
+// Lowered from the fit. Target alpha: degree 8, proven within 3.7e-07 (sampled 1.2e-08), rising with alpha.
+// Target specular: degree 7, proven within 2.3e-05 (sampled 7.5e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, proven within 3e-05 (sampled 2.6e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 15 in alpha / (alpha + 1), 9 in specular, proven within 8.9e-05 (sampled 7.3e-05), rising with alpha.
+// All together within 0.00013 in alpha, 3e-05 in specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_WARD_HPP
@@ -39,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.0014f;
-inline constexpr float kSpecularRmsError = 0.00011f;
+inline constexpr float kAlphaRmsError = 0.00028f;
+inline constexpr float kSpecularRmsError = 6.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.14f;
+inline constexpr float kImageRmsError = 0.12f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -78,15 +78,17 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float) noexcept {
-  const float u = alpha - 0.42335886f;
+  const float u = alpha - 0.416742f;
   const float u_2 = u * u;
-  float c0 = -0.2347847f;
-  float c0_next = 0.040674023f;
-  c0 = c0 * u_2 + 0.17954487f;
-  c0_next = c0_next * u_2 + 0.32397413f;
-  c0 = c0 * u_2 + 0.34458074f;
-  c0_next = c0_next * u_2 + 1.1471356f;
-  c0 = c0 * u_2 + 0.44460386f;
+  float c0 = -3.7120802f;
+  float c0_next = -2.6218097f;
+  c0 = c0 * u_2 + 0.5339135f;
+  c0_next = c0_next * u_2 + 0.88997364f;
+  c0 = c0 * u_2 + 0.261625f;
+  c0_next = c0_next * u_2 + 0.32197025f;
+  c0 = c0 * u_2 + 0.37423694f;
+  c0_next = c0_next * u_2 + 1.1575068f;
+  c0 = c0 * u_2 + 0.43884075f;
   c0 = c0_next * u + c0;
   return c0;
 }
@@ -111,24 +113,26 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.42335886f;
+    const float u = alpha - 0.416742f;
     const float u_2 = u * u;
-    float c0 = 0.07175995f;
-    float c0_next = 0.016151672f;
-    c0 = c0 * u_2 + -0.015965572f;
-    c0_next = c0_next * u_2 + -0.0034676248f;
-    c0 = c0 * u_2 + 0.0007745123f;
-    c0_next = c0_next * u_2 + 0.00013474547f;
-    c0 = c0 * u_2 + -2.422384e-06f;
-    c0 = c0_next * u + c0;
-    float c1 = 2.3673177f;
-    float c1_next = 0.5002267f;
-    c1 = c1 * u_2 + -0.34664798f;
-    c1_next = c1_next * u_2 + 0.17401047f;
-    c1 = c1 * u_2 + 1.0024989f;
-    c1_next = c1_next * u_2 + 0.7407824f;
-    c1 = c1 * u_2 + 1.5232482f;
-    c1 = c1_next * u + c1;
+    float c0 = 0.074797526f;
+    float c0_next = 0.024656398f;
+    c0 = c0 * u_2 + -0.014986922f;
+    c0_next = c0_next * u_2 + -0.004556408f;
+    c0 = c0 * u_2 + 0.0006260732f;
+    c0_next = c0_next * u_2 + 0.00017709147f;
+    c0 = c0 * u_2 + -1.0673978e-06f;
+    c0_next = c0_next * u_2 + -1.2178814e-06f;
+    c0 = c0 * u + c0_next;
+    float c1 = -9.185468f;
+    float c1_next = -0.9339866f;
+    c1 = c1 * u_2 + 3.0748994f;
+    c1_next = c1_next * u_2 + 0.95332974f;
+    c1 = c1 * u_2 + 0.35681275f;
+    c1_next = c1_next * u_2 + 1.1715312f;
+    c1 = c1 * u_2 + 0.8400304f;
+    c1_next = c1_next * u_2 + 1.6199749f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -142,16 +146,13 @@ inline float target_specular(const Terms& terms, std::size_t i, float specular) 
 
 // Target specular where target alpha is at its limit.
 inline float wide_specular(float alpha, float specular) noexcept {
-  const float t = alpha / (alpha + 1.0f);
-  const float u = t - 0.4773119f;
-  float c0 = 15.125186f;
-  c0 = c0 * u + 0.014172413f;
-  c0 = c0 * u + -0.008383349f;
-  c0 = c0 * u + 2.9633526e-05f;
-  float c1 = 58.297523f;
-  c1 = c1 * u + 5.6615667f;
-  c1 = c1 * u + -10.018868f;
-  c1 = c1 * u + 1.7856948f;
+  const float u = alpha - 0.9102497f;
+  float c0 = 0.0011029276f;
+  c0 = c0 * u + -0.00020112058f;
+  c0 = c0 * u + 5.7409416e-06f;
+  float c1 = 1.120911f;
+  c1 = c1 * u + -2.2127295f;
+  c1 = c1 * u + 2.0042524f;
   float sum = c1;
   sum = sum * specular + c0;
   return sum;
@@ -162,85 +163,102 @@ inline float bright_alpha(float alpha, float specular) noexcept {
   const float t = alpha / (alpha + 1.0f);
   const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = -78613672.0f;
-  float c0_next = -27501176.0f;
-  c0 = c0 * u_2 + 7708780.0f;
-  c0_next = c0_next * u_2 + 2844496.8f;
-  c0 = c0 * u_2 + -396059.25f;
-  c0_next = c0_next * u_2 + -111066.42f;
-  c0 = c0 * u_2 + 24810.482f;
-  c0_next = c0_next * u_2 + 5759.209f;
-  c0 = c0 * u_2 + -379.8146f;
-  c0_next = c0_next * u_2 + -207.61891f;
-  c0 = c0 * u_2 + -27.484486f;
-  c0_next = c0_next * u_2 + 0.1823277f;
-  c0 = c0 * u_2 + 2.4838178f;
-  c0_next = c0_next * u_2 + 1.8930445f;
-  c0 = c0 * u_2 + 0.35188404f;
-  c0 = c0_next * u + c0;
-  float c1 = -4856726.5f;
-  float c1_next = -1642701.9f;
-  c1 = c1 * u_2 + 384465.75f;
-  c1_next = c1_next * u_2 + 149929.69f;
-  c1 = c1 * u_2 + -10997.636f;
-  c1_next = c1_next * u_2 + -2321.4014f;
-  c1 = c1 * u_2 + 1497.071f;
-  c1_next = c1_next * u_2 + 218.31313f;
-  c1 = c1 * u_2 + -40.649178f;
-  c1_next = c1_next * u_2 + -23.399578f;
-  c1 = c1 * u_2 + -7.0231113f;
-  c1_next = c1_next * u_2 + -0.9261933f;
-  c1 = c1 * u_2 + -0.022181693f;
+  float c0 = -506494560.0f;
+  float c0_next = -114949632.0f;
+  c0 = c0 * u_2 + 94202528.0f;
+  c0_next = c0_next * u_2 + 22465204.0f;
+  c0 = c0 * u_2 + -6063361.5f;
+  c0_next = c0_next * u_2 + -1514719.8f;
+  c0 = c0 * u_2 + 153582.27f;
+  c0_next = c0_next * u_2 + 34865.094f;
+  c0 = c0 * u_2 + -2557.765f;
+  c0_next = c0_next * u_2 + 79.29264f;
+  c0 = c0 * u_2 + 156.82892f;
+  c0_next = c0_next * u_2 + 13.877063f;
+  c0 = c0 * u_2 + -1.7119201f;
+  c0_next = c0_next * u_2 + 0.33565637f;
+  c0 = c0 * u_2 + 1.4883877f;
+  c0_next = c0_next * u_2 + 0.32692876f;
+  c0 = c0 * u + c0_next;
+  float c1 = 213128368.0f;
+  float c1_next = 52360504.0f;
+  c1 = c1 * u_2 + -34501196.0f;
+  c1_next = c1_next * u_2 + -8843277.0f;
+  c1 = c1 * u_2 + 1917885.5f;
+  c1_next = c1_next * u_2 + 503153.56f;
+  c1 = c1 * u_2 + -36308.992f;
+  c1_next = c1_next * u_2 + -6292.872f;
+  c1 = c1 * u_2 + -563.6399f;
+  c1_next = c1_next * u_2 + -681.1122f;
+  c1 = c1 * u_2 + 59.28521f;
+  c1_next = c1_next * u_2 + 51.019608f;
+  c1 = c1 * u_2 + -4.4424973f;
+  c1_next = c1_next * u_2 + -3.085291f;
+  c1 = c1 * u_2 + -0.25910854f;
   c1 = c1_next * u + c1;
-  float c2 = 97982.02f;
-  float c2_next = 16079.567f;
-  c2 = c2 * u_2 + -15304.417f;
-  c2_next = c2_next * u_2 + -3985.5378f;
-  c2 = c2 * u_2 + -176.88899f;
-  c2_next = c2_next * u_2 + 25.170744f;
-  c2 = c2 * u_2 + 55.764706f;
-  c2_next = c2_next * u_2 + 14.680933f;
-  c2 = c2 * u_2 + 0.73737025f;
-  c2_next = c2_next * u_2 + -0.013979954f;
-  c2 = c2 * u + c2_next;
-  float c3 = 92602.914f;
-  float c3_next = 35477.652f;
-  c3 = c3 * u_2 + 4815.62f;
-  c3_next = c3_next * u_2 + 300.08743f;
-  c3 = c3 * u_2 + -609.63684f;
-  c3_next = c3_next * u_2 + -327.98245f;
-  c3 = c3 * u_2 + 16.196999f;
-  c3_next = c3_next * u_2 + 7.0490184f;
-  c3 = c3 * u_2 + -0.19115926f;
-  c3 = c3_next * u + c3;
-  float c4 = -11363.453f;
-  float c4_next = -464.38455f;
-  c4 = c4 * u_2 + 3933.3577f;
-  c4_next = c4_next * u_2 + 753.5125f;
-  c4 = c4 * u_2 + -579.296f;
-  c4_next = c4_next * u_2 + 7.6068745f;
-  c4 = c4 * u_2 + 6.8006124f;
-  c4 = c4_next * u + c4;
-  float c5 = -59979.504f;
-  float c5_next = -20195.186f;
-  c5 = c5 * u_2 + 2136.7974f;
-  c5_next = c5_next * u_2 + 3412.3235f;
-  c5 = c5 * u_2 + 2113.0469f;
-  c5_next = c5_next * u_2 + -558.9851f;
-  c5 = c5 * u_2 + -8.0835f;
-  c5 = c5_next * u + c5;
-  float c6 = -22573.2f;
-  float c6_next = -9640.3955f;
-  c6 = c6 * u_2 + -767.1219f;
-  c6_next = c6_next * u_2 + 2417.0127f;
-  c6 = c6 * u_2 + -236.76778f;
+  float c2 = -341047.5f;
+  float c2_next = 46219.43f;
+  c2 = c2 * u_2 + 56972.965f;
+  c2_next = c2_next * u_2 + -3448.7112f;
+  c2 = c2 * u_2 + -1159.0708f;
+  c2_next = c2_next * u_2 + 737.84174f;
+  c2 = c2 * u_2 + -156.02937f;
+  c2_next = c2_next * u_2 + -95.53771f;
+  c2 = c2 * u_2 + 6.7240896f;
+  c2_next = c2_next * u_2 + 5.3339167f;
+  c2 = c2 * u_2 + 0.44826743f;
+  c2 = c2_next * u + c2;
+  float c3 = 822747.94f;
+  float c3_next = 264409.88f;
+  c3 = c3 * u_2 + -82916.055f;
+  c3_next = c3_next * u_2 + -32100.525f;
+  c3 = c3 * u_2 + 50.25254f;
+  c3_next = c3_next * u_2 + 715.4653f;
+  c3 = c3 * u_2 + 235.64658f;
+  c3_next = c3_next * u_2 + 23.687517f;
+  c3 = c3 * u_2 + -9.3486595f;
+  c3_next = c3_next * u_2 + -1.1116706f;
+  c3 = c3 * u + c3_next;
+  float c4 = -2923449.0f;
+  float c4_next = -902699.94f;
+  c4 = c4 * u_2 + 173442.64f;
+  c4_next = c4_next * u_2 + 75612.99f;
+  c4 = c4 * u_2 + 7721.333f;
+  c4_next = c4_next * u_2 + 638.78906f;
+  c4 = c4 * u_2 + -843.3092f;
+  c4_next = c4_next * u_2 + -148.43138f;
+  c4 = c4 * u_2 + 26.156696f;
+  c4_next = c4_next * u_2 + 2.2916298f;
+  c4 = c4 * u + c4_next;
+  float c5 = 361717.22f;
+  float c5_next = 69335.49f;
+  c5 = c5 * u_2 + -38021.445f;
+  c5_next = c5_next * u_2 + -4317.601f;
+  c5 = c5 * u_2 + 1481.5901f;
+  c5_next = c5_next * u_2 + 224.48215f;
+  c5 = c5 * u_2 + -77.02043f;
+  c5_next = c5_next * u_2 + 4.4883842f;
+  c5 = c5 * u + c5_next;
+  float c6 = 4222.4067f;
+  float c6_next = 3950.5322f;
+  c6 = c6 * u_2 + -1973.6565f;
+  c6_next = c6_next * u_2 + 311.9475f;
+  c6 = c6 * u_2 + -38.76541f;
   c6 = c6_next * u + c6;
-  float c7 = -4101.1904f;
-  c7 = c7 * u + -2970.5874f;
-  c7 = c7 * u + 915.4564f;
-  const float c8 = -796.28406f;
-  const float w = specular - 0.749061f;
-  float sum = c8;
+  float c7 = -50434.336f;
+  float c7_next = -1959.4407f;
+  c7 = c7 * u_2 + 9356.157f;
+  c7_next = c7_next * u_2 + -2243.6807f;
+  c7 = c7 * u_2 + 104.53682f;
+  c7 = c7_next * u + c7;
+  float c8 = -29720.531f;
+  c8 = c8 * u + -8108.5034f;
+  c8 = c8 * u + 5184.8716f;
+  c8 = c8 * u + -322.446f;
+  const float c9 = 583.21136f;
+  const float w = specular - 0.728386f;
+  float sum = c9;
+  sum = sum * w + c8;
   sum = sum * w + c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
@@ -354,12 +372,12 @@ struct Mapping {
   static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
-  static constexpr float mapping_to = 0.83671594f;  // the mapping has reached the limit of alpha before
+  static constexpr float mapping_to = 0.8234823f;  // the mapping has reached the limit of alpha before
   static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.8335968f), clamped_above(specular, 0.0f));
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.820499f), clamped_above(specular, 0.0f));
   }
   static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.49812102f));
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.45677084f));
   }
   template <class Count>
   static void find_wide_terms(Count, Terms&) noexcept {}
@@ -701,19 +719,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.010475228f, 1.0f}, {0.00015f, 8.9e-05f}},
-      {{0.13375f, 0.9375f}, {0.13808379f, 1.0f}, {0.00015f, 8.9e-05f}},
-      {{0.2575f, 0.875f}, {0.2639953f, 1.0f}, {0.00015f, 8.9e-05f}},
-      {{0.38125f, 0.8125f}, {0.3901297f, 1.0f}, {0.00015f, 8.9e-05f}},
-      {{0.505f, 0.75f}, {0.51873845f, 1.0f}, {0.00015f, 8.9e-05f}},
-      {{0.62875f, 0.6875f}, {0.65078545f, 1.0f}, {0.00015f, 8.9e-05f}},
-      {{0.7525f, 0.625f}, {0.79641354f, 1.0f}, {0.00015f, 8.9e-05f}},
-      {{0.87625f, 0.5625f}, {0.97312695f, 1.0f}, {0.00016f, 8.9e-05f}},
-      {{1.0f, 0.5f}, {1.0f, 0.7810137f}, {0.00016f, 8.9e-05f}},
-      {{0.005f, 0.5f}, {0.009999993f, 0.68583786f}, {0.00015f, 8.9e-05f}},
-      {{1.5f, 0.25f}, {1.0f, 0.39052004f}, {0.00016f, 8.9e-05f}},
-      {{0.505f, 0.0f}, {0.5407384f, 0.0f}, {0.00015f, 8.8e-05f}},
-      {{0.505f, 2.0f}, {0.48933828f, 2.0f}, {0.00015f, 0.00018f}},
+      {{0.01f, 1.0f}, {0.010475203f, 1.0f}, {0.00014f, 3.1e-05f}},
+      {{0.13375f, 0.9375f}, {0.13389193f, 1.0f}, {0.00014f, 3.1e-05f}},
+      {{0.2575f, 0.875f}, {0.23869161f, 1.0f}, {0.00014f, 3.1e-05f}},
+      {{0.38125f, 0.8125f}, {0.3344153f, 1.0f}, {0.00014f, 3.1e-05f}},
+      {{0.505f, 0.75f}, {0.43867615f, 1.0f}, {0.00014f, 3.1e-05f}},
+      {{0.62875f, 0.6875f}, {0.56286377f, 1.0f}, {0.00014f, 3.1e-05f}},
+      {{0.7525f, 0.625f}, {0.71466774f, 1.0f}, {0.00014f, 3.1e-05f}},
+      {{0.87625f, 0.5625f}, {0.88836724f, 1.0f}, {0.00014f, 3.1e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.907346f}, {0.00014f, 3.1e-05f}},
+      {{0.005f, 0.5f}, {0.010000363f, 0.72632277f}, {0.00014f, 3.1e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.4536753f}, {0.00014f, 3.1e-05f}},
+      {{0.505f, 0.0f}, {0.5441572f, 1.4632279e-06f}, {0.00014f, 3e-05f}},
+      {{0.505f, 2.0f}, {0.3541581f, 2.0f}, {0.00014f, 6.1e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

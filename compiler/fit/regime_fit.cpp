@@ -15,8 +15,8 @@ namespace {
 
 // The joint of the wide regime is one more width, with a row for each specular.
 constexpr std::size_t kFewestWide = 8, kFewestBright = 20, kFewestBrightWidths = 2;
-// Widths beyond the joint to which the mapping is continued. One would do; the second keeps a curve from
-// turning back.
+// Widths beyond the joint at every specular to which the mapping is continued. One would do; the second keeps
+// a curve from turning back.
 constexpr std::size_t kContinuedWidths = 2;
 constexpr int kContinuedSpeculars = 5;  // rows of a column
 constexpr int kSpeculars = 33;          // at which a joint is looked for
@@ -30,6 +30,8 @@ constexpr double kLeastBright = 1e-3;  // of the range of source specular
 constexpr double kSameJoint =
     2e-3;  // between the rows on both sides of a joint, relative to the range of specular
 
+constexpr double kApart = 0.01;  // speculars of different rows of the grid, at least
+
 using Column = std::vector<TableRow>;  // rows of one width, by rising specular
 
 std::map<double, Column> columns_of(const std::vector<TableRow>& rows) {
@@ -37,6 +39,10 @@ std::map<double, Column> columns_of(const std::vector<TableRow>& rows) {
   for (const TableRow& row : rows) columns[row.alpha1].push_back(row);
   for (auto& [alpha, column] : columns) std::ranges::sort(column, {}, &TableRow::specular1);
   return columns;
+}
+
+bool has_status(const Column& column, RowStatus status) {
+  return std::ranges::count(column, status, &TableRow::status) != 0;
 }
 
 // The rows of one regime in `column`, continued to its end: specular in proportion, as pictures are.
@@ -133,6 +139,22 @@ std::string rows_text(const std::vector<TableRow>& rows) {
   return ", " + std::to_string(rows.size()) + " rows";
 }
 
+// The degree in specular that the longest column determines. Rows at a joint count as one.
+int specular_degree(const std::map<double, Column>& columns) {
+  int most = 0;
+  for (const auto& [alpha, column] : columns) {
+    int count = 0;
+    double last = -1.0;
+    for (const TableRow& row : column)
+      if (row.specular1 - last > kApart) {
+        ++count;
+        last = row.specular1;
+      }
+    most = std::max(most, count);
+  }
+  return std::min(std::max(most - 1, 1), kAnyDegree);
+}
+
 class RegimeFit {
  public:
   RegimeFit(const RegimeRows& rows, const TargetLimits& limits, const MappingKind& mapping,
@@ -175,6 +197,7 @@ class RegimeFit {
     }
     if (wide.specular.alpha.max - wide.specular.alpha.min < kLeastWide) return std::nullopt;
     std::vector<TableRow> rows = rows_.wide;
+    const std::map<double, Column> columns = columns_of(rows_.wide);
     std::set<double> speculars;
     for (const TableRow& row : rows_.wide) speculars.insert(row.specular1);
     for (const double specular : speculars) {
@@ -183,9 +206,15 @@ class RegimeFit {
       row.specular1 = specular;
       row.specular2 = mapped(row.alpha1, specular).specular;
       rows.push_back(row);
+      // Of two widths, a series knows no product of width and specular: a third one lies on their line.
+      const auto target = target_in(columns.begin()->second, specular);
+      if (columns.size() > 1 || !target) continue;
+      row.alpha1 = 0.5 * (row.alpha1 + columns.begin()->first);
+      row.specular2 = 0.5 * (row.specular2 + target->specular);
+      rows.push_back(row);
     }
-    wide.specular = best_series(rows, columns_of(rows_.wide).size() + 1, &TableRow::specular2, wide.specular,
-                                series_shapes({kWideSpeculars}), seed_);
+    wide.specular = best_series(rows, std::max<std::size_t>(columns.size() + 1, 3), &TableRow::specular2,
+                                wide.specular, series_shapes({kWideSpeculars}), seed_);
     (*method_)["wide"] = series_text(wide.specular) + rows_text(rows);
     return wide;
   }
@@ -212,8 +241,9 @@ class RegimeFit {
                           {least(&TableRow::specular1), domain_.specular.max},
                           {}};
     if (box.specular.max - box.specular.min < kLeastBright * domain_.specular.max) return std::nullopt;
-    const TexelSeries series = best_series(rows, columns_of(rows).size(), &TableRow::alpha2, box,
-                                           series_shapes({kAnyDegree}), seed_);
+    const std::map<double, Column> columns = columns_of(rows);
+    const TexelSeries series = best_series(rows, columns.size(), &TableRow::alpha2, box,
+                                           series_shapes({specular_degree(columns)}), seed_);
     (*method_)["bright"] = series_text(series) + rows_text(rows);
     return series;
   }
@@ -248,7 +278,7 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<
   const bool has_wide = rows.wide.size() >= kFewestWide;
   if (!has_wide) rows.wide.clear();
   for (const auto& [alpha, column] : columns_of(training)) {
-    continue_in_specular(column, RowStatus::kOk, &rows.inside);
+    if (!has_status(column, RowStatus::kWide)) continue_in_specular(column, RowStatus::kOk, &rows.inside);
     if (has_wide) continue_in_specular(column, RowStatus::kWide, &rows.wide);
     if (!rows.bright.empty()) add_bright_ends(column, &rows.bright);
   }
@@ -258,10 +288,12 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<
     Column& own = inside[alpha];
     Column beyond;
     for (const TableRow& row : column) (row.status == RowStatus::kOk ? own : beyond).push_back(row);
-    continue_in_specular(column, RowStatus::kOk, &own);
-    const bool is_wide = std::ranges::count(column, RowStatus::kWide, &TableRow::status) != 0;
-    if (!is_wide || (has_wide && continued == kContinuedWidths)) continue;
-    ++continued;
+    if (!has_status(column, RowStatus::kWide)) {
+      continue_in_specular(column, RowStatus::kOk, &own);
+      continue;
+    }
+    if (has_wide && continued == kContinuedWidths) continue;
+    if (!has_status(column, RowStatus::kOk)) ++continued;
     continue_in_alpha(inside, alpha, beyond, !has_wide, &rows.inside);
   }
   return rows;

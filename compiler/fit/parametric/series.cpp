@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-constexpr std::array kDegrees = {1, 2, 3, 4, 6, 8, 10, 12};
+constexpr std::array kDegrees = {1, 2, 3, 4, 6, 8, 10, 12, 16};
 constexpr std::size_t kSeriesFolds = 5;
 constexpr double kRowsATerm = 1.5;  // at least
 

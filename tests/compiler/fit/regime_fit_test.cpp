@@ -120,6 +120,38 @@ TEST_CASE("regime fit: too few rows of a regime leave the mapping cut off at the
   CHECK(end.specular == Approx(made_regimes::free_specular(fit.domain.alpha.max, 0.3)).margin(0.01));
 }
 
+// `steepness` decides at which width the limit of alpha, 1, is reached; there, specular falls faster.
+TEST_CASE("regime fit: a width that is partly at the limit, and a single width beyond it") {
+  for (const double steepness : {1.4, 1.347}) {
+    INFO(steepness);
+    const auto exact = [&](double alpha, double specular) {
+      const double free = steepness * (alpha - 0.25 * alpha * alpha) * (0.97 + 0.03 * specular);
+      return MappedTexel{std::min(free, 1.0), 0.7 * specular * (1.0 - 2.0 * std::max(0.0, free - 1.0))};
+    };
+    Table table = regime_table(1, 1);
+    table.rows.clear();
+    table.comments = {{kAlphaLimitComment, "1"}, {kSpecularLimitComment, "1"}};
+    for (int i = 0; i < 30; ++i)
+      for (int j = 1; j <= 30; ++j) {
+        const double alpha = 0.01 + 0.99 * i / 29, specular = j / 30.0;
+        const MappedTexel target = exact(alpha, specular);
+        table.rows.push_back({alpha, specular, target.alpha, target.specular, 0.0,
+                              target.alpha < 1.0 ? RowStatus::kOk : RowStatus::kClamped,
+                              table.rows.size() + 2});
+      }
+    find_limits(&table);
+    const Fit fit = fit_of(table, "series");
+    REQUIRE(fit.regimes.wide.has_value());
+    for (int i = 0; i <= 97; ++i)
+      for (int j = 1; j <= 53; ++j) {
+        const double alpha = 0.01 + 0.99 * i / 97, specular = j / 53.0;
+        const MappedTexel found = evaluate_fit(fit, alpha, specular), right = exact(alpha, specular);
+        REQUIRE(found.alpha == Approx(right.alpha).margin(2e-3));
+        REQUIRE(found.specular == Approx(right.specular).margin(2e-3));
+      }
+  }
+}
+
 TEST_CASE("regime fit: a model that reaches its limits at the last rows alone has no regimes of its own") {
   Table table = regime_table(1, 1);
   table.rows.clear();

@@ -341,7 +341,7 @@ TEST_CASE("study environments: a fit is used as shipped") {
   options.fits = {load_fit(REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_as.json")};
   const EnvironmentsResult result = study_environments(options);
   const auto shipped = comparisons_of(result, Method::kShipped);
-  const auto natural = comparisons_of(result, Method::kNatural1);
+  const auto natural = comparisons_of(result, Method::kNatural2);
   REQUIRE(shipped.size() == natural.size());
   CHECK(result.remarks.empty());
   // The fit follows a sweep by the same objective at 512 pixels; here 64.

@@ -53,7 +53,7 @@ TEST_CASE("converter data: a damaged file is refused with the place") {
   };
   refused("\"version\": 1", "\"version\": 2", ".version");
   refused("\"ssim\": 0", "\"ssim\": \"0\", \"of\": 0", ".converters[0].ssim");
-  refused("\"cell_count\":16", "\"cell_count\":31", ".converters[0].alpha.coefficients");
-  refused("\"cell_count\":16", "\"cell_count\":0", ".converters[0].alpha.cell_count");
+  refused("\"cell_count\":32", "\"cell_count\":63", ".converters[0].alpha.coefficients");
+  refused("\"cell_count\":32", "\"cell_count\":0", ".converters[0].alpha.cell_count");
   refused("\"roughness\":\"exponent\"", "\"roughness\":\"width\"", ".converters[0].target.roughness");
 }
