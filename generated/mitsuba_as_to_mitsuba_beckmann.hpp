@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_beckmann.csv, sha256 9ac19c7eb4ae761f38d74b8866a9e8350878c212bd1bf19bd0fd65a4d4321059;
+// Table mitsuba_as_to_mitsuba_beckmann.csv, sha256 6d682590190ecc3ee74be34f973297bc903b79463d28d527437b5958cebd039a;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00017, 99 % 0.0012, max 0.0012;
@@ -42,7 +42,7 @@ inline constexpr float kAlphaRmsError = 0.00017f;
 inline constexpr float kSpecularRmsError = 9.5e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.052f;
+inline constexpr float kImageRmsError = 0.13f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_ggx.csv, sha256 e79ba66c24917196684c013494b1c88dd4d65a2a11b81319d8c24e31fa82c745;
+// Table mitsuba_as_to_mitsuba_ggx.csv, sha256 54b7cdff99ca38f33d916b68688381972f38cf6dfab6eae084b4eaf48ed82343;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 822 rows trained, 205 held out.
 // Error on the rows held out: alpha rms 0.00012, 99 % 0.00059, max 0.00097;
@@ -43,7 +43,7 @@ inline constexpr float kAlphaRmsError = 0.00012f;
 inline constexpr float kSpecularRmsError = 1.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.12f;
+inline constexpr float kImageRmsError = 0.28f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_as.csv, sha256 4e42b2adf26cb3625fd34ca4c71906aaee7a836e4f87fb4e9e9ddc3fb6c406d6;
+// Table mitsuba_beckmann_to_mitsuba_as.csv, sha256 fbf4912d0753c5f0bdb1e475ddaa0a25311c3028713ad5fcdf80a606b7fdb35d;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 757 rows trained, 189 held out.
 // Error on the rows held out: alpha rms 0.00029, 99 % 0.0015, max 0.0019;
@@ -42,7 +42,7 @@ inline constexpr float kAlphaRmsError = 0.00029f;
 inline constexpr float kSpecularRmsError = 3.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.055f;
+inline constexpr float kImageRmsError = 0.14f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_ggx.csv, sha256 d3bb2a18424b9e0b7ae3294c3b515ecad307f03046f7c8744239c8c05017c2b3;
+// Table mitsuba_beckmann_to_mitsuba_ggx.csv, sha256 cd70d2c03f60efb99a74e9d43246202f275d41ef67140718123e5bc2732442b1;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 817 rows trained, 204 held out.
 // Error on the rows held out: alpha rms 0.00022, 99 % 0.00072, max 0.0019;
@@ -43,7 +43,7 @@ inline constexpr float kAlphaRmsError = 0.00022f;
 inline constexpr float kSpecularRmsError = 9.7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.15f;
+inline constexpr float kImageRmsError = 0.37f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_as.csv, sha256 57d2eacbbdb3444a2ee3cb979f31421ebedeaeba7274d8f8599de4f731c09bb5;
+// Table mitsuba_phong_to_mitsuba_as.csv, sha256 76be8e6c6994cbf9fe235b3aff6ec127942b3ab647284e3d3a56e945aaee9b84;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 2.6e-05, 99 % 0.00012, max 0.00012;
@@ -41,7 +41,7 @@ inline constexpr float kAlphaRmsError = 2.6e-05f;
 inline constexpr float kSpecularRmsError = 9.6e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.15f;
+inline constexpr float kImageRmsError = 0.35f;
 
 struct Input {
   float exponent;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_beckmann.csv, sha256 4fd75078f2b3fe620ce9a7938da8ae83df9e67a403da1cd71480da1a0426b3e4;
+// Table mitsuba_phong_to_mitsuba_beckmann.csv, sha256 95aa5f6cebdddc1b062cbbe39145a150a8d6d808c37a6ef45209f03cc7d6c555;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 9e-05, 99 % 4e-04, max 0.00043;
@@ -41,7 +41,7 @@ inline constexpr float kAlphaRmsError = 9e-05f;
 inline constexpr float kSpecularRmsError = 4.8e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.15f;
+inline constexpr float kImageRmsError = 0.36f;
 
 struct Input {
   float exponent;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0

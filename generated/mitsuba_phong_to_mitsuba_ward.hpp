@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_ward.csv, sha256 e6e2e6ce39b1c10649bf5099783ae4cc0a7f600a02c6fc515a627a0049960823;
+// Table mitsuba_phong_to_mitsuba_ward.csv, sha256 ff30462f3e494bf8d3b6dff17d3cd25975461e82a05a710d2a099a7a4b73153d;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 797 rows trained, 199 held out.
 // Error on the rows held out: alpha rms 6.1e-05, 99 % 0.00033, max 0.00033;
@@ -44,7 +44,7 @@ inline constexpr float kAlphaRmsError = 6.1e-05f;
 inline constexpr float kSpecularRmsError = 7.1e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.19f;
+inline constexpr float kImageRmsError = 0.45f;
 
 struct Input {
   float exponent;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_ward_duer.csv, sha256 8085f06ba5cecb0f15cadd4ed2e072e7ebcff020641ad52b5962edc6a5e31425;
+// Table mitsuba_phong_to_mitsuba_ward_duer.csv, sha256 c641020082d348f991c58805459062b636e30bd50fee7363ce7e3da56841cdac;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 744 rows trained, 186 held out.
 // Error on the rows held out: alpha rms 0.00013, 99 % 0.00051, max 0.00051;
@@ -43,7 +43,7 @@ inline constexpr float kAlphaRmsError = 0.00013f;
 inline constexpr float kSpecularRmsError = 5.6e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.16f;
+inline constexpr float kImageRmsError = 0.39f;
 
 struct Input {
   float exponent;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0

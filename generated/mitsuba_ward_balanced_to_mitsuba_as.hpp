@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_as.csv, sha256 b0c3304a249ac3a7fd6ae60ae635464a244c8d0dc5164a38abd9dc8fd8959109;
+// Table mitsuba_ward_balanced_to_mitsuba_as.csv, sha256 3a8948c154c27ec0cf8173f5ee79750872975983fa569cb6898192bb4e2d13b7;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 5.7e-05, 99 % 2e-04, max 3e-04;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 5.7e-05f;
 inline constexpr float kSpecularRmsError = 7.7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.04f;
+inline constexpr float kImageRmsError = 0.097f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

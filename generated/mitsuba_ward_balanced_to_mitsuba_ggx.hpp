@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_ggx.csv, sha256 737b80dabdb60486a91d222a2cf2b022ca43280222df501854195afc5f3f96ef;
+// Table mitsuba_ward_balanced_to_mitsuba_ggx.csv, sha256 23bb2d98313c6cfad10e08b30531f95bdf0395e27390603f8aa571864b362eff;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 736 rows trained, 184 held out.
 // Error on the rows held out: alpha rms 0.00016, 99 % 0.00071, max 0.0018;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00016f;
 inline constexpr float kSpecularRmsError = 5.2e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.14f;
+inline constexpr float kImageRmsError = 0.34f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_ward_duer.csv, sha256 de983ff44c3db1a46bf6900a385d9f4d5163240a692ef916237ffa40d807cd18;
+// Table mitsuba_ward_balanced_to_mitsuba_ward_duer.csv, sha256 86f831f1075cbfb0bebb034872f16f185da862c0f8e5f895e7ec3e169ba81548;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 807 rows trained, 202 held out.
 // Error on the rows held out: alpha rms 0.00012, 99 % 0.00046, max 0.00076;
@@ -42,7 +42,7 @@ inline constexpr float kAlphaRmsError = 0.00012f;
 inline constexpr float kSpecularRmsError = 5.8e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.073f;
+inline constexpr float kImageRmsError = 0.18f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

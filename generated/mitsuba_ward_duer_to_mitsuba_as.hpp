@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_as.csv, sha256 35569bf44cdde0bcd79d8b81610333480cb13bc4d083da3600b791ea48ecf201;
+// Table mitsuba_ward_duer_to_mitsuba_as.csv, sha256 76f7b068af4be92278e8b3d1953f275e1323b28c2102599435a1dabd1b9476ea;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00038, 99 % 0.0012, max 0.0012;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00038f;
 inline constexpr float kSpecularRmsError = 6.1e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.036f;
+inline constexpr float kImageRmsError = 0.087f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

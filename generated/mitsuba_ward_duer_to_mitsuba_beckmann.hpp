@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_beckmann.csv, sha256 7a8b8aba90b4ff078ff28c65c9f69dc96aac4d27ed69ef5df24bc6688f6339ff;
+// Table mitsuba_ward_duer_to_mitsuba_beckmann.csv, sha256 52cbee200cee0eb7faa8e3ba1d9c80a4d3b2dfa0dca58eb140bb453bc1c744d2;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00024, 99 % 0.00073, max 0.00075;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00024f;
 inline constexpr float kSpecularRmsError = 6.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.032f;
+inline constexpr float kImageRmsError = 0.077f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

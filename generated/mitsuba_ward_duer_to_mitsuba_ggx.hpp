@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_ggx.csv, sha256 63f2025284f4b1bd29b8d12702ddce0113d4f4155097e74a7d3a6f45ca8f5a8b;
+// Table mitsuba_ward_duer_to_mitsuba_ggx.csv, sha256 15d628bf0a3fe1250af68f2e9b3cbef1af89b58c4e2a1eb1163a7e34a4b6027e;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 725 rows trained, 181 held out.
 // Error on the rows held out: alpha rms 0.0016, 99 % 0.0053, max 0.0055;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.0016f;
 inline constexpr float kSpecularRmsError = 0.00071f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.13f;
+inline constexpr float kImageRmsError = 0.32f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_ward_balanced.csv, sha256 03d6a05899bdd51d36f60df188250b973384ac8168658bea8fd4d7642a5489d3;
+// Table mitsuba_ward_duer_to_mitsuba_ward_balanced.csv, sha256 3a10f73c3e7c8a7417e04f82d9c54cb5dad679a38de01e8b0bfc40c322200eae;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00018, 99 % 0.00053, max 0.00053;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00018f;
 inline constexpr float kSpecularRmsError = 0.00013f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.045f;
+inline constexpr float kImageRmsError = 0.11f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_to_mitsuba_beckmann.csv, sha256 bab0c076d5e190af916f1df80e66797ca18ec45637835706e9235b6af56de122;
+// Table mitsuba_ward_to_mitsuba_beckmann.csv, sha256 ba9d114e03f1fe4f525b4686cf530fae32a00ab852f80a2730b431312a1c37ce;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00011, 99 % 0.00041, max 0.00043;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00011f;
 inline constexpr float kSpecularRmsError = 4.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.021f;
+inline constexpr float kImageRmsError = 0.051f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_to_mitsuba_ggx.csv, sha256 902a7012ed39a1f9362bb79ea59b6fbac5a315a76423e622b981897574f8e0e7;
+// Table mitsuba_ward_to_mitsuba_ggx.csv, sha256 1f4e074e388e7b8964fcd65bd36f2aaaeccaaa6b2285a1ae504b1ea64d1c28cf;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00064, 99 % 0.0023, max 0.0024;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00064f;
 inline constexpr float kSpecularRmsError = 0.00013f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.14f;
+inline constexpr float kImageRmsError = 0.34f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_to_mitsuba_phong.csv, sha256 390cc859bea768919951c6b0045adf4711ae9d7786969c80c1ef309e6d5fd62b;
+// Table mitsuba_ward_to_mitsuba_phong.csv, sha256 353a667ba15a9904e70d32fc2caf0715f6babad82959c5f8d1690da0ce5cc30e;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00027, 99 % 7e-04, max 7e-04;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00027f;
 inline constexpr float kSpecularRmsError = 3.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.14f;
+inline constexpr float kImageRmsError = 0.34f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

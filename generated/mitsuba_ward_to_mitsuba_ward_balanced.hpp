@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_to_mitsuba_ward_balanced.csv, sha256 577c5f23202d3dc70d5f0836ed1d6a9db34726fae92005944006f4f4975ed214;
+// Table mitsuba_ward_to_mitsuba_ward_balanced.csv, sha256 f827858d5e655f79fef46fc410f33c7626f62e14c04380d51bca539175d9c1ba;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00015, 99 % 0.00047, max 0.00047;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00015f;
 inline constexpr float kSpecularRmsError = 4.4e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.026f;
+inline constexpr float kImageRmsError = 0.063f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_to_mitsuba_ward_duer.csv, sha256 7a3efceb20b1003ec949b937f370eb3a5dedb5ef518c9fbc2c869e642b584815;
+// Table mitsuba_ward_to_mitsuba_ward_duer.csv, sha256 36b831a537d825f7b0a35470c8c16f489d84febd07851713932fcf349d4f1d65;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 2e-04, 99 % 0.00063, max 0.00063;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 2e-04f;
 inline constexpr float kSpecularRmsError = 7.2e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.028f;
+inline constexpr float kImageRmsError = 0.068f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -192,6 +192,7 @@ std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& bl
       match_diffuse_apart(setup, &row);
       match_whole(setup, &row);
     }
+    row.error *= setup.options.objective.error_factor();
     const bool clamped = !setup.source_widths.effective.contains(row.alpha1);
     if (clamped && row.status == RowStatus::kOk) row.status = RowStatus::kClamped;
   }

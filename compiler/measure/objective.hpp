@@ -1,6 +1,7 @@
 // The objective of a match: which lights the pictures have, and how much each pixel and the mean count.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ struct Objective {
   double floor = 0.1;       // used by kRelative
   double mean_share = 0.0;  // used by kRelative
 
+  // Image errors are relative to the power of the pixels: the root of loss over power, times this.
+  double error_factor() const { return compares_means() ? std::sqrt(1.0 + mean_share) : 1.0; }
   bool compares_means() const { return weighting == Weighting::kRelative && mean_share > 0.0; }
   bool operator==(const Objective&) const = default;
 };

@@ -55,8 +55,11 @@ TargetWidths target_widths(const PictureTaker& taker, const ProbedModel& target,
 // The difference of a source picture from those of a target whose specular is free.
 class Comparison {
  public:
-  Comparison(const std::vector<float>& source, std::vector<float> weights)
-      : source_(source), weights_(std::move(weights)), power_(product(source, source)) {}
+  Comparison(const std::vector<float>& source, std::vector<float> weights, double error_factor)
+      : source_(source),
+        weights_(std::move(weights)),
+        power_(product(source, source)),
+        error_factor_(error_factor) {}
 
   struct Best {
     double specular = 0.0, error = 0.0;
@@ -79,11 +82,11 @@ class Comparison {
   double product(const std::vector<float>& a, const std::vector<float>& b) const {
     return weighted_product(weights_.data(), a.data(), b.data(), a.size());
   }
-  double relative(double loss) const { return std::sqrt(std::max(0.0, loss) / power_); }
+  double relative(double loss) const { return error_factor_ * std::sqrt(std::max(0.0, loss) / power_); }
 
   const std::vector<float>& source_;
   std::vector<float> weights_;
-  double power_;
+  double power_, error_factor_;
 };
 
 // The least value of the parabola through three errors at equal steps, the middle one least, in squares:
@@ -124,6 +127,7 @@ class FitStudy {
       : options_(options),
         fit_(fit),
         taker_(renderer, objective_of(fit), options.resolution, 1),
+        error_factor_(objective_of(fit).error_factor()),
         source_(probed(renderer, fit.source.model)),
         target_(probed(renderer, fit.target.model)),
         widths_(target_widths(taker_, target_, kNarrowest * options.alphas.min)) {}
@@ -141,7 +145,7 @@ class FitStudy {
           source_.linear_range().max * static_cast<double>(k) / static_cast<double>(options_.materials);
       for (std::size_t i = 0; i < source.size(); ++i)
         source[i] = pictures.base[i] + static_cast<float>(material.specular) * pictures.slope[i];
-      const Comparison comparison(source, taker_.weights(source));
+      const Comparison comparison(source, taker_.weights(source), error_factor_);
       convert(&material);
       material.error =
           comparison.error(taker_.take(target_, {material.target_alpha, material.target_specular, 0.0}));
@@ -161,6 +165,7 @@ class FitStudy {
   const ReachOptions& options_;
   const Fit& fit_;
   PictureTaker taker_;
+  double error_factor_;
   ProbedModel source_, target_;
   TargetWidths widths_;
 };

@@ -25,7 +25,7 @@ class NaturalLoss {
       weights_.push_back(std::pow(static_cast<double>(cosines[i]) / (source_[i] / brightest + 0.1), 2));
   }
 
-  // Relative to that of a black target.
+  // Relative to the power of the pixels.
   double operator()(const Material& target) const {
     const std::vector<double> found = picture_of(target);
     double difference = 0.0, power = 0.0;
@@ -36,7 +36,7 @@ class NaturalLoss {
     const auto sum = [](const std::vector<double>& picture) {
       return std::accumulate(picture.begin(), picture.end(), 0.0);
     };
-    return (difference / power + 5.0 * std::pow(sum(found) / sum(source_) - 1.0, 2)) / 6.0;
+    return difference / power + 5.0 * std::pow(sum(found) / sum(source_) - 1.0, 2);
   }
 
  private:

@@ -40,7 +40,7 @@ TEST_CASE("reach: a conversion that is off has the excess of its error", "[study
   for (const ReachedMaterial& material : reach.materials) {
     CHECK(material.target_alpha == Approx(1.1 * material.alpha));
     CHECK(material.excess() > 0.02);
-    CHECK(material.excess() == Approx(material.error).margin(4e-3));
+    CHECK(material.excess() == Approx(material.error).margin(6e-3));
   }
   CHECK(reach.mean_excess() <= reach.worst().excess());
 }
