@@ -92,8 +92,10 @@ TEST_CASE("objective: natural is its newest version, and a sweep finds the minim
   CHECK(objective_preset("natural") == objective_preset("natural-2"));
   const auto renderer = make_builtin_renderer();
   constexpr int kSide = 64;
-  for (const auto& [source, target] :
-       {std::pair{"mitsuba/ggx", "mitsuba/beckmann"}, std::pair{"mitsuba/ward", "mitsuba/ggx"}}) {
+  using Pair = std::pair<std::string, std::string>;
+  for (const Pair& pair : {Pair{"mitsuba/ggx", "mitsuba/beckmann"}, Pair{"mitsuba/ward", "mitsuba/ggx"}}) {
+    const auto& source = pair.first;
+    const auto& target = pair.second;
     INFO(source);
     const TableRow row =
         sweep(*renderer, sweep_options(source, target, "natural-2", {{0.31, 0.37}}, kSide)).rows.front();
