@@ -258,7 +258,7 @@ class Builder {
     options.source = item.metallic;
     options.target = item.specular;
     options.source_roles.fixed = item.fixed;
-    options.objective = objective_preset("natural-1");
+    options.objective = recorded_objective("natural");  // a manifest names none for samples
     options.resolution = item.resolution;
     options.count = item.count;
     options.seed = seed;

@@ -44,6 +44,7 @@ class ComparisonRun {
  private:
   void run_stage(std::size_t stage) {
     constexpr std::size_t kKinds = kFitKinds.size() / kStages;
+    static_assert(kKinds * kStages == kFitKinds.size());
     const auto share = [&](double part) { return (static_cast<double>(stage) + part) / kStages; };
     for (std::size_t k = 0; k < kKinds; ++k) {
       const FitKind& kind = kFitKinds[stage * kKinds + k];

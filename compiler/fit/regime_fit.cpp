@@ -152,7 +152,7 @@ int specular_degree(const std::map<double, Column>& columns) {
       }
     most = std::max(most, count);
   }
-  return std::min(std::max(most - 1, 1), kAnyDegree);
+  return std::max(most - 1, 1);
 }
 
 class RegimeFit {

@@ -126,8 +126,8 @@ class FitStudy {
   FitStudy(const Renderer& renderer, const Fit& fit, const ReachOptions& options)
       : options_(options),
         fit_(fit),
-        taker_(renderer, objective_of(fit), options.resolution, 1),
-        error_factor_(objective_of(fit).error_factor()),
+        objective_(objective_of(fit)),
+        taker_(renderer, objective_, options.resolution, 1),
         source_(probed(renderer, fit.source.model)),
         target_(probed(renderer, fit.target.model)),
         widths_(target_widths(taker_, target_, kNarrowest * options.alphas.min)) {}
@@ -145,7 +145,7 @@ class FitStudy {
           source_.linear_range().max * static_cast<double>(k) / static_cast<double>(options_.materials);
       for (std::size_t i = 0; i < source.size(); ++i)
         source[i] = pictures.base[i] + static_cast<float>(material.specular) * pictures.slope[i];
-      const Comparison comparison(source, taker_.weights(source), error_factor_);
+      const Comparison comparison(source, taker_.weights(source), objective_.error_factor());
       convert(&material);
       material.error =
           comparison.error(taker_.take(target_, {material.target_alpha, material.target_specular, 0.0}));
@@ -164,8 +164,8 @@ class FitStudy {
 
   const ReachOptions& options_;
   const Fit& fit_;
+  Objective objective_;
   PictureTaker taker_;
-  double error_factor_;
   ProbedModel source_, target_;
   TargetWidths widths_;
 };

@@ -285,7 +285,7 @@ TEST_CASE("black box: a source that is quadratic in specular takes one picture a
 TEST_CASE("black box: a diffuse lobe of another shape is no other light: an error, unless it is accepted") {
   const ClayRenderer renderer(0.7);
   const auto samples = grid_samples({0.15, 0.7}, 6, {0.0, 0.5}, 3);
-  SweepOptions options = sweep_options("disguised/clay", "mitsuba/ggx", "natural", samples, 64);
+  SweepOptions options = sweep_options("disguised/clay", "mitsuba/ggx", "natural-1", samples, 64);
   CHECK_THROWS_WITH(
       sweep(renderer, options),
       Catch::StartsWith("disguised/clay to mitsuba/ggx: the source's light is multiplied by 1.") &&
@@ -295,7 +295,7 @@ TEST_CASE("black box: a diffuse lobe of another shape is no other light: an erro
   const Table accepted = sweep(renderer, options);
   const LightMatch match = light_match(accepted.comments);
   CHECK(match.scale > 1.1);
-  CHECK(match.diffuse_error >= 0.03);
+  CHECK(match.diffuse_error > 0.03);
   CHECK(match.accepted);
   // What the rule is about: the same lobe, and yet another specular.
   for (const TableRow& row : accepted.rows)

@@ -11,8 +11,8 @@ using namespace remap;
 
 namespace {
 
-ReachOptions small_reach(Fit fit) {
-  fit.table.comments["objective"] = "natural-2";
+ReachOptions small_reach(Fit fit, const std::string& objective = "natural-1") {
+  fit.table.comments["objective"] = objective;
   ReachOptions options;
   options.fits = {std::move(fit)};
   options.materials = 6;
@@ -21,7 +21,9 @@ ReachOptions small_reach(Fit fit) {
   return options;
 }
 
-FitReach reach_of(const Fit& fit) { return study_reach(*make_builtin_renderer(), small_reach(fit)).front(); }
+FitReach reach_of(const Fit& fit, const std::string& objective = "natural-1") {
+  return study_reach(*make_builtin_renderer(), small_reach(fit, objective)).front();
+}
 
 }  // namespace
 
@@ -40,13 +42,13 @@ TEST_CASE("reach: a conversion that is off has the excess of its error", "[study
   for (const ReachedMaterial& material : reach.materials) {
     CHECK(material.target_alpha == Approx(1.1 * material.alpha));
     CHECK(material.excess() > 0.02);
-    CHECK(material.excess() == Approx(material.error).margin(6e-3));
+    CHECK(material.excess() == Approx(material.error).margin(4e-3));
   }
   CHECK(reach.mean_excess() <= reach.worst().excess());
 }
 
 TEST_CASE("reach: the least error is that of the sweep, which finds it another way", "[study]") {
-  const FitReach reach = reach_of(scaled_fit("mitsuba/beckmann", "mitsuba/as", 1.0));
+  const FitReach reach = reach_of(scaled_fit("mitsuba/beckmann", "mitsuba/as", 1.0), "natural-2");
   SweepOptions sweep;
   sweep.source = "mitsuba/beckmann";
   sweep.target = "mitsuba/as";
