@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // cycles-3.4/beckmann to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table cycles_3_4_beckmann_to_mitsuba_beckmann.csv, sha256 f2dabd5d8c451472e7a0ca19df88ec88d57522cacf22c5a79fdad12c2604011b;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 3.4.1; remapc 0.1.0.
-// Fit: parametric, seed 1, 673 rows trained, 168 held out.
-// Error on the rows held out: alpha rms 0.00014, 99 % 0.00057, max 0.00076;
-// f0 rms 2.4e-06, 99 % 7.6e-06, max 8.7e-06.
-// Lowered from the fit. Target alpha: degree 3, 4 in specular, proven within 8.5e-06 (sampled 7.9e-06), rising with alpha.
-// Target specular: degree 3 in alpha / (alpha + 0.1), proven within 7.9e-05 (sampled 7.7e-05), rising with specular.
-// Covers alpha 0.01 to 0.965862069, color 0 to 0.966666667.
+// Table cycles_3_4_beckmann_to_mitsuba_beckmann.csv, sha256 bdd7111a94eac11505ad1471bc20d8f0961c960f4b8e9d9baee7cd40cb0bb157;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Cycles of Blender 3.4.1; remapc 0.1.0.
+// Fit: series, seed 1, 767 rows trained, 192 held out.
+// Error on the rows held out: alpha rms 9.4e-05, 99 % 0.00048, max 0.00052;
+// f0 rms 8.5e-05, 99 % 0.00048, max 0.00049.
+// Lowered from the fit. Target alpha: degree 6, 7 in specular, proven within 1e-05 (sampled 9.5e-06), rising with alpha.
+// Target specular: degree 2, proven within 6.6e-05 (sampled 6.4e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, proven within 1.3e-07 (sampled 5.1e-09), rising with specular.
+// All together within 1e-05 in alpha, 6.7e-05 in specular.
+// Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_3_4_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_CYCLES_3_4_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00014f;
-inline constexpr float kSpecularRmsError = 2.4e-06f;
+inline constexpr float kAlphaRmsError = 9.4e-05f;
+inline constexpr float kSpecularRmsError = 8.5e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.00071f;
+inline constexpr float kImageRmsError = 0.0015f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.98278284f, 0.96666664f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,29 +77,56 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.48793206f;
-  float c0 = -0.00014876688f;
-  c0 = c0 * u + 0.00031451645f;
-  c0 = c0 * u + 1.0003817f;
-  c0 = c0 * u + 0.4880229f;
-  float c1 = -0.0005333192f;
-  c1 = c1 * u + 0.001562539f;
-  c1 = c1 * u + 0.0016079221f;
-  c1 = c1 * u + 0.00035059766f;
-  float c2 = 0.0046336446f;
-  c2 = c2 * u + -0.007159973f;
-  c2 = c2 * u + -0.008306257f;
-  c2 = c2 * u + -0.0018099886f;
-  float c3 = 0.0072829537f;
-  c3 = c3 * u + -0.036561545f;
-  c3 = c3 * u + -0.037791803f;
-  c3 = c3 * u + -0.008889315f;
-  float c4 = -0.03388511f;
-  c4 = c4 * u + 0.09028332f;
-  c4 = c4 * u + 0.099322654f;
-  c4 = c4 * u + 0.023031974f;
-  const float w = specular - 0.4833343f;
-  float sum = c4;
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -0.010589971f;
+  float c0_next = -0.0024597591f;
+  c0 = c0 * u_2 + 0.0033678683f;
+  c0_next = c0_next * u_2 + 0.00042114838f;
+  c0 = c0 * u_2 + 5.525505e-06f;
+  c0_next = c0_next * u_2 + 1.0003235f;
+  c0 = c0 * u_2 + 0.5050863f;
+  c0 = c0_next * u + c0;
+  float c1 = 0.02231532f;
+  float c1_next = 0.009057665f;
+  c1 = c1 * u_2 + -0.0058361683f;
+  c1_next = c1_next * u_2 + -0.0012583156f;
+  c1 = c1 * u_2 + -0.0044885753f;
+  c1_next = c1_next * u_2 + -0.0027158991f;
+  c1 = c1 * u_2 + -0.00013430207f;
+  c1 = c1_next * u + c1;
+  float c2 = 0.06074905f;
+  float c2_next = 0.02729772f;
+  c2 = c2 * u_2 + -0.00757271f;
+  c2_next = c2_next * u_2 + 0.012676721f;
+  c2 = c2 * u_2 + 0.020741478f;
+  c2_next = c2_next * u_2 + 0.0064786365f;
+  c2 = c2 * u + c2_next;
+  float c3 = -0.14005652f;
+  float c3_next = -0.06508688f;
+  c3 = c3 * u_2 + 0.016870113f;
+  c3_next = c3_next * u_2 + 0.10050312f;
+  c3 = c3 * u_2 + 0.0018846904f;
+  c3_next = c3_next * u_2 + -0.020864284f;
+  c3 = c3 * u + c3_next;
+  float c4 = -0.07969886f;
+  c4 = c4 * u + -0.26258487f;
+  c4 = c4 * u + -0.30338696f;
+  c4 = c4 * u + -0.095925465f;
+  float c5 = 0.15926331f;
+  c5 = c5 * u + -0.5285731f;
+  c5 = c5 * u + 0.2098975f;
+  c5 = c5 * u + 0.24409248f;
+  float c6 = 1.2593492f;
+  c6 = c6 * u + 1.5680493f;
+  c6 = c6 * u + 0.46808755f;
+  float c7 = -2.107837f;
+  c7 = c7 * u + -1.0232008f;
+  const float w = specular - 0.500001f;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -109,6 +138,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -123,16 +154,12 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.1f);
-    const float u = t - 0.4985441f;
-    float c0 = 0.0058553945f;
-    c0 = c0 * u + 0.00215581f;
-    c0 = c0 * u + -3.7458485e-05f;
-    c0 = c0 * u + -0.0014758753f;
-    float c1 = -0.0103594605f;
-    c1 = c1 * u + -0.0006498967f;
-    c1 = c1 * u + 0.0001940253f;
-    c1 = c1 * u + 1.0014415f;
+    const float u = alpha - 0.50500107f;
+    float c0 = 0.0005141903f;
+    c0 = c0 * u + 0.0017418216f;
+    c0 = c0 * u + -0.0022493016f;
+    float c1 = -0.0019416398f;
+    c1 = c1 * u + 1.0022258f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -141,6 +168,17 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9902506f;
+  float c0 = -0.035532687f;
+  c0 = c0 * u + -0.0014085391f;
+  const float c1 = 1.0019968f;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
@@ -210,10 +248,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.color,
-                                 kDomainMax.color, 1.0344828f};
+                                 kDomainMax.color, 1.0f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -227,6 +281,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 1.0f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.9805011f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -334,8 +402,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -345,13 +418,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -363,15 +525,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -379,16 +548,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -459,19 +631,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 0.96666664f}, {0.009998642f, 0.9671325f}, {9e-06f, 7.9e-05f}},
-      {{0.21034786f, 0.90625f}, {0.044244118f, 0.90613997f}, {9e-06f, 7.9e-05f}},
-      {{0.3206957f, 0.8458333f}, {0.10284257f, 0.8456069f}, {9e-06f, 7.9e-05f}},
-      {{0.43104357f, 0.78541666f}, {0.1857938f, 0.78511924f}, {9.1e-06f, 7.9e-05f}},
-      {{0.54139143f, 0.72499996f}, {0.29311055f, 0.72464496f}, {9.1e-06f, 7.9e-05f}},
-      {{0.6517393f, 0.6645833f}, {0.42481565f, 0.6641914f}, {9.2e-06f, 7.9e-05f}},
-      {{0.7620871f, 0.6041666f}, {0.58091867f, 0.6037668f}, {9.2e-06f, 7.9e-05f}},
-      {{0.872435f, 0.54375f}, {0.7613896f, 0.5433712f}, {9.3e-06f, 7.9e-05f}},
-      {{0.98278284f, 0.48333332f}, {0.96619886f, 0.48299423f}, {9.4e-06f, 7.9e-05f}},
-      {{0.05f, 0.48333332f}, {0.009999012f, 0.48283356f}, {9e-06f, 7.9e-05f}},
-      {{1.4741743f, 0.24166666f}, {0.96623796f, 0.24116711f}, {9.4e-06f, 7.9e-05f}},
-      {{0.54139143f, 0.0f}, {0.29370394f, 0.0f}, {9.1e-06f, 7.9e-05f}},
-      {{0.54139143f, 1.9333333f}, {0.2931309f, 1.9332542f}, {9.1e-06f, 0.00016f}},
+      {{0.1f, 1.0f}, {0.010000068f, 1.0f}, {1.1e-05f, 6.7e-05f}},
+      {{0.2125f, 0.9375f}, {0.045158114f, 0.9375122f}, {1.1e-05f, 6.7e-05f}},
+      {{0.325f, 0.875f}, {0.10562137f, 0.874751f}, {1.1e-05f, 6.7e-05f}},
+      {{0.4375f, 0.8125f}, {0.1913842f, 0.81201327f}, {1.1e-05f, 6.7e-05f}},
+      {{0.55f, 0.75f}, {0.3025027f, 0.7493318f}, {1.1e-05f, 6.7e-05f}},
+      {{0.6625f, 0.6875f}, {0.43898204f, 0.6867317f}, {1.1e-05f, 6.7e-05f}},
+      {{0.775f, 0.625f}, {0.6007635f, 0.6242203f}, {1.1e-05f, 6.7e-05f}},
+      {{0.8875f, 0.5625f}, {0.78781766f, 0.56177384f}, {1.1e-05f, 6.7e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.4993182f}, {1.1e-05f, 6.7e-05f}},
+      {{0.05f, 0.5f}, {0.010001064f, 0.4986566f}, {1.1e-05f, 6.7e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.24893123f}, {1.1e-05f, 6.7e-05f}},
+      {{0.55f, 0.0f}, {0.30474705f, 0.0f}, {1.1e-05f, 6.7e-05f}},
+      {{0.55f, 2.0f}, {0.3024906f, 1.9999628f}, {1.1e-05f, 0.00014f}},
   }};
   std::array<float, kGolden.size()> roughness{}, color{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

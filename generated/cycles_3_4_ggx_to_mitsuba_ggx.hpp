@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // cycles-3.4/ggx to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table cycles_3_4_ggx_to_mitsuba_ggx.csv, sha256 ad9642066b497981b94c5a49351dce82920b105c47daf74efc4901af055fb3af;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 3.4.1; remapc 0.1.0.
-// Fit: parametric, seed 1, 673 rows trained, 168 held out.
-// Error on the rows held out: alpha rms 0.00015, 99 % 5e-04, max 0.00055;
-// f0 rms 8.6e-06, 99 % 3.8e-05, max 3.8e-05.
-// Lowered from the fit. Target alpha: degree 12 in alpha / (alpha + 0.3), 6 in specular, proven within 9.9e-06 (sampled 8.2e-06), rising with alpha.
-// Target specular: degree 3 in alpha / (alpha + 0.3), proven within 9.3e-05 (sampled 8.7e-05), rising with specular.
-// Covers alpha 0.01 to 0.965862069, color 0 to 0.966666667.
+// Table cycles_3_4_ggx_to_mitsuba_ggx.csv, sha256 ce6a87c68f2e3da7afd70d94fe5c72bb78358f7e5cd3e4bfe5ebf03ad7450b9d;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Cycles of Blender 3.4.1; remapc 0.1.0.
+// Fit: series, seed 1, 758 rows trained, 189 held out.
+// Error on the rows held out: alpha rms 9.4e-05, 99 % 0.00049, max 0.00051;
+// f0 rms 6.9e-05, 99 % 0.00036, max 0.00053.
+// Lowered from the fit. Target alpha: degree 13 in alpha / (alpha + 1), 10 in specular, proven within 1e-05 (sampled 7.9e-06), rising with alpha.
+// Target specular: degree 3 in alpha / (alpha + 0.2), proven within 9.7e-05 (sampled 9.1e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, proven within 2e-05 (sampled 1.2e-05), rising with specular.
+// All together within 1e-05 in alpha, 1e-04 in specular.
+// Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_3_4_GGX_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_3_4_GGX_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00015f;
-inline constexpr float kSpecularRmsError = 8.6e-06f;
+inline constexpr float kAlphaRmsError = 9.4e-05f;
+inline constexpr float kSpecularRmsError = 6.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.00052f;
+inline constexpr float kImageRmsError = 0.0013f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.98278284f, 0.96666664f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,72 +77,111 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float t = alpha / (alpha + 0.3f);
-  const float u = t - 0.39763284f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = 987.20135f;
-  float c0_next = 544.4756f;
-  c0 = c0 * u_2 + -98.68597f;
-  c0_next = c0_next * u_2 + -39.27301f;
-  c0 = c0 * u_2 + 47.068768f;
-  c0_next = c0_next * u_2 + 25.221508f;
-  c0 = c0 * u_2 + 9.5219555f;
-  c0_next = c0_next * u_2 + 5.932961f;
-  c0 = c0 * u_2 + 3.7986262f;
-  c0_next = c0_next * u_2 + 2.286623f;
-  c0 = c0 * u_2 + 1.373679f;
-  c0_next = c0_next * u_2 + 0.8270204f;
-  c0 = c0 * u_2 + 0.19805238f;
-  c0 = c0_next * u + c0;
-  float c1 = -0.1950998f;
-  float c1_next = -0.13522446f;
-  c1 = c1 * u_2 + -0.040229958f;
-  c1_next = c1_next * u_2 + -0.018305968f;
-  c1 = c1 * u_2 + -0.009493816f;
-  c1_next = c1_next * u_2 + -0.0027489904f;
-  c1 = c1 * u_2 + -0.00033246033f;
-  c1 = c1_next * u + c1;
-  float c2 = -1.0283095f;
-  float c2_next = 0.31480494f;
-  c2 = c2 * u_2 + 0.43263647f;
-  c2_next = c2_next * u_2 + 0.07608198f;
-  c2 = c2 * u_2 + 0.018969951f;
-  c2_next = c2_next * u_2 + 0.008502176f;
-  c2 = c2 * u_2 + 0.0009558135f;
-  c2 = c2_next * u + c2;
-  float c3 = 4.6718545f;
-  float c3_next = 2.891923f;
-  c3 = c3 * u_2 + 0.663224f;
-  c3_next = c3_next * u_2 + 0.3128821f;
-  c3 = c3 * u_2 + 0.17867596f;
-  c3_next = c3_next * u_2 + 0.051583987f;
-  c3 = c3 * u_2 + 0.0062476257f;
-  c3 = c3_next * u + c3;
-  float c4 = 7.6909122f;
-  float c4_next = -5.920027f;
-  c4 = c4 * u_2 + -5.358518f;
-  c4_next = c4_next * u_2 + -1.075369f;
-  c4 = c4 * u_2 + -0.34682703f;
-  c4_next = c4_next * u_2 + -0.13492984f;
-  c4 = c4 * u_2 + -0.015585922f;
-  c4 = c4_next * u + c4;
-  float c5 = -26.155844f;
-  float c5_next = -17.862099f;
-  c5 = c5 * u_2 + -5.163007f;
-  c5_next = c5_next * u_2 + -2.3588004f;
-  c5 = c5 * u_2 + -1.2365687f;
-  c5_next = c5_next * u_2 + -0.3586831f;
-  c5 = c5 * u_2 + -0.043553334f;
-  c5 = c5_next * u + c5;
-  float c6 = 34.723186f;
-  float c6_next = 22.088724f;
-  c6 = c6 * u_2 + 6.0805883f;
-  c6_next = c6_next * u_2 + 2.4295301f;
-  c6 = c6 * u_2 + 0.80538106f;
-  c6_next = c6_next * u_2 + 0.095755175f;
+  float c0 = -613605.25f;
+  float c0_next = -105915.625f;
+  c0 = c0 * u_2 + 106721.03f;
+  c0_next = c0_next * u_2 + 18186.283f;
+  c0 = c0 * u_2 + -6730.8228f;
+  c0_next = c0_next * u_2 + -1147.5006f;
+  c0 = c0 * u_2 + 197.78114f;
+  c0_next = c0_next * u_2 + 43.41612f;
+  c0 = c0 * u_2 + 3.9442134f;
+  c0_next = c0_next * u_2 + 3.8078182f;
+  c0 = c0 * u_2 + 3.2453306f;
+  c0_next = c0_next * u_2 + 2.4270897f;
+  c0 = c0 * u_2 + 1.8033043f;
+  c0_next = c0_next * u_2 + 0.3423586f;
+  c0 = c0 * u + c0_next;
+  float c1 = -2640338.0f;
+  float c1_next = -686006.3f;
+  c1 = c1 * u_2 + 361672.66f;
+  c1_next = c1_next * u_2 + 95108.91f;
+  c1 = c1 * u_2 + -16708.268f;
+  c1_next = c1_next * u_2 + -4463.0923f;
+  c1 = c1 * u_2 + 237.68126f;
+  c1_next = c1_next * u_2 + 67.26085f;
+  c1 = c1 * u_2 + 2.5604675f;
+  c1_next = c1_next * u_2 + 0.5777201f;
+  c1 = c1 * u_2 + -0.042115625f;
+  c1_next = c1_next * u_2 + -0.021420427f;
+  c1 = c1 * u_2 + -0.0062013175f;
+  c1_next = c1_next * u_2 + -0.00102231f;
+  c1 = c1 * u + c1_next;
+  float c2 = -1091.8788f;
+  float c2_next = -60.650745f;
+  c2 = c2 * u_2 + -61.834854f;
+  c2_next = c2_next * u_2 + -57.034966f;
+  c2 = c2 * u_2 + 1.8219134f;
+  c2_next = c2_next * u_2 + 2.904664f;
+  c2 = c2 * u_2 + -0.26993728f;
+  c2_next = c2_next * u_2 + -0.11599931f;
+  c2 = c2 * u_2 + -0.017470414f;
+  c2_next = c2_next * u_2 + -0.0031371356f;
+  c2 = c2 * u + c2_next;
+  float c3 = -4397.48f;
+  float c3_next = -749.6869f;
+  c3 = c3 * u_2 + 1130.9597f;
+  c3_next = c3_next * u_2 + 222.52655f;
+  c3 = c3 * u_2 + -59.7654f;
+  c3_next = c3_next * u_2 + -15.374172f;
+  c3 = c3 * u_2 + -0.9637313f;
+  c3_next = c3_next * u_2 + -0.53400946f;
+  c3 = c3 * u_2 + 0.00986305f;
+  c3_next = c3_next * u_2 + 0.028536366f;
+  c3 = c3 * u + c3_next;
+  float c4 = 869.6409f;
+  float c4_next = 280.89508f;
+  c4 = c4 * u_2 + 27.473568f;
+  c4_next = c4_next * u_2 + 15.606889f;
+  c4 = c4 * u_2 + 10.196958f;
+  c4_next = c4_next * u_2 + 3.332701f;
+  c4 = c4 * u_2 + 1.0841602f;
+  c4_next = c4_next * u_2 + 0.1505152f;
+  c4 = c4 * u + c4_next;
+  float c5 = -2093.4614f;
+  float c5_next = -545.04626f;
+  c5 = c5 * u_2 + 69.74235f;
+  c5_next = c5_next * u_2 + 56.391666f;
+  c5 = c5 * u_2 + 15.795235f;
+  c5_next = c5_next * u_2 + 5.669803f;
+  c5 = c5 * u_2 + -1.6796032f;
+  c5_next = c5_next * u_2 + -0.62712604f;
+  c5 = c5 * u + c5_next;
+  float c6 = -444.04477f;
+  float c6_next = -255.4191f;
+  c6 = c6 * u_2 + -89.44467f;
+  c6_next = c6_next * u_2 + -31.826754f;
+  c6 = c6 * u_2 + -11.165083f;
+  c6_next = c6_next * u_2 + -1.4127921f;
   c6 = c6 * u + c6_next;
-  const float w = specular - 0.4833343f;
-  float sum = c6;
+  float c7 = 116.051125f;
+  float c7_next = -50.537975f;
+  c7 = c7 * u_2 + -15.204586f;
+  c7_next = c7_next * u_2 + -4.056184f;
+  c7 = c7 * u_2 + 18.26723f;
+  c7_next = c7_next * u_2 + 4.635895f;
+  c7 = c7 * u + c7_next;
+  float c8 = 993.81934f;
+  float c8_next = 574.4112f;
+  c8 = c8 * u_2 + 236.11945f;
+  c8_next = c8_next * u_2 + 114.264984f;
+  c8 = c8 * u_2 + 39.6079f;
+  c8_next = c8_next * u_2 + 4.233096f;
+  c8 = c8 * u + c8_next;
+  float c9 = -143.12122f;
+  c9 = c9 * u + -103.666016f;
+  c9 = c9 * u + -68.641945f;
+  c9 = c9 * u + -12.441318f;
+  const float c10 = 1.3971726f;
+  const float w = specular - 0.500001f;
+  float sum = c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
   sum = sum * w + c3;
@@ -154,6 +195,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -168,16 +211,16 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.3f);
-    const float u = t - 0.39763284f;
-    float c0 = 0.0038549236f;
-    c0 = c0 * u + 0.0035082465f;
-    c0 = c0 * u + 0.0011516357f;
-    c0 = c0 * u + -0.0013373237f;
-    float c1 = -0.011328049f;
-    c1 = c1 * u + -0.0015006547f;
-    c1 = c1 * u + -0.0008428795f;
-    c1 = c1 * u + 1.0012878f;
+    const float t = alpha / (alpha + 0.2f);
+    const float u = t - 0.44047627f;
+    float c0 = 0.0131714f;
+    c0 = c0 * u + 0.0063724993f;
+    c0 = c0 * u + 0.0011396446f;
+    c0 = c0 * u + -0.0027471762f;
+    float c1 = -0.012447954f;
+    c1 = c1 * u + -0.006253057f;
+    c1 = c1 * u + -0.001693454f;
+    c1 = c1 * u + 1.0028349f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -186,6 +229,18 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.97574776f;
+  float c0 = -0.0027340574f;
+  c0 = c0 * u + -0.001754053f;
+  float c1 = -1.4667057f;
+  c1 = c1 * u + 1.0374236f;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
@@ -255,10 +310,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.color,
-                                 kDomainMax.color, 1.0344828f};
+                                 kDomainMax.color, 1.0f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -272,6 +343,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 1.0f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.9514954f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -379,8 +464,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -390,13 +480,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -408,15 +587,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -424,16 +610,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -504,19 +693,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 0.96666664f}, {0.009997862f, 0.96710956f}, {1.1e-05f, 9.4e-05f}},
-      {{0.21034786f, 0.90625f}, {0.044240195f, 0.90617365f}, {1.1e-05f, 9.4e-05f}},
-      {{0.3206957f, 0.8458333f}, {0.1028371f, 0.8456072f}, {1.1e-05f, 9.4e-05f}},
-      {{0.43104357f, 0.78541666f}, {0.18580489f, 0.78512955f}, {1.1e-05f, 9.3e-05f}},
-      {{0.54139143f, 0.72499996f}, {0.29314664f, 0.72467554f}, {1.1e-05f, 9.3e-05f}},
-      {{0.6517393f, 0.6645833f}, {0.42482737f, 0.6642516f}, {1.1e-05f, 9.3e-05f}},
-      {{0.7620871f, 0.6041666f}, {0.5808228f, 0.6038639f}, {1.1e-05f, 9.3e-05f}},
-      {{0.872435f, 0.54375f}, {0.7612261f, 0.5435186f}, {1.1e-05f, 9.3e-05f}},
-      {{0.98278284f, 0.48333332f}, {0.9662885f, 0.483222f}, {1.1e-05f, 9.3e-05f}},
-      {{0.05f, 0.48333332f}, {0.0099987f, 0.482829f}, {1.1e-05f, 9.3e-05f}},
-      {{1.4741743f, 0.24166666f}, {0.9671356f, 0.2415025f}, {1.1e-05f, 9.3e-05f}},
-      {{0.54139143f, 0.0f}, {0.29570216f, 0.0f}, {1.1e-05f, 9.3e-05f}},
-      {{0.54139143f, 1.9333333f}, {0.2931392f, 1.9332489f}, {1.1e-05f, 0.00019f}},
+      {{0.1f, 1.0f}, {0.009997276f, 1.0f}, {1.1e-05f, 1e-04f}},
+      {{0.2125f, 0.9375f}, {0.045158755f, 0.93752956f}, {1.1e-05f, 1e-04f}},
+      {{0.325f, 0.875f}, {0.10561515f, 0.87477785f}, {1.1e-05f, 1e-04f}},
+      {{0.4375f, 0.8125f}, {0.1914241f, 0.8120607f}, {1.1e-05f, 1e-04f}},
+      {{0.55f, 0.75f}, {0.30257586f, 0.74941367f}, {1.1e-05f, 1e-04f}},
+      {{0.6625f, 0.6875f}, {0.43901536f, 0.6868645f}, {1.1e-05f, 1e-04f}},
+      {{0.775f, 0.625f}, {0.6008326f, 0.6244227f}, {1.1e-05f, 1e-04f}},
+      {{0.8875f, 0.5625f}, {0.78818583f, 0.5620667f}, {1.1e-05f, 1e-04f}},
+      {{1.0f, 0.5f}, {1.0f, 0.49959034f}, {1.1e-05f, 1e-04f}},
+      {{0.05f, 0.5f}, {0.009992953f, 0.49866205f}, {1.1e-05f, 1e-04f}},
+      {{1.5f, 0.25f}, {1.0f, 0.24905543f}, {1.1e-05f, 1e-04f}},
+      {{0.55f, 0.0f}, {0.30980664f, 0.0f}, {1.1e-05f, 1e-04f}},
+      {{0.55f, 2.0f}, {0.30249512f, 1.9999893f}, {1.1e-05f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> roughness{}, color{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // cycles-5/beckmann to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table cycles_5_beckmann_to_mitsuba_beckmann.csv, sha256 208ed5ab443585b79615fcc282f5ae736fef27312d185f3f7552151ee196a378;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
-// Fit: parametric, seed 1, 673 rows trained, 168 held out.
-// Error on the rows held out: alpha rms 0.00014, 99 % 0.00057, max 0.00077;
-// f0 rms 4.1e-05, 99 % 2e-04, max 0.00026.
-// Lowered from the fit. Target alpha: degree 6, 4 in specular, proven within 6.3e-06 (sampled 5.4e-06), rising with alpha.
-// Target specular: degree 6 in alpha / (alpha + 1), proven within 8e-05 (sampled 7.3e-05), rising with specular.
-// Covers alpha 0.01 to 0.965862069, color 0 to 0.966666667.
+// Table cycles_5_beckmann_to_mitsuba_beckmann.csv, sha256 458183a100efb7f1f528aefc6779e2fbc7d9e4458b5bb97614a5745d92a5ffc1;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
+// Fit: series, seed 1, 784 rows trained, 196 held out.
+// Error on the rows held out: alpha rms 0.00013, 99 % 0.00063, max 0.00085;
+// f0 rms 4.4e-05, 99 % 0.00021, max 0.00022.
+// Lowered from the fit. Target alpha: degree 13 in alpha / (alpha + 0.3), 8 in specular, proven within 1e-05 (sampled 8e-06), rising with alpha.
+// Target specular: degree 5, proven within 8.6e-05 (sampled 7.9e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, proven within 8.1e-06 (sampled 7.2e-06), rising with specular.
+// Where specular is at its limit, target alpha: degree 4, proven within 1.7e-06 (sampled 6.4e-08), rising with alpha.
+// All together within 8.5e-05 in alpha, 9.6e-05 in specular.
+// Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_5_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_CYCLES_5_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00014f;
-inline constexpr float kSpecularRmsError = 4.1e-05f;
+inline constexpr float kAlphaRmsError = 0.00013f;
+inline constexpr float kSpecularRmsError = 4.4e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.0013f;
+inline constexpr float kImageRmsError = 0.0027f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.98278284f, 0.96666664f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,33 +78,104 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.48793206f;
+  const float t = alpha / (alpha + 0.3f);
+  const float u = t - 0.40057915f;
   const float u_2 = u * u;
-  float c0 = 0.028532043f;
-  float c0_next = 0.057725575f;
-  c0 = c0 * u_2 + 0.034347437f;
-  c0_next = c0_next * u_2 + 0.0059048994f;
-  c0 = c0 * u_2 + -8.194389e-05f;
-  c0_next = c0_next * u_2 + 1.0002713f;
-  c0 = c0 * u_2 + 0.48802814f;
-  c0 = c0_next * u + c0;
-  float c1 = -0.00044669086f;
-  c1 = c1 * u + 0.0015967233f;
-  c1 = c1 * u + 0.0016014853f;
-  c1 = c1 * u + 0.00034938168f;
-  float c2 = -0.0029821796f;
-  c2 = c2 * u + -0.0074773747f;
-  c2 = c2 * u + -0.007066994f;
-  c2 = c2 * u + -0.0017958011f;
-  float c3 = 0.006138754f;
-  c3 = c3 * u + -0.037073094f;
-  c3 = c3 * u + -0.037739206f;
-  c3 = c3 * u + -0.008874779f;
-  float c4 = 0.09225447f;
-  c4 = c4 * u + 0.09399553f;
-  c4 = c4 * u + 0.022963775f;
-  const float w = specular - 0.4833343f;
-  float sum = c4;
+  float c0 = 8446.383f;
+  float c0_next = 5120.7104f;
+  c0 = c0 * u_2 + -1404.0157f;
+  c0_next = c0_next * u_2 + -1084.4509f;
+  c0 = c0 * u_2 + 176.52098f;
+  c0_next = c0_next * u_2 + 147.75719f;
+  c0 = c0 * u_2 + 12.770329f;
+  c0_next = c0_next * u_2 + 4.904488f;
+  c0 = c0 * u_2 + 6.5878377f;
+  c0_next = c0_next * u_2 + 4.0182076f;
+  c0 = c0 * u_2 + 2.3226712f;
+  c0_next = c0_next * u_2 + 1.3922652f;
+  c0 = c0 * u_2 + 0.83510584f;
+  c0_next = c0_next * u_2 + 0.20049115f;
+  c0 = c0 * u + c0_next;
+  float c1 = -1254.9656f;
+  float c1_next = -333.7408f;
+  c1 = c1 * u_2 + 530.1382f;
+  c1_next = c1_next * u_2 + 133.90306f;
+  c1 = c1 * u_2 + -81.45332f;
+  c1_next = c1_next * u_2 + -20.40795f;
+  c1 = c1 * u_2 + 4.9298053f;
+  c1_next = c1_next * u_2 + 1.2520627f;
+  c1 = c1 * u_2 + -0.120419204f;
+  c1_next = c1_next * u_2 + -0.0446264f;
+  c1 = c1 * u_2 + -0.004599504f;
+  c1_next = c1_next * u_2 + 0.0004670176f;
+  c1 = c1 * u_2 + 0.0002703017f;
+  c1 = c1_next * u + c1;
+  float c2 = 875.8579f;
+  float c2_next = 280.1184f;
+  c2 = c2 * u_2 + -242.55363f;
+  c2_next = c2_next * u_2 + -71.04038f;
+  c2 = c2 * u_2 + 33.661552f;
+  c2_next = c2_next * u_2 + 9.454359f;
+  c2 = c2 * u_2 + -2.0596583f;
+  c2_next = c2_next * u_2 + -0.40958828f;
+  c2 = c2 * u_2 + 0.14581552f;
+  c2_next = c2_next * u_2 + 0.038258538f;
+  c2 = c2 * u_2 + 0.0076648956f;
+  c2_next = c2_next * u_2 + 0.0010241002f;
+  c2 = c2 * u + c2_next;
+  float c3 = -565.47015f;
+  float c3_next = -172.14641f;
+  c3 = c3 * u_2 + 140.55609f;
+  c3_next = c3_next * u_2 + 61.27524f;
+  c3 = c3 * u_2 + -1.4149653f;
+  c3_next = c3_next * u_2 + -4.960227f;
+  c3 = c3 * u_2 + -0.5294605f;
+  c3_next = c3_next * u_2 + 0.29659855f;
+  c3 = c3 * u_2 + 0.034547094f;
+  c3_next = c3_next * u_2 + -0.04828117f;
+  c3 = c3 * u_2 + -0.013390044f;
+  c3 = c3_next * u + c3;
+  float c4 = -107.56968f;
+  float c4_next = -44.54133f;
+  c4 = c4 * u_2 + 7.4902906f;
+  c4_next = c4_next * u_2 + 1.9423908f;
+  c4 = c4 * u_2 + -1.3874238f;
+  c4_next = c4_next * u_2 + -0.48170826f;
+  c4 = c4 * u_2 + -0.12938933f;
+  c4_next = c4_next * u_2 + -0.011946262f;
+  c4 = c4 * u + c4_next;
+  float c5 = -79.5646f;
+  float c5_next = -43.416004f;
+  c5 = c5 * u_2 + 9.9393425f;
+  c5_next = c5_next * u_2 + 5.019528f;
+  c5 = c5 * u_2 + -0.96006864f;
+  c5_next = c5_next * u_2 + 0.05447178f;
+  c5 = c5 * u_2 + 0.51383835f;
+  c5_next = c5_next * u_2 + 0.13162674f;
+  c5 = c5 * u + c5_next;
+  float c6 = 318.7293f;
+  float c6_next = 148.49257f;
+  c6 = c6 * u_2 + -8.061269f;
+  c6_next = c6_next * u_2 + -0.40752137f;
+  c6 = c6 * u_2 + 6.1983805f;
+  c6_next = c6_next * u_2 + 2.3604689f;
+  c6 = c6 * u_2 + 0.6440183f;
+  c6_next = c6_next * u_2 + 0.017233094f;
+  c6 = c6 * u + c6_next;
+  float c7 = -31.117905f;
+  float c7_next = -16.68436f;
+  c7 = c7 * u_2 + -3.668748f;
+  c7_next = c7_next * u_2 + -2.5329099f;
+  c7 = c7 * u_2 + -1.8404154f;
+  c7_next = c7_next * u_2 + -0.3916326f;
+  c7 = c7 * u + c7_next;
+  const float c8 = 0.17721875f;
+  const float w = specular - 0.500001f;
+  float sum = c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -113,6 +187,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -127,24 +203,20 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.2506094f;
+    const float u = alpha - 0.50407064f;
     const float u_2 = u * u;
-    float c0 = 4.2922206f;
-    float c0_next = -0.86043584f;
-    c0 = c0 * u_2 + -0.22362147f;
-    c0_next = c0_next * u_2 + 0.040311385f;
-    c0 = c0 * u_2 + 0.0044727437f;
-    c0_next = c0_next * u_2 + 0.0016478018f;
-    c0 = c0 * u_2 + -0.0012574804f;
-    c0 = c0_next * u + c0;
-    float c1 = 37.367073f;
-    float c1_next = 10.127497f;
-    c1 = c1 * u_2 + -1.4453181f;
-    c1_next = c1_next * u_2 + -0.40675378f;
-    c1 = c1 * u_2 + 0.01632754f;
-    c1_next = c1_next * u_2 + 0.0012773823f;
-    c1 = c1 * u_2 + 1.0012084f;
+    float c0 = 0.04124796f;
+    float c0_next = 0.0018694595f;
+    c0 = c0 * u_2 + -0.014056019f;
+    c0_next = c0_next * u_2 + -1.9258818e-05f;
+    c0 = c0 * u_2 + 0.0027924154f;
+    c0_next = c0_next * u_2 + -0.0022263527f;
+    c0 = c0 * u + c0_next;
+    float c1 = 0.11745497f;
+    float c1_next = 0.063379094f;
+    c1 = c1 * u_2 + -0.0007498945f;
+    c1_next = c1_next * u_2 + -0.004255638f;
+    c1 = c1 * u_2 + 1.002243f;
     c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
@@ -154,6 +226,37 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9875014f;
+  float c0 = -0.0018106085f;
+  c0 = c0 * u + -0.0017671316f;
+  float c1 = -1.0479027f;
+  c1 = c1 * u + 1.0207641f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -0.022305282f;
+  float c0_next = -4.4232697f;
+  c0 = c0 * u_2 + 0.1856387f;
+  c0_next = c0_next * u_2 + 2.7603965f;
+  c0 = c0 * u_2 + 0.84885037f;
+  c0 = c0_next * u + c0;
+  float c1 = 4.4071765f;
+  c1 = c1 * u + -0.18708782f;
+  c1 = c1 * u + -1.7597368f;
+  c1 = c1 * u + -0.34380615f;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
@@ -223,10 +326,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.color,
-                                 kDomainMax.color, 1.0344828f};
+                                 kDomainMax.color, 1.0f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -240,6 +359,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.9981392f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.9750027f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.989812f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -347,8 +480,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -358,13 +496,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -376,15 +603,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -392,16 +626,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -472,19 +709,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 0.96666664f}, {0.010000669f, 0.9671186f}, {6.7e-06f, 8.1e-05f}},
-      {{0.21034786f, 0.90625f}, {0.044248994f, 0.90629077f}, {6.8e-06f, 8.1e-05f}},
-      {{0.3206957f, 0.8458333f}, {0.102844335f, 0.8456976f}, {6.8e-06f, 8.1e-05f}},
-      {{0.43104357f, 0.78541666f}, {0.18578908f, 0.78510493f}, {6.8e-06f, 8.1e-05f}},
-      {{0.54139143f, 0.72499996f}, {0.29310906f, 0.7246031f}, {6.9e-06f, 8e-05f}},
-      {{0.6517393f, 0.6645833f}, {0.42482176f, 0.66422117f}, {6.9e-06f, 8e-05f}},
-      {{0.7620871f, 0.6041666f}, {0.58091617f, 0.6037717f}, {7e-06f, 8e-05f}},
-      {{0.872435f, 0.54375f}, {0.7617572f, 0.54365164f}, {7.1e-06f, 8e-05f}},
-      {{0.98278284f, 0.48333332f}, {0.97027993f, 0.48628566f}, {7.2e-06f, 8e-05f}},
-      {{0.05f, 0.48333332f}, {0.010001068f, 0.48296538f}, {6.7e-06f, 8e-05f}},
-      {{1.4741743f, 0.24166666f}, {0.9703146f, 0.242813f}, {7.2e-06f, 8e-05f}},
-      {{0.54139143f, 0.0f}, {0.2937037f, 0.0f}, {6.9e-06f, 8e-05f}},
-      {{0.54139143f, 1.9333333f}, {0.29312983f, 1.9331412f}, {6.9e-06f, 0.00017f}},
+      {{0.1f, 1.0f}, {0.009998298f, 1.0f}, {8.6e-05f, 9.7e-05f}},
+      {{0.2125f, 0.9375f}, {0.045150794f, 0.93753636f}, {8.6e-05f, 9.7e-05f}},
+      {{0.325f, 0.875f}, {0.10562387f, 0.8746589f}, {8.6e-05f, 9.7e-05f}},
+      {{0.4375f, 0.8125f}, {0.19138798f, 0.81191975f}, {8.6e-05f, 9.6e-05f}},
+      {{0.55f, 0.75f}, {0.30250138f, 0.7493431f}, {8.6e-05f, 9.6e-05f}},
+      {{0.6625f, 0.6875f}, {0.43897647f, 0.6867961f}, {8.6e-05f, 9.6e-05f}},
+      {{0.775f, 0.625f}, {0.6007768f, 0.62422836f}, {8.6e-05f, 9.6e-05f}},
+      {{0.8875f, 0.5625f}, {0.788622f, 0.5626237f}, {8.6e-05f, 9.6e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.50204974f}, {8.6e-05f, 9.6e-05f}},
+      {{0.05f, 0.5f}, {0.010003183f, 0.49874312f}, {8.6e-05f, 9.6e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.2501333f}, {8.6e-05f, 9.6e-05f}},
+      {{0.55f, 0.0f}, {0.30473477f, 0.0f}, {8.6e-05f, 9.6e-05f}},
+      {{0.55f, 2.0f}, {0.3024877f, 1.9999937f}, {8.6e-05f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> roughness{}, color{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

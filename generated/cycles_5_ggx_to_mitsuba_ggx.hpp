@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // cycles-5/ggx to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table cycles_5_ggx_to_mitsuba_ggx.csv, sha256 1e1c494c0e9b6d14397e160a3211e43b0029b6b01a05aa284d74507a15f9cae6;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
-// Fit: parametric, seed 1, 605 rows trained, 151 held out.
-// Error on the rows held out: alpha rms 0.00017, 99 % 0.00086, max 0.00096;
-// f0 rms 3e-05, 99 % 8.3e-05, max 8.3e-05.
-// Lowered from the fit. Target alpha: degree 6, 6 in specular, proven within 3.3e-06 (sampled 1.9e-08), rising with alpha.
-// Target specular: degree 6 in alpha / (alpha + 1), proven within 3.6e-05 (sampled 3.3e-05), rising with specular.
-// Covers alpha 0.01 to 0.931724138, color 0 to 0.9.
+// Table cycles_5_ggx_to_mitsuba_ggx.csv, sha256 aa82f72e10bf963e93bb1be7fcfb69176e8a5d6c757638e559b55b59e9f139de;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
+// Fit: series, seed 1, 812 rows trained, 203 held out.
+// Error on the rows held out: alpha rms 0.00015, 99 % 0.00075, max 0.00088;
+// f0 rms 6e-05, 99 % 0.00025, max 0.00028.
+// Lowered from the fit. Target alpha: degree 11 in alpha / (alpha + 1), 10 in specular, proven within 1e-05 (sampled 7.8e-06), rising with alpha.
+// Target specular: degree 5, proven within 9.6e-05 (sampled 8.8e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2 in alpha / (alpha + 1), proven within 5.7e-05 (sampled 5.1e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 4, 2 in specular, proven within 5.5e-05 (sampled 5e-05), rising with alpha.
+// All together within 0.00018 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_5_GGX_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_5_GGX_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00017f;
-inline constexpr float kSpecularRmsError = 3e-05f;
+inline constexpr float kAlphaRmsError = 0.00015f;
+inline constexpr float kSpecularRmsError = 6e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.018f;
+inline constexpr float kImageRmsError = 0.025f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.9652586f, 0.9f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,42 +78,102 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.47086304f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.24877538f;
   const float u_2 = u * u;
-  float c0 = 0.08952991f;
-  float c0_next = -0.071260035f;
-  c0 = c0 * u_2 + -0.00023133757f;
-  c0_next = c0_next * u_2 + 0.13173255f;
-  c0 = c0 * u_2 + 0.08483142f;
-  c0_next = c0_next * u_2 + 1.0198853f;
-  c0 = c0 * u_2 + 0.47255674f;
-  c0 = c0_next * u + c0;
-  float c1 = 0.007068268f;
-  c1 = c1 * u + -0.0033084024f;
-  c1 = c1 * u + -0.006913183f;
-  c1 = c1 * u + -0.001783751f;
-  float c2 = -0.027506115f;
-  c2 = c2 * u + 0.008591604f;
-  c2 = c2 * u + 0.022561455f;
-  c2 = c2 * u + 0.005846965f;
-  float c3 = -0.16674085f;
-  c3 = c3 * u + 0.06479664f;
-  c3 = c3 * u + 0.147181f;
-  c3 = c3 * u + 0.037528828f;
-  float c4 = 0.5839865f;
-  c4 = c4 * u + -0.12414227f;
-  c4 = c4 * u + -0.4124954f;
-  c4 = c4 * u + -0.10573916f;
-  float c5 = 1.2808446f;
-  c5 = c5 * u + -0.56956595f;
-  c5 = c5 * u + -1.2245888f;
-  c5 = c5 * u + -0.31661895f;
-  float c6 = -3.6479313f;
-  c6 = c6 * u + 1.089047f;
-  c6 = c6 * u + 2.937342f;
-  c6 = c6 * u + 0.7608016f;
-  const float w = specular - 0.4500009f;
-  float sum = c6;
+  float c0 = -19019.74f;
+  float c0_next = -3645.3398f;
+  c0 = c0 * u_2 + 2971.3132f;
+  c0_next = c0_next * u_2 + 835.05646f;
+  c0 = c0 * u_2 + -38.064003f;
+  c0_next = c0_next * u_2 + -7.8082156f;
+  c0 = c0 * u_2 + 17.516777f;
+  c0_next = c0_next * u_2 + 9.403813f;
+  c0 = c0 * u_2 + 4.125051f;
+  c0_next = c0_next * u_2 + 2.4660096f;
+  c0 = c0 * u_2 + 1.7794486f;
+  c0_next = c0_next * u_2 + 0.3314688f;
+  c0 = c0 * u + c0_next;
+  float c1 = 78.34367f;
+  float c1_next = 122.70346f;
+  c1 = c1 * u_2 + -9.458898f;
+  c1_next = c1_next * u_2 + -15.708924f;
+  c1 = c1 * u_2 + 0.32911193f;
+  c1_next = c1_next * u_2 + 0.7728723f;
+  c1 = c1 * u_2 + 0.015270536f;
+  c1_next = c1_next * u_2 + -0.022225082f;
+  c1 = c1 * u_2 + -0.006267075f;
+  c1_next = c1_next * u_2 + -0.0008609425f;
+  c1 = c1 * u + c1_next;
+  float c2 = 1716.2354f;
+  float c2_next = 242.22821f;
+  c2 = c2 * u_2 + -196.96257f;
+  c2_next = c2_next * u_2 + -45.776745f;
+  c2 = c2 * u_2 + -0.29660413f;
+  c2_next = c2_next * u_2 + -0.56061584f;
+  c2 = c2 * u_2 + -0.29471216f;
+  c2_next = c2_next * u_2 + 0.019455116f;
+  c2 = c2 * u_2 + -0.008489006f;
+  c2_next = c2_next * u_2 + -0.003457295f;
+  c2 = c2 * u + c2_next;
+  float c3 = -786.5201f;
+  float c3_next = -95.92321f;
+  c3 = c3 * u_2 + 70.06046f;
+  c3_next = c3_next * u_2 + 7.19739f;
+  c3 = c3 * u_2 + -4.443737f;
+  c3_next = c3_next * u_2 + -1.0926055f;
+  c3 = c3 * u_2 + -0.48257643f;
+  c3_next = c3_next * u_2 + 0.00019933721f;
+  c3 = c3 * u_2 + 0.022595428f;
+  c3 = c3_next * u + c3;
+  float c4 = 299.80405f;
+  float c4_next = 105.82325f;
+  c4 = c4 * u_2 + 29.15658f;
+  c4_next = c4_next * u_2 + 8.89967f;
+  c4 = c4 * u_2 + 1.8183993f;
+  c4_next = c4_next * u_2 + 0.8984569f;
+  c4 = c4 * u_2 + 0.14407225f;
+  c4 = c4_next * u + c4;
+  float c5 = 38.297783f;
+  float c5_next = -72.07204f;
+  c5 = c5 * u_2 + 2.5303419f;
+  c5_next = c5_next * u_2 + 9.856845f;
+  c5 = c5 * u_2 + 5.03347f;
+  c5_next = c5_next * u_2 + -1.3724123f;
+  c5 = c5 * u_2 + -0.5348481f;
+  c5 = c5_next * u + c5;
+  float c6 = -884.4561f;
+  float c6_next = -304.77438f;
+  c6 = c6 * u_2 + -221.89688f;
+  c6_next = c6_next * u_2 + -92.38345f;
+  c6 = c6 * u_2 + -24.337193f;
+  c6_next = c6_next * u_2 + -9.668802f;
+  c6 = c6 * u_2 + -1.2965355f;
+  c6 = c6_next * u + c6;
+  float c7 = 318.7365f;
+  float c7_next = 41.784904f;
+  c7 = c7 * u_2 + -2.8456519f;
+  c7_next = c7_next * u_2 + -5.175998f;
+  c7 = c7 * u_2 + 15.895604f;
+  c7_next = c7_next * u_2 + 4.078481f;
+  c7 = c7 * u + c7_next;
+  float c8 = 467.46725f;
+  float c8_next = 257.034f;
+  c8 = c8 * u_2 + 99.189514f;
+  c8_next = c8_next * u_2 + 35.573143f;
+  c8 = c8 * u_2 + 3.7068543f;
+  c8 = c8_next * u + c8;
+  float c9 = -126.59136f;
+  c9 = c9 * u + -92.63062f;
+  c9 = c9 * u + -62.362976f;
+  c9 = c9 * u + -11.195745f;
+  const float c10 = 1.8342801f;
+  const float w = specular - 0.500001f;
+  float sum = c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
   sum = sum * w + c3;
@@ -124,6 +187,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -138,24 +203,20 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.24611461f;
+    const float u = alpha - 0.48089495f;
     const float u_2 = u * u;
-    float c0 = -0.07432265f;
-    float c0_next = -0.036556445f;
-    c0 = c0 * u_2 + -0.001365852f;
-    c0_next = c0_next * u_2 + 0.007104298f;
-    c0 = c0 * u_2 + 0.005737924f;
-    c0_next = c0_next * u_2 + 0.0024177453f;
-    c0 = c0 * u_2 + -0.0011476872f;
-    c0 = c0_next * u + c0;
-    float c1 = 60.24409f;
-    float c1_next = 25.86062f;
-    c1 = c1 * u_2 + 7.476677f;
-    c1_next = c1_next * u_2 + 1.995951f;
-    c1 = c1 * u_2 + 0.3039301f;
-    c1_next = c1_next * u_2 + 0.020905167f;
-    c1 = c1 * u_2 + 1.0019264f;
+    float c0 = -0.05635496f;
+    float c0_next = 0.0014225934f;
+    c0 = c0 * u_2 + 0.0141663635f;
+    c0_next = c0_next * u_2 + 0.00029487337f;
+    c0 = c0 * u_2 + 0.0021452473f;
+    c0_next = c0_next * u_2 + -0.0018122025f;
+    c0 = c0 * u + c0_next;
+    float c1 = 0.124130964f;
+    float c1_next = 0.35655963f;
+    c1 = c1 * u_2 + 0.28775567f;
+    c1_next = c1_next * u_2 + 0.08808888f;
+    c1 = c1 * u_2 + 1.0119687f;
     c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
@@ -165,6 +226,45 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.48858336f;
+  float c0 = 1.43731f;
+  c0 = c0 * u + -0.008439496f;
+  c0 = c0 * u + -0.0018595214f;
+  float c1 = -11.064165f;
+  c1 = c1 * u + -5.6576934f;
+  c1 = c1 * u + 1.1479084f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = 0.04917708f;
+  float c0_next = 0.07766367f;
+  c0 = c0 * u_2 + -0.20558374f;
+  c0_next = c0_next * u_2 + 1.0014892f;
+  c0 = c0 * u_2 + 0.5371524f;
+  c0 = c0_next * u + c0;
+  float c1 = -1.7402974f;
+  c1 = c1 * u + 2.280719f;
+  c1 = c1 * u + -0.9928204f;
+  c1 = c1 * u + -0.5360497f;
+  float c2 = -6.4901643f;
+  c2 = c2 * u + 5.5879173f;
+  c2 = c2 * u + -0.75174284f;
+  const float w = specular - 0.93593764f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -234,10 +334,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.color,
-                                 kDomainMax.color, 1.1111112f};
+                                 kDomainMax.color, 1.0f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -251,6 +367,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.9517879f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.91265553f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.871875f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -358,8 +488,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -369,13 +504,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -387,15 +611,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -403,16 +634,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -483,19 +717,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 0.9f}, {0.009980663f, 0.9006366f}, {3.7e-06f, 3.7e-05f}},
-      {{0.20815733f, 0.84375f}, {0.043291964f, 0.84359336f}, {3.8e-06f, 3.7e-05f}},
-      {{0.31631464f, 0.78749996f}, {0.10004882f, 0.78717625f}, {3.8e-06f, 3.7e-05f}},
-      {{0.42447197f, 0.73125f}, {0.18021546f, 0.73095775f}, {3.8e-06f, 3.7e-05f}},
-      {{0.5326293f, 0.67499995f}, {0.28378025f, 0.6748691f}, {3.9e-06f, 3.7e-05f}},
-      {{0.64078665f, 0.61875f}, {0.41133112f, 0.6199956f}, {3.9e-06f, 3.7e-05f}},
-      {{0.7489439f, 0.5625f}, {0.5650566f, 0.5689814f}, {4e-06f, 3.7e-05f}},
-      {{0.85710126f, 0.50624996f}, {0.7496586f, 0.526083f}, {4.1e-06f, 3.7e-05f}},
-      {{0.9652586f, 0.45f}, {0.97286016f, 0.49610946f}, {4.2e-06f, 3.7e-05f}},
-      {{0.05f, 0.45f}, {0.009981338f, 0.44957706f}, {3.7e-06f, 3.7e-05f}},
-      {{1.4478879f, 0.225f}, {0.9736725f, 0.24795128f}, {4.2e-06f, 3.7e-05f}},
-      {{0.5326293f, 0.0f}, {0.2861961f, 0.0f}, {3.9e-06f, 3.6e-05f}},
-      {{0.5326293f, 1.8f}, {0.28376883f, 1.8004544f}, {3.9e-06f, 7.3e-05f}},
+      {{0.1f, 1.0f}, {0.009999078f, 1.0f}, {0.00018f, 0.00011f}},
+      {{0.2125f, 0.9375f}, {0.045155305f, 0.93753844f}, {0.00018f, 0.00011f}},
+      {{0.325f, 0.875f}, {0.10561667f, 0.87473017f}, {0.00018f, 0.00011f}},
+      {{0.4375f, 0.8125f}, {0.19142143f, 0.81214964f}, {0.00018f, 0.00011f}},
+      {{0.55f, 0.75f}, {0.3026355f, 0.7504236f}, {0.00018f, 0.00011f}},
+      {{0.6625f, 0.6875f}, {0.44004437f, 0.6916177f}, {0.00018f, 0.00011f}},
+      {{0.775f, 0.625f}, {0.6070537f, 0.6405021f}, {0.00018f, 0.00011f}},
+      {{0.8875f, 0.5625f}, {0.8111336f, 0.6052224f}, {0.00018f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.5392116f}, {0.00018f, 0.00011f}},
+      {{0.05f, 0.5f}, {0.009993232f, 0.49873263f}, {0.00018f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.2687226f}, {0.00018f, 0.00011f}},
+      {{0.55f, 0.0f}, {0.3098417f, 0.0f}, {0.00018f, 0.00011f}},
+      {{0.55f, 2.0f}, {0.30239883f, 2.0f}, {0.00018f, 0.00022f}},
   }};
   std::array<float, kGolden.size()> roughness{}, color{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba3/beckmann to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba3_beckmann_to_mitsuba_beckmann.csv, sha256 4153835a3104204e65d9b781f9f034c5e079b8f73e605b0a13970360f7b6d520;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Mitsuba 3.9.1 (scalar_rgb); remapc 0.1.0.
-// Fit: parametric, seed 1, 673 rows trained, 168 held out.
-// Error on the rows held out: alpha rms 0.00014, 99 % 0.00057, max 0.00076;
-// f0 rms 2e-06, 99 % 5.3e-06, max 6.9e-06.
-// Lowered from the fit. Target alpha: degree 3, 4 in specular, proven within 8.5e-06 (sampled 7.9e-06), rising with alpha.
-// Target specular: degree 1, proven within 4.7e-05 (sampled 4.7e-05), rising with specular.
-// Covers alpha 0.01 to 0.965862069, specular 0 to 0.966666667.
+// Table mitsuba3_beckmann_to_mitsuba_beckmann.csv, sha256 90572b87aadc1cc66f722d88190432ab113ba8b68dd0bbaa66dab877804e8baf;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Mitsuba 3.9.1 (scalar_rgb); remapc 0.1.0.
+// Fit: series, seed 1, 760 rows trained, 190 held out.
+// Error on the rows held out: alpha rms 9.5e-05, 99 % 0.00056, max 0.00065;
+// f0 rms 3.5e-05, 99 % 0.00025, max 0.00026.
+// Lowered from the fit. Target alpha: degree 6, 7 in specular, proven within 9.8e-06 (sampled 8.6e-06), rising with alpha.
+// Target specular: degree 1, proven within 8.9e-05 (sampled 8.9e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, proven within 1.7e-07 (sampled 4.3e-08), rising with specular.
+// All together within 9.8e-06 in alpha, 9e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA3_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA3_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00014f;
-inline constexpr float kSpecularRmsError = 2e-06f;
+inline constexpr float kAlphaRmsError = 9.5e-05f;
+inline constexpr float kSpecularRmsError = 3.5e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.00069f;
+inline constexpr float kImageRmsError = 0.0015f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.9658621f, 0.96666664f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,29 +77,56 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.48793206f;
-  float c0 = -0.00014905329f;
-  c0 = c0 * u + 0.00031444887f;
-  c0 = c0 * u + 1.0003816f;
-  c0 = c0 * u + 0.4880229f;
-  float c1 = -0.00053334783f;
-  c1 = c1 * u + 0.001562492f;
-  c1 = c1 * u + 0.0016079167f;
-  c1 = c1 * u + 0.00035060284f;
-  float c2 = 0.0046344204f;
-  c2 = c2 * u + -0.007159777f;
-  c2 = c2 * u + -0.008306342f;
-  c2 = c2 * u + -0.0018099865f;
-  float c3 = 0.007282839f;
-  c3 = c3 * u + -0.0365611f;
-  c3 = c3 * u + -0.037791695f;
-  c3 = c3 * u + -0.008889381f;
-  float c4 = -0.03388842f;
-  c4 = c4 * u + 0.09028257f;
-  c4 = c4 * u + 0.099323094f;
-  c4 = c4 * u + 0.023031985f;
-  const float w = specular - 0.4833343f;
-  float sum = c4;
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -0.0031023116f;
+  float c0_next = -0.0011887025f;
+  c0 = c0 * u_2 + 0.0008501339f;
+  c0_next = c0_next * u_2 + -6.370305e-05f;
+  c0 = c0 * u_2 + 0.00018498956f;
+  c0_next = c0_next * u_2 + 1.0003557f;
+  c0 = c0 * u_2 + 0.5050834f;
+  c0 = c0_next * u + c0;
+  float c1 = 0.018979274f;
+  float c1_next = 0.018783271f;
+  c1 = c1 * u_2 + -0.0030912263f;
+  c1_next = c1_next * u_2 + -0.004188219f;
+  c1 = c1 * u_2 + -0.005142556f;
+  c1_next = c1_next * u_2 + -0.0025916956f;
+  c1 = c1 * u_2 + -0.000104835475f;
+  c1 = c1_next * u + c1;
+  float c2 = 0.024257293f;
+  float c2_next = 0.01214552f;
+  c2 = c2 * u_2 + 0.0048493864f;
+  c2_next = c2_next * u_2 + 0.017181788f;
+  c2 = c2 * u_2 + 0.020263711f;
+  c2_next = c2_next * u_2 + 0.006387001f;
+  c2 = c2 * u + c2_next;
+  float c3 = -0.13420662f;
+  float c3_next = -0.04252533f;
+  c3 = c3 * u_2 + 0.014447922f;
+  c3_next = c3_next * u_2 + 0.09764286f;
+  c3 = c3 * u_2 + 0.002362824f;
+  c3_next = c3_next * u_2 + -0.021242397f;
+  c3 = c3 * u + c3_next;
+  float c4 = -0.100879446f;
+  c4 = c4 * u + -0.27452096f;
+  c4 = c4 * u + -0.30563906f;
+  c4 = c4 * u + -0.09598494f;
+  float c5 = 0.19729076f;
+  c5 = c5 * u + -0.53698516f;
+  c5 = c5 * u + 0.20818423f;
+  c5 = c5 * u + 0.24837504f;
+  float c6 = 1.2970765f;
+  c6 = c6 * u + 1.5923785f;
+  c6 = c6 * u + 0.46966636f;
+  float c7 = -2.1418328f;
+  c7 = c7 * u + -1.0357752f;
+  const float w = specular - 0.500001f;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -109,6 +138,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -123,11 +154,11 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.48793206f;
-    float c0 = 0.00089525786f;
-    c0 = c0 * u + -0.0010868737f;
-    float c1 = -0.0008972213f;
-    c1 = c1 * u + 1.001087f;
+    const float u = alpha - 0.50500107f;
+    float c0 = 0.0017520486f;
+    c0 = c0 * u + -0.0021883312f;
+    float c1 = -0.0018084508f;
+    c1 = c1 * u + 1.0021818f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -136,6 +167,17 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9902167f;
+  float c0 = -0.03568958f;
+  c0 = c0 * u + -0.0014001217f;
+  const float c1 = 1.0019195f;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
@@ -205,10 +247,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.0344828f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -222,6 +280,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 1.0f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.9804333f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -329,8 +401,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -340,13 +417,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -358,15 +524,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -374,16 +547,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -454,19 +630,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.96666664f}, {0.009998658f, 0.966621f}, {9e-06f, 4.8e-05f}},
-      {{0.12948276f, 0.90625f}, {0.12947828f, 0.9061167f}, {9e-06f, 4.8e-05f}},
-      {{0.24896552f, 0.8458333f}, {0.2489536f, 0.84562635f}, {9.1e-06f, 4.8e-05f}},
-      {{0.3684483f, 0.78541666f}, {0.3684371f, 0.78515244f}, {9.1e-06f, 4.8e-05f}},
-      {{0.48793104f, 0.72499996f}, {0.48795754f, 0.7246955f}, {9.2e-06f, 4.8e-05f}},
-      {{0.6074138f, 0.6645833f}, {0.60752255f, 0.66425425f}, {9.3e-06f, 4.8e-05f}},
-      {{0.7268966f, 0.6041666f}, {0.7271086f, 0.6038257f}, {9.3e-06f, 4.8e-05f}},
-      {{0.84637934f, 0.54375f}, {0.84667516f, 0.5434064f}, {9.4e-06f, 4.7e-05f}},
-      {{0.9658621f, 0.48333332f}, {0.96619874f, 0.48299304f}, {9.4e-06f, 4.7e-05f}},
-      {{0.005f, 0.48333332f}, {0.009999028f, 0.4825764f}, {9e-06f, 4.7e-05f}},
-      {{1.4487932f, 0.24166666f}, {0.96623784f, 0.24116708f}, {9.4e-06f, 4.7e-05f}},
-      {{0.48793104f, 0.0f}, {0.48969382f, 0.0f}, {9.2e-06f, 4.7e-05f}},
-      {{0.48793104f, 1.9333333f}, {0.48802528f, 1.9332596f}, {9.2e-06f, 9.5e-05f}},
+      {{0.01f, 1.0f}, {0.010003788f, 1.0f}, {1.1e-05f, 9.1e-05f}},
+      {{0.13375f, 0.9375f}, {0.13376692f, 0.93731254f}, {1.1e-05f, 9e-05f}},
+      {{0.2575f, 0.875f}, {0.2574855f, 0.87463355f}, {1.1e-05f, 9e-05f}},
+      {{0.38125f, 0.8125f}, {0.38122344f, 0.81201285f}, {1.1e-05f, 9e-05f}},
+      {{0.505f, 0.75f}, {0.505041f, 0.7494367f}, {1.1e-05f, 9e-05f}},
+      {{0.62875f, 0.6875f}, {0.62888277f, 0.68689126f}, {1.1e-05f, 9e-05f}},
+      {{0.7525f, 0.625f}, {0.752678f, 0.624363f}, {1.1e-05f, 9e-05f}},
+      {{0.87625f, 0.5625f}, {0.8764323f, 0.5618381f}, {1.1e-05f, 9e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.49929774f}, {1.1e-05f, 9e-05f}},
+      {{0.005f, 0.5f}, {0.010003156f, 0.49854827f}, {1.1e-05f, 9e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.24892323f}, {1.1e-05f, 9e-05f}},
+      {{0.505f, 0.0f}, {0.51106244f, 0.0f}, {1.1e-05f, 9e-05f}},
+      {{0.505f, 2.0f}, {0.5049864f, 1.9999875f}, {1.1e-05f, 0.00019f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

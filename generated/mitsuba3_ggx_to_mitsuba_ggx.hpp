@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba3/ggx to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba3_ggx_to_mitsuba_ggx.csv, sha256 ca326b26747b77459c67e8a5e1cc9af019dcdeb4a95135833bd9cde0d26dfb00;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Mitsuba 3.9.1 (scalar_rgb); remapc 0.1.0.
-// Fit: parametric, seed 1, 673 rows trained, 168 held out.
-// Error on the rows held out: alpha rms 0.00015, 99 % 5e-04, max 0.00055;
-// f0 rms 3.3e-06, 99 % 9.8e-06, max 1.2e-05.
-// Lowered from the fit. Target alpha: degree 12 in alpha / (alpha + 0.3), 6 in specular, proven within 9.9e-06 (sampled 8.2e-06), rising with alpha.
-// Target specular: degree 1, proven within 5.8e-05 (sampled 5.8e-05), rising with specular.
-// Covers alpha 0.01 to 0.965862069, specular 0 to 0.966666667.
+// Table mitsuba3_ggx_to_mitsuba_ggx.csv, sha256 22058ac00ffa5404030a2da4bb02f2601a65e42045514402376403c05c667e45;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Mitsuba 3.9.1 (scalar_rgb); remapc 0.1.0.
+// Fit: series, seed 1, 742 rows trained, 186 held out.
+// Error on the rows held out: alpha rms 0.00013, 99 % 0.00063, max 0.00066;
+// f0 rms 8.6e-05, 99 % 0.00053, max 0.00055.
+// Lowered from the fit. Target alpha: degree 13 in alpha / (alpha + 1), 10 in specular, proven within 9.8e-06 (sampled 7.4e-06), rising with alpha.
+// Target specular: degree 1, proven within 7.4e-05 (sampled 7.4e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2 in alpha / (alpha + 0.2), proven within 3.9e-05 (sampled 3.4e-05), rising with specular.
+// All together within 9.8e-06 in alpha, 7.8e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA3_GGX_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA3_GGX_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00015f;
-inline constexpr float kSpecularRmsError = 3.3e-06f;
+inline constexpr float kAlphaRmsError = 0.00013f;
+inline constexpr float kSpecularRmsError = 8.6e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.00051f;
+inline constexpr float kImageRmsError = 0.0012f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.9658621f, 0.96666664f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,72 +77,111 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float t = alpha / (alpha + 0.3f);
-  const float u = t - 0.39763284f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = 979.42505f;
-  float c0_next = 542.552f;
-  c0 = c0 * u_2 + -95.9627f;
-  c0_next = c0_next * u_2 + -38.619484f;
-  c0 = c0 * u_2 + 46.732517f;
-  c0_next = c0_next * u_2 + 25.145771f;
-  c0 = c0 * u_2 + 9.53933f;
-  c0_next = c0_next * u_2 + 5.9361305f;
-  c0 = c0 * u_2 + 3.7982075f;
-  c0_next = c0_next * u_2 + 2.286622f;
-  c0 = c0 * u_2 + 1.373689f;
-  c0_next = c0_next * u_2 + 0.82701766f;
-  c0 = c0 * u_2 + 0.19805245f;
-  c0 = c0_next * u + c0;
-  float c1 = -0.19503517f;
-  float c1_next = -0.13520753f;
-  c1 = c1 * u_2 + -0.0402405f;
-  c1_next = c1_next * u_2 + -0.018309545f;
-  c1 = c1 * u_2 + -0.00949413f;
-  c1_next = c1_next * u_2 + -0.0027488256f;
-  c1 = c1 * u_2 + -0.00033237945f;
-  c1 = c1_next * u + c1;
-  float c2 = -1.0280461f;
-  float c2_next = 0.31572545f;
-  c2 = c2 * u_2 + 0.43282947f;
-  c2_next = c2_next * u_2 + 0.075971395f;
-  c2 = c2 * u_2 + 0.018939584f;
-  c2_next = c2_next * u_2 + 0.008503762f;
-  c2 = c2 * u_2 + 0.0009569712f;
-  c2 = c2_next * u + c2;
-  float c3 = 4.669641f;
-  float c3_next = 2.8912852f;
-  c3 = c3 * u_2 + 0.6635384f;
-  c3_next = c3_next * u_2 + 0.31298903f;
-  c3 = c3 * u_2 + 0.17868397f;
-  c3_next = c3_next * u_2 + 0.05158068f;
-  c3 = c3 * u_2 + 0.006245847f;
-  c3 = c3_next * u + c3;
-  float c4 = 7.6902905f;
-  float c4_next = -5.929743f;
-  c4 = c4 * u_2 + -5.3609734f;
-  c4_next = c4_next * u_2 + -1.0741911f;
-  c4 = c4 * u_2 + -0.34648165f;
-  c4_next = c4_next * u_2 + -0.13494651f;
-  c4 = c4 * u_2 + -0.015598453f;
-  c4 = c4_next * u + c4;
-  float c5 = -26.147158f;
-  float c5_next = -17.859558f;
-  c5 = c5 * u_2 + -5.164211f;
-  c5_next = c5_next * u_2 + -2.3592105f;
-  c5 = c5 * u_2 + -1.2365987f;
-  c5_next = c5_next * u_2 + -0.3586719f;
-  c5 = c5 * u_2 + -0.043547068f;
-  c5 = c5_next * u + c5;
-  float c6 = 34.750324f;
-  float c6_next = 22.095915f;
-  c6 = c6 * u_2 + 6.077289f;
-  c6_next = c6_next * u_2 + 2.4285448f;
-  c6 = c6 * u_2 + 0.8054272f;
-  c6_next = c6_next * u_2 + 0.095790334f;
+  float c0 = -682683.7f;
+  float c0_next = -145155.4f;
+  c0 = c0 * u_2 + 119481.555f;
+  c0_next = c0_next * u_2 + 25057.86f;
+  c0 = c0 * u_2 + -7711.587f;
+  c0_next = c0_next * u_2 + -1577.0255f;
+  c0 = c0 * u_2 + 238.25113f;
+  c0_next = c0_next * u_2 + 54.204674f;
+  c0 = c0 * u_2 + 2.9495173f;
+  c0_next = c0_next * u_2 + 3.7422385f;
+  c0 = c0 * u_2 + 3.2597017f;
+  c0_next = c0_next * u_2 + 2.4261115f;
+  c0 = c0 * u_2 + 1.8031977f;
+  c0_next = c0_next * u_2 + 0.34236163f;
+  c0 = c0 * u + c0_next;
+  float c1 = -1834619.2f;
+  float c1_next = -458972.16f;
+  c1 = c1 * u_2 + 261059.88f;
+  c1_next = c1_next * u_2 + 66323.25f;
+  c1 = c1 * u_2 + -13866.984f;
+  c1_next = c1_next * u_2 + -3582.775f;
+  c1 = c1 * u_2 + 294.89117f;
+  c1_next = c1_next * u_2 + 81.47303f;
+  c1 = c1 * u_2 + 0.23825428f;
+  c1_next = c1_next * u_2 + -0.30547675f;
+  c1 = c1 * u_2 + -0.045413718f;
+  c1_next = c1_next * u_2 + -0.01315618f;
+  c1 = c1 * u_2 + -0.005905793f;
+  c1_next = c1_next * u_2 + -0.0009613863f;
+  c1 = c1 * u + c1_next;
+  float c2 = -101620.15f;
+  float c2_next = -24605.072f;
+  c2 = c2 * u_2 + 11859.701f;
+  c2_next = c2_next * u_2 + 2935.728f;
+  c2 = c2 * u_2 + -492.7561f;
+  c2_next = c2_next * u_2 + -152.55772f;
+  c2 = c2 * u_2 + 4.364418f;
+  c2_next = c2_next * u_2 + 2.9810703f;
+  c2 = c2 * u_2 + -0.23690206f;
+  c2_next = c2_next * u_2 + -0.0675764f;
+  c2 = c2 * u_2 + -0.014252285f;
+  c2_next = c2_next * u_2 + -0.0031439809f;
+  c2 = c2 * u + c2_next;
+  float c3 = 4901.388f;
+  float c3_next = 1170.082f;
+  c3 = c3 * u_2 + 253.6034f;
+  c3_next = c3_next * u_2 + 42.617817f;
+  c3 = c3 * u_2 + -41.42121f;
+  c3_next = c3_next * u_2 + -11.169104f;
+  c3 = c3 * u_2 + -1.0273672f;
+  c3_next = c3_next * u_2 + -0.5295059f;
+  c3 = c3 * u_2 + 0.0045021717f;
+  c3_next = c3_next * u_2 + 0.024193691f;
+  c3 = c3 * u + c3_next;
+  float c4 = 297.1595f;
+  float c4_next = 208.39355f;
+  c4 = c4 * u_2 + -5.563665f;
+  c4_next = c4_next * u_2 + 14.183607f;
+  c4 = c4 * u_2 + 12.500783f;
+  c4_next = c4_next * u_2 + 2.8780162f;
+  c4 = c4 * u_2 + 0.9586096f;
+  c4_next = c4_next * u_2 + 0.14461678f;
+  c4 = c4 * u + c4_next;
+  float c5 = -2439.6108f;
+  float c5_next = -653.71027f;
+  c5 = c5 * u_2 + 129.89738f;
+  c5_next = c5_next * u_2 + 70.50439f;
+  c5 = c5 * u_2 + 14.886554f;
+  c5_next = c5_next * u_2 + 5.137417f;
+  c5 = c5 * u_2 + -1.4812452f;
+  c5_next = c5_next * u_2 + -0.5501801f;
+  c5 = c5 * u + c5_next;
+  float c6 = 97.89817f;
+  float c6_next = -213.67337f;
+  c6 = c6 * u_2 + -113.52023f;
+  c6_next = c6_next * u_2 + -28.543825f;
+  c6 = c6 * u_2 + -9.9517765f;
+  c6_next = c6_next * u_2 + -1.3423852f;
   c6 = c6 * u + c6_next;
-  const float w = specular - 0.4833343f;
-  float sum = c6;
+  float c7 = -69.98192f;
+  float c7_next = -14.277606f;
+  c7 = c7 * u_2 + -4.646845f;
+  c7_next = c7_next * u_2 + 16.281712f;
+  c7 = c7 * u_2 + 4.13902f;
+  c7 = c7_next * u + c7;
+  float c8 = 516.0813f;
+  float c8_next = 280.42133f;
+  c8 = c8 * u_2 + 104.48199f;
+  c8_next = c8_next * u_2 + 36.5008f;
+  c8 = c8 * u_2 + 4.0112467f;
+  c8 = c8_next * u + c8;
+  float c9 = -132.11778f;
+  c9 = c9 * u + -95.69597f;
+  c9 = c9 * u + -63.36462f;
+  c9 = c9 * u + -11.395291f;
+  const float c10 = 1.4881951f;
+  const float w = specular - 0.500001f;
+  float sum = c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
   sum = sum * w + c3;
@@ -154,6 +195,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -168,11 +211,11 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.48793206f;
-    float c0 = 0.0013629398f;
-    c0 = c0 * u + -0.0008827902f;
-    float c1 = -0.0013653742f;
-    c1 = c1 * u + 1.000883f;
+    const float u = alpha - 0.50500107f;
+    float c0 = 0.0026440918f;
+    c0 = c0 * u + -0.0017272796f;
+    float c1 = -0.0027433278f;
+    c1 = c1 * u + 1.0017004f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -181,6 +224,21 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 0.2f);
+  const float u = t - 0.8298574f;
+  float c0 = -27.097702f;
+  c0 = c0 * u + 0.21211438f;
+  c0 = c0 * u + -0.0022307266f;
+  float c1 = -64.5413f;
+  c1 = c1 * u + -10.980077f;
+  c1 = c1 * u + 1.0408018f;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
@@ -250,10 +308,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.0344828f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -267,6 +341,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 1.0f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.951951f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -374,8 +462,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -385,13 +478,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -403,15 +585,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -419,16 +608,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -499,19 +691,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.96666664f}, {0.009998025f, 0.9666247f}, {1.1e-05f, 5.9e-05f}},
-      {{0.12948276f, 0.90625f}, {0.12946877f, 0.90611786f}, {1.1e-05f, 5.9e-05f}},
-      {{0.24896552f, 0.8458333f}, {0.24896803f, 0.84563833f}, {1.1e-05f, 5.9e-05f}},
-      {{0.3684483f, 0.78541666f}, {0.36851576f, 0.7851832f}, {1.1e-05f, 5.9e-05f}},
-      {{0.48793104f, 0.72499996f}, {0.4880517f, 0.7247514f}, {1.1e-05f, 5.9e-05f}},
-      {{0.6074138f, 0.6645833f}, {0.6075151f, 0.6643416f}, {1.1e-05f, 5.8e-05f}},
-      {{0.7268966f, 0.6041666f}, {0.7269448f, 0.6039513f}, {1.1e-05f, 5.8e-05f}},
-      {{0.84637934f, 0.54375f}, {0.8464854f, 0.54357684f}, {1.1e-05f, 5.8e-05f}},
-      {{0.9658621f, 0.48333332f}, {0.96628815f, 0.48321432f}, {1.1e-05f, 5.8e-05f}},
-      {{0.005f, 0.48333332f}, {0.009998859f, 0.482574f}, {1.1e-05f, 5.8e-05f}},
-      {{1.4487932f, 0.24166666f}, {0.9671353f, 0.24149069f}, {1.1e-05f, 5.8e-05f}},
-      {{0.48793104f, 0.0f}, {0.4945714f, 0.0f}, {1.1e-05f, 5.8e-05f}},
-      {{0.48793104f, 1.9333333f}, {0.48803148f, 1.933275f}, {1.1e-05f, 0.00012f}},
+      {{0.01f, 1.0f}, {0.0100017125f, 1.0f}, {1.1e-05f, 7.8e-05f}},
+      {{0.13375f, 0.9375f}, {0.13375495f, 0.93731505f}, {1.1e-05f, 7.8e-05f}},
+      {{0.2575f, 0.875f}, {0.2574838f, 0.874668f}, {1.1e-05f, 7.8e-05f}},
+      {{0.38125f, 0.8125f}, {0.3813081f, 0.812086f}, {1.1e-05f, 7.8e-05f}},
+      {{0.505f, 0.75f}, {0.50513136f, 0.7495566f}, {1.1e-05f, 7.8e-05f}},
+      {{0.62875f, 0.6875f}, {0.62893033f, 0.68706757f}, {1.1e-05f, 7.8e-05f}},
+      {{0.7525f, 0.625f}, {0.752828f, 0.6246064f}, {1.1e-05f, 7.8e-05f}},
+      {{0.87625f, 0.5625f}, {0.87689257f, 0.5621607f}, {1.1e-05f, 7.8e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.4995813f}, {1.1e-05f, 7.8e-05f}},
+      {{0.005f, 0.5f}, {0.009997275f, 0.49853835f}, {1.1e-05f, 7.8e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.24904788f}, {1.1e-05f, 7.8e-05f}},
+      {{0.505f, 0.0f}, {0.52321416f, 0.0f}, {1.1e-05f, 7.8e-05f}},
+      {{0.505f, 2.0f}, {0.5049815f, 1.9999913f}, {1.1e-05f, 0.00016f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

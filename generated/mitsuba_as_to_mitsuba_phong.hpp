@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_phong.csv, sha256 6687e17fc13a061003739851ca12dbedb68990feb078f147c88ff7ad580c0d95;
+// Table mitsuba_as_to_mitsuba_phong.csv, sha256 4873c6f6fc2c642b1a2ac8645a7b57834ec88e74e4e6cd55d7376581d88a6700;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 779 rows trained, 195 held out.
 // Error on the rows held out: alpha rms 0.00039, 99 % 0.0026, max 0.0037;
@@ -43,7 +43,7 @@ inline constexpr float kAlphaRmsError = 0.00039f;
 inline constexpr float kSpecularRmsError = 7.7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.35f;
+inline constexpr float kImageRmsError = 0.3f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to cycles-5/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_cycles_5_beckmann.csv, sha256 ce9dfca680ccea02e196fd4850c603d6fa96279a307b0eb00f892f8dd8c7e674;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 5.0.1.
-// Fit: parametric, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 0.00015, 99 % 0.00076, max 0.00082;
-// color rms 5.2e-05, 99 % 0.00025, max 0.00028.
-// Lowered from the fit. Target alpha: degree 5, 4 in specular, proven within 9.2e-06 (sampled 8.1e-06), rising with alpha.
-// Target specular: degree 4, proven within 8.7e-05 (sampled 8e-05), rising with specular.
+// Table mitsuba_beckmann_to_cycles_5_beckmann.csv, sha256 8afbe62b8058aec9e3b080a9dc9695acc830ef5666e29aeccd26dc195a06de85;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 5.0.1.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 8.9e-05, 99 % 0.00033, max 0.00047;
+// color rms 4e-05, 99 % 0.00017, max 0.00019.
+// Lowered from the fit. Target alpha: degree 11 in alpha / (alpha + 1), 7 in specular, proven within 1e-05 (sampled 8.3e-06), rising with alpha.
+// Target specular: degree 10 in alpha / (alpha + 0.3), proven within 1e-04 (sampled 9.9e-05), rising with specular.
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_CYCLES_5_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_CYCLES_5_BECKMANN_HPP
@@ -37,11 +37,11 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "color";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00015f;
-inline constexpr float kSpecularRmsError = 5.2e-05f;
+inline constexpr float kAlphaRmsError = 8.9e-05f;
+inline constexpr float kSpecularRmsError = 4e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.0014f;
+inline constexpr float kImageRmsError = 0.0018f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -76,32 +76,77 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.50500107f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = -0.04661163f;
-  float c0_next = -0.045915067f;
-  c0 = c0 * u_2 + -0.011480718f;
-  c0_next = c0_next * u_2 + -1.6523434e-06f;
-  c0 = c0 * u_2 + 0.9998889f;
-  c0_next = c0_next * u_2 + 0.50491273f;
+  float c0 = 23410.193f;
+  float c0_next = 5067.488f;
+  c0 = c0 * u_2 + -3186.3687f;
+  c0_next = c0_next * u_2 + -809.4142f;
+  c0 = c0 * u_2 + 83.595604f;
+  c0_next = c0_next * u_2 + 28.931583f;
+  c0 = c0 * u_2 + 3.8477848f;
+  c0_next = c0_next * u_2 + 4.004131f;
+  c0 = c0 * u_2 + 3.264174f;
+  c0_next = c0_next * u_2 + 2.4183662f;
+  c0 = c0 * u_2 + 1.8009374f;
+  c0_next = c0_next * u_2 + 0.34215766f;
   c0 = c0 * u + c0_next;
-  float c1 = 0.00046764972f;
-  c1 = c1 * u + -0.0010842358f;
-  c1 = c1 * u + -0.0013522262f;
-  c1 = c1 * u + -0.00034613942f;
-  float c2 = 0.0059856866f;
-  c2 = c2 * u + 0.0075367503f;
-  c2 = c2 * u + 0.005464631f;
-  c2 = c2 * u + 0.0015418042f;
-  float c3 = -0.014816086f;
-  c3 = c3 * u + 0.024171697f;
-  c3 = c3 * u + 0.032752663f;
-  c3 = c3 * u + 0.008467576f;
-  float c4 = -0.06972071f;
-  c4 = c4 * u + -0.075847864f;
-  c4 = c4 * u + -0.020256015f;
+  float c1 = 61.645393f;
+  float c1_next = -0.12252905f;
+  c1 = c1 * u_2 + -7.828149f;
+  c1_next = c1_next * u_2 + -0.2326051f;
+  c1 = c1 * u_2 + 0.352697f;
+  c1_next = c1_next * u_2 + 0.054975532f;
+  c1 = c1 * u_2 + 0.015630497f;
+  c1_next = c1_next * u_2 + 0.002174859f;
+  c1 = c1 * u_2 + -0.00014017892f;
+  c1 = c1_next * u + c1;
+  float c2 = -38.50882f;
+  float c2_next = -9.206462f;
+  c2 = c2 * u_2 + 2.6205144f;
+  c2_next = c2_next * u_2 + -0.11910613f;
+  c2 = c2 * u_2 + -0.35270417f;
+  c2_next = c2_next * u_2 + -0.084454395f;
+  c2 = c2 * u_2 + -0.022757968f;
+  c2_next = c2_next * u_2 + -0.0030966895f;
+  c2 = c2 * u + c2_next;
+  float c3 = 100.62808f;
+  float c3_next = 24.649775f;
+  c3 = c3 * u_2 + -6.343802f;
+  c3_next = c3_next * u_2 + -3.513574f;
+  c3 = c3 * u_2 + -0.6066388f;
+  c3_next = c3_next * u_2 + -0.14570795f;
+  c3 = c3 * u_2 + 0.044626184f;
+  c3_next = c3_next * u_2 + 0.01658174f;
+  c3 = c3 * u + c3_next;
+  float c4 = 10.667128f;
+  float c4_next = 4.4873986f;
+  c4 = c4 * u_2 + 1.0685791f;
+  c4_next = c4_next * u_2 + 0.3316116f;
+  c4 = c4 * u_2 + 0.04556117f;
+  c4 = c4_next * u + c4;
+  float c5 = 6.86077f;
+  float c5_next = 2.4962065f;
+  c5 = c5 * u_2 + 0.71465194f;
+  c5_next = c5_next * u_2 + -0.62587684f;
+  c5 = c5 * u_2 + -0.17482556f;
+  c5 = c5_next * u + c5;
+  float c6 = -33.17058f;
+  float c6_next = -17.67244f;
+  c6 = c6 * u_2 + -6.2064962f;
+  c6_next = c6_next * u_2 + -1.8088825f;
+  c6 = c6 * u_2 + -0.21303035f;
+  c6 = c6_next * u + c6;
+  float c7 = 7.144588f;
+  c7 = c7 * u + 5.1749907f;
+  c7 = c7 * u + 3.426595f;
+  c7 = c7 * u + 0.6127497f;
   const float w = specular - 0.500001f;
-  float sum = c4;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -113,6 +158,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -127,19 +174,32 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.50500107f;
+    const float t = alpha / (alpha + 0.3f);
+    const float u = t - 0.40074456f;
     const float u_2 = u * u;
-    float c0 = 0.00050985423f;
-    float c0_next = 0.00012944153f;
-    c0 = c0 * u_2 + -0.00026901034f;
-    c0_next = c0_next * u_2 + -0.00092646445f;
-    c0 = c0 * u_2 + 0.0010956675f;
+    float c0 = -5.730545f;
+    float c0_next = -1.1253871f;
+    c0 = c0 * u_2 + 1.8267207f;
+    c0_next = c0_next * u_2 + 0.3695738f;
+    c0 = c0 * u_2 + -0.183722f;
+    c0_next = c0_next * u_2 + -0.04282529f;
+    c0 = c0 * u_2 + -0.0023155445f;
+    c0_next = c0_next * u_2 + -0.005287142f;
+    c0 = c0 * u_2 + -0.003645581f;
+    c0_next = c0_next * u_2 + -0.001181089f;
+    c0 = c0 * u_2 + 0.0027789418f;
     c0 = c0_next * u + c0;
-    float c1 = -0.0921103f;
-    float c1_next = -0.039998766f;
-    c1 = c1 * u_2 + 0.003408485f;
-    c1_next = c1_next * u_2 + 0.002446799f;
-    c1 = c1 * u_2 + 0.9988594f;
+    float c1 = -1102.4603f;
+    float c1_next = -383.50934f;
+    c1 = c1 * u_2 + 247.46925f;
+    c1_next = c1_next * u_2 + 77.84181f;
+    c1 = c1 * u_2 + -21.301645f;
+    c1_next = c1_next * u_2 + -5.5103874f;
+    c1 = c1 * u_2 + 0.8517005f;
+    c1_next = c1_next * u_2 + 0.16841663f;
+    c1 = c1 * u_2 + -0.012340939f;
+    c1_next = c1_next * u_2 + -0.00031334735f;
+    c1 = c1 * u_2 + 0.9973077f;
     c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
@@ -218,6 +278,22 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
@@ -235,6 +311,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -342,8 +432,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -353,13 +448,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -371,15 +555,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -387,16 +578,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -467,19 +661,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.099956796f, 0.99938655f}, {4.7e-05f, 8.8e-05f}},
-      {{0.13375f, 0.9375f}, {0.36572403f, 0.9376379f}, {1.4e-05f, 8.8e-05f}},
-      {{0.2575f, 0.875f}, {0.50747496f, 0.87522966f}, {9.8e-06f, 8.8e-05f}},
-      {{0.38125f, 0.8125f}, {0.6174566f, 0.8126792f}, {8.3e-06f, 8.8e-05f}},
-      {{0.505f, 0.75f}, {0.7106113f, 0.7502343f}, {7.3e-06f, 8.8e-05f}},
-      {{0.62875f, 0.6875f}, {0.7928706f, 0.6878191f}, {6.7e-06f, 8.8e-05f}},
-      {{0.7525f, 0.625f}, {0.86717093f, 0.6250366f}, {6.2e-06f, 8.8e-05f}},
-      {{0.87625f, 0.5625f}, {0.9350357f, 0.5612661f}, {5.9e-06f, 8.8e-05f}},
-      {{1.0f, 0.5f}, {0.997161f, 0.4958458f}, {5.6e-06f, 8.8e-05f}},
-      {{0.005f, 0.5f}, {0.099959485f, 0.5004469f}, {4.7e-05f, 8.8e-05f}},
-      {{1.5f, 0.25f}, {0.99715453f, 0.24823041f}, {5.6e-06f, 8.8e-05f}},
-      {{0.505f, 0.0f}, {0.7093232f, 0.0010942735f}, {7.3e-06f, 8.7e-05f}},
-      {{0.505f, 2.0f}, {0.71057034f, 1.9998953f}, {7.3e-06f, 0.00018f}},
+      {{0.01f, 1.0f}, {0.09998606f, 0.9995607f}, {5.1e-05f, 1e-04f}},
+      {{0.13375f, 0.9375f}, {0.36569738f, 0.93772066f}, {1.5e-05f, 1e-04f}},
+      {{0.2575f, 0.875f}, {0.50744873f, 0.8753602f}, {1.1e-05f, 1e-04f}},
+      {{0.38125f, 0.8125f}, {0.6174676f, 0.81291807f}, {8.9e-06f, 1e-04f}},
+      {{0.505f, 0.75f}, {0.71060646f, 0.75055647f}, {7.9e-06f, 1e-04f}},
+      {{0.62875f, 0.6875f}, {0.79283446f, 0.68810606f}, {7.2e-06f, 1e-04f}},
+      {{0.7525f, 0.625f}, {0.86709636f, 0.6250764f}, {6.7e-06f, 1e-04f}},
+      {{0.87625f, 0.5625f}, {0.9347694f, 0.5607334f}, {6.3e-06f, 1e-04f}},
+      {{1.0f, 0.5f}, {0.9965108f, 0.49424192f}, {6e-06f, 1e-04f}},
+      {{0.005f, 0.5f}, {0.09999578f, 0.5012447f}, {5.1e-05f, 1e-04f}},
+      {{1.5f, 0.25f}, {0.9959994f, 0.24779399f}, {6e-06f, 1e-04f}},
+      {{0.505f, 0.0f}, {0.7066796f, 0.0022264696f}, {7.9e-06f, 1e-04f}},
+      {{0.505f, 2.0f}, {0.7106663f, 1.9999996f}, {7.9e-06f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_ward_balanced.csv, sha256 52995cd6562db053527de319fcac468f0d6a1c542b721207fa6c8443eab2cfc8;
+// Table mitsuba_beckmann_to_mitsuba_ward_balanced.csv, sha256 b8be26c038d7ba4b2d31fbdaaa0ec4fc82ed6c3c13c7d6205fbd63a3a6333cce;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 823 rows trained, 206 held out.
 // Error on the rows held out: alpha rms 0.00013, 99 % 0.00066, max 9e-04;
@@ -43,7 +43,7 @@ inline constexpr float kAlphaRmsError = 0.00013f;
 inline constexpr float kSpecularRmsError = 7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.18f;
+inline constexpr float kImageRmsError = 0.14f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to cycles-3.4/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_cycles_3_4_ggx.csv, sha256 c741793f99df35b2e4621eefc21845b640ebe8bb594ef298105420b903faecbf;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 3.4.1.
-// Fit: parametric, seed 1, 696 rows trained, 174 held out.
-// Error on the rows held out: alpha rms 0.00016, 99 % 0.00069, max 0.00093;
-// color rms 5.1e-05, 99 % 0.00028, max 4e-04.
-// Lowered from the fit. Target alpha: degree 9 in alpha / (alpha + 1), 6 in specular, proven within 1e-05 (sampled 8.9e-06), rising with alpha.
-// Target specular: degree 4 in alpha / (alpha + 0.1), proven within 8e-05 (sampled 7.4e-05), rising with specular.
-// Covers alpha 0.01 to 1, f0 0 to 0.966666667.
+// Table mitsuba_ggx_to_cycles_3_4_ggx.csv, sha256 a0a160a2687caca1d2a6ef0266109d9504101f61ee3e45637b6e61665de4e2af;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 3.4.1.
+// Fit: series, seed 1, 733 rows trained, 183 held out.
+// Error on the rows held out: alpha rms 8.1e-05, 99 % 0.00037, max 0.00038;
+// color rms 0.00013, 99 % 0.00068, max 0.00096.
+// Lowered from the fit. Target alpha: degree 15 in alpha / (alpha + 1), 10 in specular, proven within 9.3e-06 (sampled 6.2e-06), rising with alpha.
+// Target specular: degree 4, proven within 7.6e-05 (sampled 7.1e-05), rising with specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_GGX_HPP
 
@@ -37,11 +37,11 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "color";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00016f;
-inline constexpr float kSpecularRmsError = 5.1e-05f;
+inline constexpr float kAlphaRmsError = 8.1e-05f;
+inline constexpr float kSpecularRmsError = 0.00013f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.00051f;
+inline constexpr float kImageRmsError = 0.00098f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -56,7 +56,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. color is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 0.96666664f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -79,57 +79,118 @@ inline float target_alpha(float alpha, float specular) noexcept {
   const float t = alpha / (alpha + 1.0f);
   const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = -320.6047f;
-  float c0_next = -79.85052f;
-  c0 = c0 * u_2 + 34.392033f;
-  c0_next = c0_next * u_2 + 15.788334f;
-  c0 = c0 * u_2 + 5.653273f;
-  c0_next = c0_next * u_2 + 4.1609087f;
-  c0 = c0 * u_2 + 3.2309833f;
-  c0_next = c0_next * u_2 + 2.417421f;
-  c0 = c0 * u_2 + 1.8009049f;
-  c0_next = c0_next * u_2 + 0.34211498f;
+  float c0 = -77491384.0f;
+  float c0_next = -21041950.0f;
+  c0 = c0 * u_2 + 12400122.0f;
+  c0_next = c0_next * u_2 + 3247861.5f;
+  c0 = c0 * u_2 + -798499.56f;
+  c0_next = c0_next * u_2 + -185712.89f;
+  c0 = c0 * u_2 + 28658.465f;
+  c0_next = c0_next * u_2 + 4846.7456f;
+  c0 = c0 * u_2 + -675.89453f;
+  c0_next = c0_next * u_2 + -48.619186f;
+  c0 = c0 * u_2 + 16.835505f;
+  c0_next = c0_next * u_2 + 4.6072545f;
+  c0 = c0 * u_2 + 3.1525848f;
+  c0_next = c0_next * u_2 + 2.412499f;
+  c0 = c0 * u_2 + 1.7999556f;
+  c0_next = c0_next * u_2 + 0.34202015f;
   c0 = c0 * u + c0_next;
-  float c1 = -0.266786f;
-  float c1_next = 0.036923148f;
-  c1 = c1 * u_2 + 0.06519729f;
-  c1_next = c1_next * u_2 + 0.028887313f;
-  c1 = c1 * u_2 + 0.008187919f;
-  c1_next = c1_next * u_2 + 0.0008786328f;
+  float c1 = -64340316.0f;
+  float c1_next = -20984076.0f;
+  c1 = c1 * u_2 + 8230729.0f;
+  c1_next = c1_next * u_2 + 2741327.5f;
+  c1 = c1 * u_2 + -469889.47f;
+  c1_next = c1_next * u_2 + -137844.47f;
+  c1 = c1 * u_2 + 19425.307f;
+  c1_next = c1_next * u_2 + 4259.6196f;
+  c1 = c1 * u_2 + -475.79028f;
+  c1_next = c1_next * u_2 + -105.14841f;
+  c1 = c1 * u_2 + 1.9336405f;
+  c1_next = c1_next * u_2 + 1.5429444f;
+  c1 = c1 * u_2 + 0.047301397f;
+  c1_next = c1_next * u_2 + -0.0048486833f;
+  c1 = c1 * u_2 + 0.0057949936f;
+  c1_next = c1_next * u_2 + 0.0010112729f;
   c1 = c1 * u + c1_next;
-  float c2 = 0.70570314f;
-  float c2_next = -0.47075823f;
-  c2 = c2 * u_2 + -0.2926403f;
-  c2_next = c2_next * u_2 + -0.07861168f;
-  c2 = c2 * u_2 + -0.022329662f;
-  c2_next = c2_next * u_2 + -0.0028498846f;
-  c2 = c2 * u + c2_next;
-  float c3 = -1.7509968f;
-  float c3_next = -1.1251343f;
-  c3 = c3 * u_2 + -0.49384192f;
-  c3_next = c3_next * u_2 + -0.14542471f;
-  c3 = c3 * u_2 + -0.016465575f;
-  c3 = c3_next * u + c3;
-  float c4 = 10.032817f;
-  float c4_next = 4.4611936f;
-  c4 = c4 * u_2 + 1.1191604f;
-  c4_next = c4_next * u_2 + 0.3310926f;
-  c4 = c4 * u_2 + 0.045104373f;
-  c4 = c4_next * u + c4;
-  float c5 = 7.8828144f;
-  float c5_next = 6.695186f;
-  c5 = c5 * u_2 + 3.6325276f;
-  c5_next = c5_next * u_2 + 1.0782273f;
-  c5 = c5 * u_2 + 0.11709556f;
+  float c2 = 1108684.6f;
+  float c2_next = 303444.6f;
+  c2 = c2 * u_2 + -129536.35f;
+  c2_next = c2_next * u_2 + -32328.557f;
+  c2 = c2 * u_2 + 6195.604f;
+  c2_next = c2_next * u_2 + 1176.5592f;
+  c2 = c2 * u_2 + -144.86792f;
+  c2_next = c2_next * u_2 + -13.679447f;
+  c2 = c2 * u_2 + 1.2812465f;
+  c2_next = c2_next * u_2 + 0.12538227f;
+  c2 = c2 * u_2 + 0.06194565f;
+  c2_next = c2_next * u_2 + 0.018692179f;
+  c2 = c2 * u_2 + 0.0030464416f;
+  c2 = c2_next * u + c2;
+  float c3 = 6234.3276f;
+  float c3_next = -1343.8947f;
+  c3 = c3 * u_2 + -1428.0646f;
+  c3_next = c3_next * u_2 + -23.283777f;
+  c3 = c3 * u_2 + 56.1986f;
+  c3_next = c3_next * u_2 + 6.2469907f;
+  c3 = c3 * u_2 + 1.3904014f;
+  c3_next = c3_next * u_2 + 0.6389207f;
+  c3 = c3 * u_2 + -0.0092267785f;
+  c3_next = c3_next * u_2 + -0.024942635f;
+  c3 = c3 * u + c3_next;
+  float c4 = -20319.902f;
+  float c4_next = -6832.84f;
+  c4 = c4 * u_2 + 746.5333f;
+  c4_next = c4_next * u_2 + 340.77914f;
+  c4 = c4 * u_2 + -24.851885f;
+  c4_next = c4_next * u_2 + -18.680262f;
+  c4 = c4 * u_2 + -8.1619005f;
+  c4_next = c4_next * u_2 + -3.052658f;
+  c4 = c4 * u_2 + -1.0106322f;
+  c4_next = c4_next * u_2 + -0.1349294f;
+  c4 = c4 * u + c4_next;
+  float c5 = 9961.23f;
+  float c5_next = 3369.7954f;
+  c5 = c5 * u_2 + -239.25743f;
+  c5_next = c5_next * u_2 + -136.51118f;
+  c5 = c5 * u_2 + -36.605324f;
+  c5_next = c5_next * u_2 + -15.2403145f;
+  c5 = c5 * u_2 + -5.247551f;
+  c5_next = c5_next * u_2 + 1.4722444f;
+  c5 = c5 * u_2 + 0.5421089f;
   c5 = c5_next * u + c5;
-  float c6 = -37.365635f;
-  float c6_next = -20.473917f;
-  c6 = c6 * u_2 + -7.500452f;
-  c6_next = c6_next * u_2 + -2.2266698f;
-  c6 = c6 * u_2 + -0.26765037f;
-  c6 = c6_next * u + c6;
-  const float w = specular - 0.4833343f;
-  float sum = c6;
+  float c6 = 322.95883f;
+  float c6_next = 196.91925f;
+  c6 = c6 * u_2 + 75.2577f;
+  c6_next = c6_next * u_2 + 28.472546f;
+  c6 = c6 * u_2 + 9.856859f;
+  c6_next = c6_next * u_2 + 1.222283f;
+  c6 = c6 * u + c6_next;
+  float c7 = -12.791857f;
+  float c7_next = 79.21685f;
+  c7 = c7 * u_2 + 19.057646f;
+  c7_next = c7_next * u_2 + 4.2915597f;
+  c7 = c7 * u_2 + -15.498662f;
+  c7_next = c7_next * u_2 + -3.957737f;
+  c7 = c7 * u + c7_next;
+  float c8 = -886.22516f;
+  float c8_next = -511.59967f;
+  c8 = c8 * u_2 + -209.65265f;
+  c8_next = c8_next * u_2 + -100.94986f;
+  c8 = c8 * u_2 + -34.41226f;
+  c8_next = c8_next * u_2 + -3.615951f;
+  c8 = c8 * u + c8_next;
+  float c9 = 121.81897f;
+  c9 = c9 * u + 88.236305f;
+  c9 = c9 * u + 58.425236f;
+  c9 = c9 * u + 10.616328f;
+  const float c10 = -1.2642151f;
+  const float w = specular - 0.500001f;
+  float sum = c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
   sum = sum * w + c3;
@@ -143,6 +204,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -157,19 +220,20 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.1f);
-    const float u = t - 0.49999994f;
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = -0.019430866f;
-    float c0_next = -0.009006487f;
-    c0 = c0 * u_2 + -3.2821445e-05f;
-    c0_next = c0_next * u_2 + 4.578625e-05f;
-    c0 = c0 * u_2 + 0.001402777f;
+    float c0 = -0.00035300764f;
+    float c0_next = 0.0017719761f;
+    c0 = c0 * u_2 + -5.2196858e-05f;
+    c0_next = c0_next * u_2 + -0.002864914f;
+    c0 = c0 * u_2 + 0.0017697368f;
     c0 = c0_next * u + c0;
-    float c1 = 0.01239469f;
-    c1 = c1 * u + 0.0014875096f;
-    c1 = c1 * u + -0.00014117484f;
-    c1 = c1 * u + 0.9985784f;
+    float c1 = -0.028037f;
+    float c1_next = -0.0041609183f;
+    c1 = c1 * u_2 + 0.0045738006f;
+    c1_next = c1_next * u_2 + 0.0030951109f;
+    c1 = c1 * u_2 + 0.9981442f;
+    c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -247,10 +311,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.0344828f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return std::sqrt(alpha); }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -264,6 +344,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -371,8 +465,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -382,13 +481,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -400,15 +588,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -416,16 +611,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -496,19 +694,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.96666664f}, {0.1000322f, 0.9662104f}, {5.1e-05f, 8.1e-05f}},
-      {{0.13375f, 0.90625f}, {0.3657494f, 0.9063843f}, {1.5e-05f, 8.1e-05f}},
-      {{0.2575f, 0.8458333f}, {0.5074346f, 0.84601396f}, {1.1e-05f, 8.1e-05f}},
-      {{0.38125f, 0.78541666f}, {0.61740226f, 0.7856409f}, {8.9e-06f, 8.1e-05f}},
-      {{0.505f, 0.72499996f}, {0.710554f, 0.7252549f}, {7.9e-06f, 8.1e-05f}},
-      {{0.62875f, 0.6645833f}, {0.7928643f, 0.6648331f}, {7.2e-06f, 8.1e-05f}},
-      {{0.7525f, 0.6041666f}, {0.86742234f, 0.6043678f}, {6.7e-06f, 8.1e-05f}},
-      {{0.87625f, 0.54375f}, {0.93600863f, 0.5438634f}, {6.3e-06f, 8.1e-05f}},
-      {{1.0f, 0.48333332f}, {0.99965626f, 0.48333022f}, {6e-06f, 8.1e-05f}},
-      {{0.005f, 0.48333332f}, {0.10003329f, 0.48384002f}, {5.1e-05f, 8.1e-05f}},
-      {{1.5f, 0.24166666f}, {0.99922836f, 0.24175572f}, {6e-06f, 8.1e-05f}},
-      {{0.505f, 0.0f}, {0.70587635f, 0.00088221795f}, {8e-06f, 8e-05f}},
-      {{0.505f, 1.9333333f}, {0.7105849f, 1.9334251f}, {7.9e-06f, 0.00017f}},
+      {{0.01f, 1.0f}, {0.10000881f, 0.99954504f}, {4.7e-05f, 7.6e-05f}},
+      {{0.13375f, 0.9375f}, {0.3657156f, 0.937656f}, {1.4e-05f, 7.6e-05f}},
+      {{0.2575f, 0.875f}, {0.50745535f, 0.8753784f}, {9.8e-06f, 7.6e-05f}},
+      {{0.38125f, 0.8125f}, {0.61741304f, 0.8129049f}, {8.3e-06f, 7.6e-05f}},
+      {{0.505f, 0.75f}, {0.7105379f, 0.75038725f}, {7.3e-06f, 7.6e-05f}},
+      {{0.62875f, 0.6875f}, {0.7928304f, 0.68790704f}, {6.7e-06f, 7.6e-05f}},
+      {{0.7525f, 0.625f}, {0.86727285f, 0.6254455f}, {6.3e-06f, 7.6e-05f}},
+      {{0.87625f, 0.5625f}, {0.9357559f, 0.5628504f}, {5.9e-06f, 7.6e-05f}},
+      {{1.0f, 0.5f}, {0.99902195f, 0.49980265f}, {5.6e-06f, 7.6e-05f}},
+      {{0.005f, 0.5f}, {0.100027725f, 0.5012319f}, {4.7e-05f, 7.6e-05f}},
+      {{1.5f, 0.25f}, {0.9984726f, 0.25016838f}, {5.6e-06f, 7.6e-05f}},
+      {{0.505f, 0.0f}, {0.6988597f, 0.0017790614f}, {7.5e-06f, 7.6e-05f}},
+      {{0.505f, 2.0f}, {0.71063703f, 1.9998466f}, {7.3e-06f, 0.00016f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

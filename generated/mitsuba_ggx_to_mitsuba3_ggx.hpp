@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba3/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba3_ggx.csv, sha256 cd465b36c57ff68a7ba40a14e90c9ff81fbe6c84c4b6538f036a9f94e53fca3c;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Mitsuba 3.9.1 (scalar_rgb).
-// Fit: svr, seed 1, 648 rows trained, 162 held out.
-// Error on the rows held out: alpha rms 4e-04, 99 % 0.0011, max 0.0013;
-// specular rms 0.00027, 99 % 0.00057, max 0.00066.
-// Lowered from the fit. Target alpha: degree 13, 9 in specular, proven within 8.4e-06 (sampled 6.8e-06), rising with alpha.
-// Target specular: degree 5 in alpha / (alpha + 1), 5 in specular, proven within 7.9e-05 (sampled 7.2e-05), rising with specular.
-// Covers alpha 0.01 to 1, f0 0 to 0.9.
+// Table mitsuba_ggx_to_mitsuba3_ggx.csv, sha256 9d2814ec5047d7e3ceb06d2990372db86250086587ea9a993da1b2baf4ec4a0a;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Mitsuba 3.9.1 (scalar_rgb).
+// Fit: series, seed 1, 750 rows trained, 187 held out.
+// Error on the rows held out: alpha rms 0.00015, 99 % 0.0011, max 0.0011;
+// specular rms 9.8e-05, 99 % 0.00089, max 9e-04.
+// Lowered from the fit. Target alpha: degree 12 in alpha / (alpha + 1), 10 in specular, proven within 9.8e-06 (sampled 7.5e-06), rising with alpha.
+// Target specular: degree 1, proven within 2.7e-05 (sampled 2.6e-05), rising with specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_GGX_HPP
 
@@ -36,11 +36,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 4e-04f;
-inline constexpr float kSpecularRmsError = 0.00027f;
+inline constexpr float kAlphaRmsError = 0.00015f;
+inline constexpr float kSpecularRmsError = 9.8e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.00051f;
+inline constexpr float kImageRmsError = 0.00094f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +55,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 0.9f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,98 +75,107 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.50500107f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = -117.66842f;
-  float c0_next = 14.078362f;
-  c0 = c0 * u_2 + 166.87979f;
-  c0_next = c0_next * u_2 + -15.195185f;
-  c0 = c0 * u_2 + -96.86323f;
-  c0_next = c0_next * u_2 + 6.148409f;
-  c0 = c0 * u_2 + 26.108826f;
-  c0_next = c0_next * u_2 + -0.9559534f;
-  c0 = c0 * u_2 + -3.2819617f;
-  c0_next = c0_next * u_2 + 0.045856476f;
-  c0 = c0 * u_2 + 0.16970654f;
-  c0_next = c0_next * u_2 + -0.002191465f;
-  c0 = c0 * u_2 + 0.9971855f;
-  c0_next = c0_next * u_2 + 0.50461245f;
-  c0 = c0 * u + c0_next;
-  float c1 = -9.228841f;
-  float c1_next = 7.756106f;
-  c1 = c1 * u_2 + 10.4718485f;
-  c1_next = c1_next * u_2 + -7.3490744f;
-  c1 = c1 * u_2 + -4.6662035f;
-  c1_next = c1_next * u_2 + 2.6923935f;
-  c1 = c1 * u_2 + 0.8683927f;
-  c1_next = c1_next * u_2 + -0.48174995f;
-  c1 = c1 * u_2 + -0.10352627f;
-  c1_next = c1_next * u_2 + 0.037949964f;
-  c1 = c1 * u_2 + 0.018686235f;
-  c1_next = c1_next * u_2 + 0.002166701f;
-  c1 = c1 * u + c1_next;
-  float c2 = -172.41437f;
-  float c2_next = -3.1292906f;
-  c2 = c2 * u_2 + 219.53589f;
-  c2_next = c2_next * u_2 + 7.268271f;
-  c2 = c2 * u_2 + -111.48417f;
-  c2_next = c2_next * u_2 + -4.154977f;
-  c2 = c2 * u_2 + 26.778292f;
-  c2_next = c2_next * u_2 + 0.5037764f;
-  c2 = c2 * u_2 + -2.782408f;
-  c2_next = c2_next * u_2 + 0.039129827f;
-  c2 = c2 * u_2 + 0.08596247f;
-  c2_next = c2_next * u_2 + 0.014111223f;
-  c2 = c2 * u + c2_next;
-  float c3 = 2.8206916f;
-  float c3_next = 3.1687372f;
-  c3 = c3 * u_2 + -4.9692492f;
-  c3_next = c3_next * u_2 + -4.627368f;
-  c3 = c3 * u_2 + 3.0645268f;
-  c3_next = c3_next * u_2 + 2.668941f;
-  c3 = c3 * u_2 + 0.269184f;
-  c3_next = c3_next * u_2 + -0.3809078f;
-  c3 = c3 * u_2 + -0.30470476f;
-  c3_next = c3_next * u_2 + -0.056553554f;
-  c3 = c3 * u + c3_next;
-  float c4 = -158.57106f;
-  float c4_next = -9.670615f;
-  c4 = c4 * u_2 + 149.32307f;
-  c4_next = c4_next * u_2 + 5.942862f;
-  c4 = c4 * u_2 + -60.9606f;
-  c4_next = c4_next * u_2 + 0.15375443f;
-  c4 = c4 * u_2 + 9.612847f;
-  c4_next = c4_next * u_2 + -0.46152446f;
-  c4 = c4 * u_2 + -0.3736788f;
-  c4_next = c4_next * u_2 + -0.16235778f;
+  float c0 = 43734.875f;
+  float c0_next = 10943.89f;
+  c0 = c0 * u_2 + -4118.6323f;
+  c0_next = c0_next * u_2 + -1120.506f;
+  c0 = c0 * u_2 + 80.168365f;
+  c0_next = c0_next * u_2 + 43.72094f;
+  c0 = c0 * u_2 + 10.446142f;
+  c0_next = c0_next * u_2 + 5.488478f;
+  c0 = c0 * u_2 + 4.2614183f;
+  c0_next = c0_next * u_2 + 3.2456598f;
+  c0 = c0 * u_2 + 2.4140859f;
+  c0_next = c0_next * u_2 + 1.7997733f;
+  c0 = c0 * u_2 + 0.34201816f;
+  c0 = c0_next * u + c0;
+  float c1 = -196626.52f;
+  float c1_next = -42518.64f;
+  c1 = c1 * u_2 + 16333.637f;
+  c1_next = c1_next * u_2 + 3195.0637f;
+  c1 = c1 * u_2 + -183.4338f;
+  c1_next = c1_next * u_2 + -23.186964f;
+  c1 = c1 * u_2 + -16.486557f;
+  c1_next = c1_next * u_2 + -3.290996f;
+  c1 = c1 * u_2 + 0.4322948f;
+  c1_next = c1_next * u_2 + 0.09707935f;
+  c1 = c1 * u_2 + 0.008344851f;
+  c1_next = c1_next * u_2 + 0.005243602f;
+  c1 = c1 * u_2 + 0.0009584834f;
+  c1 = c1_next * u + c1;
+  float c2 = -14453.488f;
+  float c2_next = -3957.0732f;
+  c2 = c2 * u_2 + 1314.7743f;
+  c2_next = c2_next * u_2 + 338.91263f;
+  c2 = c2 * u_2 + 5.1803517f;
+  c2_next = c2_next * u_2 + 5.3271127f;
+  c2 = c2 * u_2 + 0.8305262f;
+  c2_next = c2_next * u_2 + 0.01811216f;
+  c2 = c2 * u_2 + 0.0041167988f;
+  c2_next = c2_next * u_2 + 0.012715087f;
+  c2 = c2 * u_2 + 0.0030290622f;
+  c2 = c2_next * u + c2;
+  float c3 = 63778.895f;
+  float c3_next = 16260.15f;
+  c3 = c3 * u_2 + -6222.185f;
+  c3_next = c3_next * u_2 + -1288.4833f;
+  c3 = c3 * u_2 + 298.76236f;
+  c3_next = c3_next * u_2 + 51.524754f;
+  c3 = c3 * u_2 + -6.251514f;
+  c3_next = c3_next * u_2 + -0.7862313f;
+  c3 = c3 * u_2 + 0.6209508f;
+  c3_next = c3_next * u_2 + 0.019946929f;
+  c3 = c3 * u_2 + -0.024661604f;
+  c3 = c3_next * u + c3;
+  float c4 = 240.60565f;
+  float c4_next = -358.1285f;
+  c4 = c4 * u_2 + -148.66393f;
+  c4_next = c4_next * u_2 + -31.15726f;
+  c4 = c4 * u_2 + -8.995677f;
+  c4_next = c4_next * u_2 + -2.3593347f;
+  c4 = c4 * u_2 + -0.9306791f;
+  c4_next = c4_next * u_2 + -0.13498786f;
   c4 = c4 * u + c4_next;
-  float c5 = 8.092727f;
-  float c5_next = -1.2965885f;
-  c5 = c5 * u_2 + -8.844031f;
-  c5_next = c5_next * u_2 + -4.2111006f;
-  c5 = c5 * u_2 + 1.7093865f;
-  c5_next = c5_next * u_2 + 2.5298438f;
-  c5 = c5 * u_2 + 0.5852513f;
-  c5 = c5_next * u + c5;
-  float c6 = 24.228931f;
-  float c6_next = -1.089472f;
-  c6 = c6 * u_2 + -6.695464f;
-  c6_next = c6_next * u_2 + 0.60512865f;
-  c6 = c6 * u_2 + -1.3702761f;
-  c6_next = c6_next * u_2 + 0.12849136f;
-  c6 = c6 * u + c6_next;
-  float c7 = 6.8706365f;
-  float c7_next = 5.5836463f;
-  c7 = c7 * u_2 + -1.7536119f;
-  c7_next = c7_next * u_2 + -4.1033683f;
-  c7 = c7 * u_2 + -1.0917606f;
+  float c5 = -1225.84f;
+  float c5_next = -411.45627f;
+  c5 = c5 * u_2 + 17.13503f;
+  c5_next = c5_next * u_2 + 17.348606f;
+  c5 = c5 * u_2 + -3.0108669f;
+  c5_next = c5_next * u_2 + -5.251101f;
+  c5 = c5 * u_2 + 1.3641734f;
+  c5_next = c5_next * u_2 + 0.5574512f;
+  c5 = c5 * u + c5_next;
+  float c6 = 929.2388f;
+  float c6_next = 301.87424f;
+  c6 = c6 * u_2 + 237.39821f;
+  c6_next = c6_next * u_2 + 102.63685f;
+  c6 = c6 * u_2 + 27.88435f;
+  c6_next = c6_next * u_2 + 9.567473f;
+  c6 = c6 * u_2 + 1.225941f;
+  c6 = c6_next * u + c6;
+  float c7 = 8.649035f;
+  float c7_next = -6.000053f;
+  c7 = c7 * u_2 + 3.3724852f;
+  c7_next = c7_next * u_2 + -16.08872f;
+  c7 = c7 * u_2 + -4.117312f;
   c7 = c7_next * u + c7;
-  float c8 = 1.9398606f;
-  c8 = c8 * u + -0.0183964f;
-  float c9 = 2.2711122f;
-  c9 = c9 * u + 0.854898f;
-  const float w = specular - 0.4500009f;
-  float sum = c9;
+  float c8 = -531.9663f;
+  float c8_next = -286.87012f;
+  c8 = c8 * u_2 + -104.536156f;
+  c8_next = c8_next * u_2 + -34.28736f;
+  c8 = c8 * u_2 + -3.6156476f;
+  c8 = c8_next * u + c8;
+  float c9 = 127.22644f;
+  c9 = c9 * u + 92.15306f;
+  c9 = c9 * u + 61.018696f;
+  c9 = c9 * u + 11.01043f;
+  const float c10 = -1.3588f;
+  const float w = specular - 0.500001f;
+  float sum = c10;
+  sum = sum * w + c9;
   sum = sum * w + c8;
   sum = sum * w + c7;
   sum = sum * w + c6;
@@ -182,7 +191,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
   float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
   float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
@@ -199,50 +208,19 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.25495073f;
-    const float u_2 = u * u;
-    float c0 = 0.2075483f;
-    float c0_next = 0.058321994f;
-    c0 = c0 * u_2 + -0.0081726415f;
-    c0_next = c0_next * u_2 + -0.0041012024f;
-    c0 = c0 * u_2 + -0.0021043227f;
-    c0_next = c0_next * u_2 + 0.4504576f;
-    c0 = c0 * u + c0_next;
-    float c1 = -3.3548877f;
-    float c1_next = -0.45246872f;
-    c1 = c1 * u_2 + 0.51005447f;
-    c1_next = c1_next * u_2 + 0.09607742f;
-    c1 = c1 * u_2 + -0.016222194f;
-    c1_next = c1_next * u_2 + 0.9976397f;
-    c1 = c1 * u + c1_next;
-    float c2 = 0.03886621f;
-    c2 = c2 * u + 0.017217176f;
-    c2 = c2 * u + 0.00052655925f;
-    c2 = c2 * u + -0.0005829053f;
-    float c3 = -1.2129127f;
-    c3 = c3 * u + -0.4095628f;
-    c3 = c3 * u + 0.07357037f;
-    c3 = c3 * u + 0.022255054f;
-    const float c4 = 0.01151586f;
-    const float c5 = -0.08241696f;
+    const float u = alpha - 0.50500107f;
+    float c0 = -0.0026002415f;
+    c0 = c0 * u + 0.0017484176f;
+    float c1 = 0.0025670477f;
+    c1 = c1 * u + 0.99823487f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.4500009f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -331,7 +309,7 @@ inline Float between(Float from, Float to, Float share) noexcept { return from +
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.1111112f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -346,7 +324,7 @@ struct Mapping {
     specular_terms(count, terms);
   }
   static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
-  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
   static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
   static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
   static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
@@ -695,19 +673,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.9f}, {0.0107299285f, 0.90005285f}, {8.9e-06f, 8e-05f}},
-      {{0.13375f, 0.84375f}, {0.13360454f, 0.8444649f}, {8.9e-06f, 8e-05f}},
-      {{0.2575f, 0.78749996f}, {0.25754073f, 0.788004f}, {9e-06f, 8e-05f}},
-      {{0.38125f, 0.73125f}, {0.38095737f, 0.73135895f}, {9.1e-06f, 8e-05f}},
-      {{0.505f, 0.67499995f}, {0.5050762f, 0.67487293f}, {9.1e-06f, 8e-05f}},
-      {{0.62875f, 0.61875f}, {0.62910885f, 0.61860895f}, {9.2e-06f, 8e-05f}},
-      {{0.7525f, 0.5625f}, {0.75277764f, 0.5624566f}, {9.2e-06f, 8e-05f}},
-      {{0.87625f, 0.50624996f}, {0.87561285f, 0.50626326f}, {9.3e-06f, 8e-05f}},
-      {{1.0f, 0.45f}, {0.9988552f, 0.4499692f}, {9.4e-06f, 7.9e-05f}},
-      {{0.005f, 0.45f}, {0.010250219f, 0.45087323f}, {8.9e-06f, 8e-05f}},
-      {{1.5f, 0.225f}, {0.99850065f, 0.22460462f}, {9.4e-06f, 7.9e-05f}},
-      {{0.505f, 0.0f}, {0.49866033f, 0.0011852649f}, {9.1e-06f, 7.9e-05f}},
-      {{0.505f, 1.8f}, {0.505036f, 1.8002354f}, {9.1e-06f, 0.00016f}},
+      {{0.01f, 1.0f}, {0.009999505f, 0.99997455f}, {1.1e-05f, 2.7e-05f}},
+      {{0.13375f, 0.9375f}, {0.13374375f, 0.93766236f}, {1.1e-05f, 2.7e-05f}},
+      {{0.2575f, 0.875f}, {0.25751156f, 0.87530416f}, {1.1e-05f, 2.7e-05f}},
+      {{0.38125f, 0.8125f}, {0.3812019f, 0.81289995f}, {1.1e-05f, 2.7e-05f}},
+      {{0.505f, 0.75f}, {0.5048672f, 0.7504498f}, {1.1e-05f, 2.7e-05f}},
+      {{0.62875f, 0.6875f}, {0.62856406f, 0.68795353f}, {1.1e-05f, 2.7e-05f}},
+      {{0.7525f, 0.625f}, {0.75220567f, 0.62541133f}, {1.1e-05f, 2.7e-05f}},
+      {{0.87625f, 0.5625f}, {0.87560284f, 0.5628231f}, {1.1e-05f, 2.7e-05f}},
+      {{1.0f, 0.5f}, {0.9989749f, 0.5001889f}, {1.1e-05f, 2.7e-05f}},
+      {{0.005f, 0.5f}, {0.010002275f, 0.50149244f}, {1.1e-05f, 2.7e-05f}},
+      {{1.5f, 0.25f}, {0.9974404f, 0.2503125f}, {1.1e-05f, 2.7e-05f}},
+      {{0.505f, 0.0f}, {0.48834074f, 0.0017736102f}, {1.1e-05f, 2.7e-05f}},
+      {{0.505f, 2.0f}, {0.5050079f, 2.0f}, {1.1e-05f, 5.4e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

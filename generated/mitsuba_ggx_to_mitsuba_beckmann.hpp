@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba_beckmann.csv, sha256 82eabe3aa338c6b5a3c2067a71715f82923048e165146c544bbefc6705a1c3d9;
+// Table mitsuba_ggx_to_mitsuba_beckmann.csv, sha256 5b6fcfada4eef69301447a4c9bddb3b9056d95cfa23f45828e7e88fbd6ac6359;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00017, 99 % 0.00074, max 0.00081;
@@ -40,7 +40,7 @@ inline constexpr float kAlphaRmsError = 0.00017f;
 inline constexpr float kSpecularRmsError = 4.5e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.31f;
+inline constexpr float kImageRmsError = 0.3f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

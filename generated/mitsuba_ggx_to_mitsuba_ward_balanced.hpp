@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba_ward_balanced.csv, sha256 6abc5b334db7aba0368a563bec56db9cc697f8e160e63870b08fb75f14f6f6de;
+// Table mitsuba_ggx_to_mitsuba_ward_balanced.csv, sha256 23ec858dac53b0a7aed25c079fd5144f157e4929d8506d6394ba377b1e3ea7df;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 756 rows trained, 189 held out.
 // Error on the rows held out: alpha rms 7.6e-05, 99 % 0.00046, max 0.00086;
@@ -43,7 +43,7 @@ inline constexpr float kAlphaRmsError = 7.6e-05f;
 inline constexpr float kSpecularRmsError = 3.2e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.29f;
+inline constexpr float kImageRmsError = 0.28f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba_ward_duer.csv, sha256 ba8c0a271051053ab5d44dfdf667f962fa08dd8b03093ed1d1c43994c027905c;
+// Table mitsuba_ggx_to_mitsuba_ward_duer.csv, sha256 36b11fa5988652b1fea3ef9e176950de365bdc83af3031a85f52d3dfcd8a6848;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 766 rows trained, 192 held out.
 // Error on the rows held out: alpha rms 0.00012, 99 % 0.00042, max 0.00044;
@@ -43,7 +43,7 @@ inline constexpr float kAlphaRmsError = 0.00012f;
 inline constexpr float kSpecularRmsError = 2.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.35f;
+inline constexpr float kImageRmsError = 0.34f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_phong.csv, sha256 727853170693582fe30e909eeef8a672aa3c0157a30c31cab8f43bac87ea315d;
+// Table mitsuba_ward_balanced_to_mitsuba_phong.csv, sha256 910c425efe29f495eba4a3da06d935e829012f32cec8b7df12e667120ed2ce69;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: series, seed 1, 771 rows trained, 193 held out.
 // Error on the rows held out: alpha rms 3.3e-05, 99 % 0.00022, max 3e-04;
@@ -42,7 +42,7 @@ inline constexpr float kAlphaRmsError = 3.3e-05f;
 inline constexpr float kSpecularRmsError = 4.4e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.32f;
+inline constexpr float kImageRmsError = 0.3f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]

@@ -7,11 +7,11 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
-#include "commands/renderer_options.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "core/stopwatch.hpp"
 #include "remap/error.hpp"
+#include "worker/renderer_options.hpp"
 
 namespace remap {
 namespace {

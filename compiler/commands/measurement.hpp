@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "command_line/progress.hpp"
-#include "commands/renderer_options.hpp"
 #include "core/json.hpp"
 #include "core/stopwatch.hpp"
 #include "measure/sweep_options.hpp"
 #include "table/light.hpp"
 #include "table/table.hpp"
+#include "worker/renderer_options.hpp"
 
 namespace remap {
 

@@ -8,11 +8,11 @@
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/renderer_options.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "renderer/image_file.hpp"
+#include "worker/renderer_options.hpp"
 
 namespace remap {
 namespace {

@@ -1,11 +1,11 @@
 // `remapc render` renders one picture of the sweep scene.
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/renderer_options.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/renderer.hpp"
+#include "worker/renderer_options.hpp"
 
 namespace remap {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
-#include "commands/renderer_options.hpp"
 #include "core/json.hpp"
 #include "remap/error.hpp"
 #include "table/domain.hpp"
+#include "worker/renderer_options.hpp"
 #include "worker/renderer_set.hpp"
 
 namespace remap {

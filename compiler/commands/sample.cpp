@@ -28,13 +28,14 @@ void run(const SampleCommand& command) {
                      {{"source_columns", table.source_columns}, {"target_columns", table.target_columns}});
 }
 
-constexpr std::size_t kMostSamples = 1'000'000;
+constexpr std::size_t kMostMaterials = 1'000'000;
 
 void add_options(Command& app, SampleCommand& command) {
   MaterialSampleOptions& sample = command.sample;
   command.add_table_options(app, "CSV table to write, with a column per parameter and channel");
   app.option_group("Materials");
-  app.add_option("--count", sample.count, "Number of random materials")->range(std::size_t{1}, kMostSamples);
+  app.add_option("--count", sample.count, "Number of random materials")
+      ->range(std::size_t{1}, kMostMaterials);
   app.add_option("--seed", sample.seed, "Seed of the random materials");
   app.add_option(
          "--vary NAME", sample.varied,

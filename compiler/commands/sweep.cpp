@@ -61,14 +61,14 @@ void run(const SweepCommand& command) {
   measurement.report(table.rows);
 }
 
-constexpr int kMostSamples = 4096;  // of each axis
+constexpr int kMostAxisSamples = 4096;  // of each axis
 
 void add_sample_options(Command& app, SweepCommand& command) {
   app.option_group("Samples");
   app.add_option("--roughness-samples", command.roughness_samples, "Number of source alphas")
-      ->range(1, kMostSamples);
+      ->range(1, kMostAxisSamples);
   app.add_option("--specular-samples", command.specular_samples, "Number of source speculars for each alpha")
-      ->range(1, kMostSamples);
+      ->range(1, kMostAxisSamples);
   app.add_option("--roughness-range MIN,MAX", command.roughness_range, number_range(),
                  "Range of the source's alpha")
       ->default_text("0.01,1");

@@ -41,7 +41,7 @@ class WidthMatch {
       source.weights = setup_.picture_taker.weights(source.picture);
       match = match_by_itself(std::move(source));
     }
-    return {sample.alpha, sample.specular, match.alpha, match.specular, match.error, match.status, 0};
+    return {sample.alpha, sample.specular, match.alpha, match.specular, match.picture_error, match.status, 0};
   }
 
  private:
@@ -76,10 +76,10 @@ class WidthMatch {
     if (setup_.target.bank)
       return Matcher(*setup_.target.bank, {std::move(source.picture)}, std::move(source.weights))
           .match({1.0}, &minima_);
-    const std::vector<RoleValues> starts = setup_.grid->minima(source.picture, source.weights);
+    const std::vector<RoleValues> starts = setup_.grid->minima(source.picture, source.weights.squared);
     const JointMatch match =
         JointMatcher(*setup_.target.pictures, {std::move(source)}, {false, false}).match(starts);
-    return {match.point().alpha, match.point().specular, match.error, match.status};
+    return {match.point().alpha, match.point().specular, match.error, match.picture_error, match.status};
   }
 
   const SweepSetup& setup_;
@@ -151,7 +151,8 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
                              {true, row->diffuse1 > 0.0 || !setup.source.model.has(ParameterRole::kDiffuse)});
   const RoleValues apart{row->alpha2, row->specular2, row->diffuse2};
   if (setup.options.stages == 2) {
-    row->error = matcher.error_of(setup.picture_taker.take(setup.target, apart));
+    const std::vector<std::vector<float>> pictures = {setup.picture_taker.take(setup.target, apart)};
+    row->error = matcher.picture_error(pictures);
     return;
   }
   const JointMatch match = matcher.match({setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart},
@@ -159,7 +160,7 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
   row->alpha2 = match.point().alpha;
   row->specular2 = match.point().specular;
   row->diffuse2 = match.point().diffuse;
-  row->error = match.error;
+  row->error = match.picture_error;
   row->status = match.status;
 }
 
@@ -192,7 +193,6 @@ std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& bl
       match_diffuse_apart(setup, &row);
       match_whole(setup, &row);
     }
-    row.error *= setup.options.objective.error_factor();
     const bool clamped = !setup.source_widths.effective.contains(row.alpha1);
     if (clamped && row.status == RowStatus::kOk) row.status = RowStatus::kClamped;
   }

@@ -74,9 +74,13 @@ bool lies_at(double value, double bound, const Range& range) {
   return std::fabs(value - bound) <= kBoundTolerance * (range.max - range.min);
 }
 
-double picture_power(const JointChannel& channel) {
-  return weighted_product(channel.weights.data(), channel.picture.data(), channel.picture.data(),
-                          channel.picture.size());
+double power_of(const PictureWeights& weights, const std::vector<float>& picture) {
+  return weighted_product(weights.squared.data(), picture.data(), picture.data(), picture.size());
+}
+
+double pixel_power(PictureWeights weights, const std::vector<float>& picture) {
+  for (const std::size_t i : weights.means) weights.squared[i] = 0.0f;
+  return power_of(weights, picture);
 }
 
 }  // namespace
@@ -132,9 +136,9 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
       for (std::size_t i = 0; i <= count_; ++i)
         for (std::size_t j = i; j <= count_; ++j)
           if (columns[i] != nullptr && columns[j] != nullptr)
-            products(i, j) +=
-                weighted_product(channel.weights.data(), columns[i], columns[j], channel.picture.size()) /
-                matcher_.power_;
+            products(i, j) += weighted_product(channel.weights.squared.data(), columns[i], columns[j],
+                                               channel.picture.size()) /
+                              matcher_.power_;
     }
     return products;
   }
@@ -151,7 +155,7 @@ JointMatcher::JointMatcher(const TargetPictures& target, std::vector<JointChanne
     : target_(target), channels_(std::move(channels)), options_(options), unknowns_(unknowns()) {
   wanted_.resize(target.coordinates().size());
   for (const Unknown& unknown : unknowns_) wanted_[unknown.coordinate] = true;
-  for (const JointChannel& channel : channels_) power_ += picture_power(channel);
+  for (const JointChannel& channel : channels_) power_ += power_of(channel.weights, channel.picture);
 }
 
 std::vector<JointMatcher::Unknown> JointMatcher::unknowns() const {
@@ -191,11 +195,15 @@ RoleValues JointMatcher::point_of(const RoleValues& shares) const {
   return point;
 }
 
-double JointMatcher::error_of(std::span<const float> picture) const {
-  JointChannel difference{{picture.begin(), picture.end()}, channels_.front().weights};
-  for (std::size_t i = 0; i < difference.picture.size(); ++i)
-    difference.picture[i] -= channels_.front().picture[i];
-  return std::sqrt(picture_power(difference) / power_);
+double JointMatcher::picture_error(std::span<const std::vector<float>> pictures) const {
+  double loss = 0.0, power = 0.0;
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    std::vector<float> difference = pictures[c];
+    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= channels_[c].picture[i];
+    loss += pixel_power(channels_[c].weights, difference);
+    power += pixel_power(channels_[c].weights, channels_[c].picture);
+  }
+  return std::sqrt(loss / power);
 }
 
 JointMatch JointMatcher::search(const RoleValues& guess, double tolerance) const {
@@ -227,7 +235,7 @@ JointMatch JointMatcher::search(const RoleValues& guess, double tolerance) const
     problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(values.size()), fixed));
     summary = solve(&problem, tolerance);
   }
-  return {points_of(values.data(), guess), std::sqrt(2.0 * summary.final_cost),
+  return {points_of(values.data(), guess), std::sqrt(2.0 * summary.final_cost), 0.0,
           summary.termination_type == ceres::CONVERGENCE, RowStatus::kOk};
 }
 
@@ -266,6 +274,10 @@ JointMatch JointMatcher::match(const std::vector<RoleValues>& guesses,
   JointMatch best = *std::ranges::min_element(found, {}, &JointMatch::error);
   for (const RoleValues& rival : rivals) found.push_back(search(rival, kRivalTolerance));
   best.status = judge(best, found);
+  std::vector<std::vector<float>> pictures;
+  for (PictureTangents& tangents : target_.at(best.points, std::vector<bool>(wanted_.size())))
+    pictures.push_back(std::move(tangents.picture));
+  best.picture_error = picture_error(pictures);
   return best;
 }
 

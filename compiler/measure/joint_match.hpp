@@ -21,15 +21,17 @@ struct JointOptions {
   bool source_has_diffuse = true;  // false: diffuse 0 is an answer and does not count as a bound that was hit
 };
 
-// One color channel of the source: its picture, and w^2 for each pixel.
+// One color channel of the source.
 struct JointChannel {
-  std::vector<float> picture, weights;
+  std::vector<float> picture;
+  PictureWeights weights;
   bool is_black() const { return remap::is_black(picture); }
 };
 
 struct JointMatch {
   std::vector<RoleValues> points;  // canonical, one for each channel
-  double error = 0.0;              // weighted relative RMS of the picture over all channels
+  double error = 0.0;              // of the objective: weighted relative RMS over all channels
+  double picture_error = 0.0;      // the same over the pixels alone, without means
   bool converged = false;
   RowStatus status = RowStatus::kOk;
 
@@ -49,8 +51,8 @@ class JointMatcher {
   // is at a bound and the pictures differ. Throws kNumeric if Ceres fails.
   JointMatch match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
 
-  // Returns the weighted relative RMS of `picture` against the source, for a grey match.
-  double error_of(std::span<const float> picture) const;
+  // Returns the weighted relative RMS of the pixels of `pictures`, one a channel, against the source.
+  double picture_error(std::span<const std::vector<float>> pictures) const;
 
   // Converts shares (0 to 1) of the target's ranges to parameters. Parameters without a role that `shares`
   // does not name take the shares of alpha, specular and diffuse in turn.

@@ -21,6 +21,34 @@ constexpr double kRivalError = 1.01;
 constexpr double kRivalDistance = 0.02;
 constexpr double kSameError = 1e-4;
 
+// The sum of a * b, and of weights * a * b, over the numbers `at` of pictures.
+double part_product(const std::vector<std::size_t>& at, const std::vector<float>& a,
+                    const std::vector<float>& b) {
+  double sum = 0.0;
+  for (const std::size_t i : at) sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  return sum;
+}
+
+double part_product(const PictureWeights& weights, const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0.0;
+  for (const std::size_t i : weights.means)
+    sum += static_cast<double>(weights.squared[i]) * static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  return sum;
+}
+
+void add(double factor, const std::vector<double>& polynomial, std::vector<double>* sum) {
+  sum->resize(std::max(sum->size(), polynomial.size()));
+  for (std::size_t i = 0; i < polynomial.size(); ++i) (*sum)[i] += factor * polynomial[i];
+}
+
+double quadratic_form(const std::vector<std::vector<double>>& matrix,
+                      const std::vector<double>& coefficients) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < matrix.size(); ++i)
+    for (std::size_t j = 0; j < matrix.size(); ++j) sum += coefficients[i] * coefficients[j] * matrix[i][j];
+  return sum;
+}
+
 // The losses at neighbouring nodes, interpolated coefficient by coefficient.
 struct LossWindow {
   std::array<std::vector<double>, kInterpolationNodes> losses;
@@ -36,55 +64,52 @@ struct LossWindow {
 
 }  // namespace
 
-Matcher::Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis,
-                 std::vector<float> squared_weights)
-    : bank_(bank), basis_(std::move(basis)), weights_(std::move(squared_weights)) {
+Matcher::Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, PictureWeights weights)
+    : bank_(bank), basis_(std::move(basis)), weights_(std::move(weights)) {
   for (const auto& picture : basis_) {
     std::vector<float> weighted(picture.size());
-    for (std::size_t i = 0; i < picture.size(); ++i) weighted[i] = picture[i] * weights_[i];
+    for (std::size_t i = 0; i < picture.size(); ++i) weighted[i] = picture[i] * weights_.squared[i];
     weighted_basis_.push_back(std::move(weighted));
   }
   for (const auto& weighted : weighted_basis_) {
     power_.emplace_back();
-    for (const auto& picture : basis_)
+    power_of_means_.emplace_back();
+    for (const auto& picture : basis_) {
       power_.back().push_back(inner_product(weighted.data(), picture.data(), picture.size()));
+      power_of_means_.back().push_back(part_product(weights_.means, weighted, picture));
+    }
   }
 }
 
-const Matcher::Products& Matcher::products(std::size_t node) {
+const Matcher::NodeProducts& Matcher::products(std::size_t node) {
   const auto known = products_.find(node);
   if (known != products_.end()) return known->second;
   const std::vector<std::vector<float>>& pictures = bank_.pictures(node);
   const std::vector<Polynomial>& weights = bank_.family().weights;
-  Products p;
-  const auto add = [](double factor, const Polynomial& polynomial, Polynomial* sum) {
-    sum->resize(std::max(sum->size(), polynomial.size()));
-    for (std::size_t i = 0; i < polynomial.size(); ++i) (*sum)[i] += factor * polynomial[i];
-  };
+  NodeProducts p;
   for (std::size_t j = 0; j < pictures.size(); ++j)
     for (std::size_t k = j; k < pictures.size(); ++k) {
-      const double product =
-          weighted_product(weights_.data(), pictures[j].data(), pictures[k].data(), weights_.size());
-      add(j == k ? product : 2.0 * product, polynomial_product(weights[j], weights[k]), &p.power);
+      const double count = j == k ? 1.0 : 2.0;
+      const Polynomial polynomial = polynomial_product(weights[j], weights[k]);
+      add(count * weighted_product(weights_.squared.data(), pictures[j].data(), pictures[k].data(),
+                                   weights_.squared.size()),
+          polynomial, &p.all.power);
+      add(count * part_product(weights_, pictures[j], pictures[k]), polynomial, &p.means.power);
     }
   for (const auto& source : weighted_basis_) {
-    p.cross.emplace_back();
-    for (std::size_t k = 0; k < pictures.size(); ++k)
-      add(inner_product(source.data(), pictures[k].data(), weights_.size()), weights[k], &p.cross.back());
+    p.all.cross.emplace_back();
+    p.means.cross.emplace_back();
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+      add(inner_product(source.data(), pictures[k].data(), source.size()), weights[k], &p.all.cross.back());
+      add(part_product(weights_.means, source, pictures[k]), weights[k], &p.means.cross.back());
+    }
   }
   return products_.emplace(node, std::move(p)).first->second;
 }
 
-double Matcher::source_power(const std::vector<double>& coefficients) const {
-  double power = 0.0;
-  for (std::size_t i = 0; i < basis_.size(); ++i)
-    for (std::size_t j = 0; j < basis_.size(); ++j) power += coefficients[i] * coefficients[j] * power_[i][j];
-  return power;
-}
-
 // |I - T|^2 = II - 2 IT + TT, all weighted. II does not depend on the target and is left out, so that
 // refine() can differentiate the rest without cancellation.
-Matcher::Polynomial Matcher::loss(const Products& products, const std::vector<double>& coefficients) const {
+Matcher::Polynomial Matcher::loss(const Products& products, const std::vector<double>& coefficients) {
   Polynomial result = products.power;
   Polynomial cross(products.cross.front().size());
   for (std::size_t b = 0; b < coefficients.size(); ++b)
@@ -98,7 +123,7 @@ PolynomialMinimum Matcher::least(const Polynomial& loss) const {
 }
 
 double Matcher::loss_at_node(std::size_t node, const std::vector<double>& coefficients) {
-  return least(loss(products(node), coefficients)).value;
+  return least(loss(products(node).all, coefficients)).value;
 }
 
 std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coefficients) {
@@ -124,9 +149,10 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   std::array<std::size_t, kInterpolationNodes> nodes{};
   std::iota(nodes.begin(), nodes.end(), first);
   bank_.prepare(nodes);
-  LossWindow window;
+  LossWindow window, window_of_means;
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-    window.losses[i] = loss(products(first + i), coefficients);
+    window.losses[i] = loss(products(first + i).all, coefficients);
+    window_of_means.losses[i] = loss(products(first + i).means, coefficients);
     window.logs[i] = std::log(bank_.alpha(first + i));
   }
   // The derivative of the loss by log(alpha) at the best specular. The derivative by specular is 0 there, so
@@ -146,21 +172,28 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
     x = 0.5 * (low + high);
     (derivative(x) < 0.0 ? low : high) = x;
   }
-  Match match = match_at(x, window.sum(LagrangeBasis(window.logs, x).value), source_power(coefficients));
+  const LagrangeBasis::Values at = LagrangeBasis(window.logs, x).value;
+  Match match = match_at(x, window.sum(at), window_of_means.sum(at), coefficients);
   if (at_edge && !bracketed && match.status == RowStatus::kOk) match.status = RowStatus::kClamped;
   return match;
 }
 
-// Returns the match at log(alpha) = `x` from the loss at that width.
-Match Matcher::match_at(double x, const Polynomial& loss, double power) const {
+// Returns the match at log(alpha) = `x` from the loss at that width, and the part of it that is of means.
+Match Matcher::match_at(double x, const Polynomial& loss, const Polynomial& loss_of_means,
+                        const std::vector<double>& coefficients) const {
   const SpecularFamily& family = bank_.family();
   const Range range = family.coordinate_range();
+  const double power = quadratic_form(power_, coefficients);
+  const double power_of_means = quadratic_form(power_of_means_, coefficients);
   const auto error = [&](const PolynomialMinimum& minimum) {
     return std::sqrt(std::max(0.0, power + minimum.value) / power);
   };
   const std::vector<PolynomialMinimum> minima = polynomial_minima(loss, range);
   const PolynomialMinimum& best = minima.front();
-  Match match{std::exp(x), family.specular(best.at), error(best), RowStatus::kOk};
+  const double of_means = power_of_means + polynomial_value(loss_of_means, best.at);
+  const double of_pixels = std::max(0.0, power + best.value - of_means);
+  Match match{std::exp(x), family.specular(best.at), error(best),
+              std::sqrt(of_pixels / (power - power_of_means)), RowStatus::kOk};
   if (best.at <= range.min || best.at >= range.max) match.status = RowStatus::kClamped;
   for (std::size_t i = 1; i < minima.size(); ++i) {
     const bool apart = std::fabs(minima[i].at - best.at) > kRivalDistance * (range.max - range.min);

@@ -15,7 +15,8 @@ namespace remap {
 struct Match {
   double alpha = 0.0;
   double specular = 0.0;
-  double error = 0.0;  // relative RMS of the picture: sqrt(loss / weighted source power)
+  double error = 0.0;          // of the objective: sqrt(loss / weighted source power)
+  double picture_error = 0.0;  // the same over the pixels alone, without means
   RowStatus status = RowStatus::kOk;
 };
 
@@ -24,8 +25,8 @@ struct Match {
 // once for each material. Not thread-safe; its bank is.
 class Matcher {
  public:
-  // `basis`: at least one picture; `squared_weights`: w^2 for each of its pixels.
-  Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, std::vector<float> squared_weights);
+  // `basis`: at least one picture, of as many numbers as `weights`.
+  Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, PictureWeights weights);
 
   // Finds the best match; kUnstable if another width or specular gives as good a picture. `minima` holds the
   // bank nodes to start from and receives those of the minima found; if it is empty, the whole bank is
@@ -41,23 +42,27 @@ class Matcher {
     Polynomial power;
     std::vector<Polynomial> cross;
   };
+  struct NodeProducts {
+    Products all, means;
+  };
 
-  const Products& products(std::size_t node);
-  Polynomial loss(const Products& products, const std::vector<double>& coefficients) const;
+  const NodeProducts& products(std::size_t node);
+  static Polynomial loss(const Products& products, const std::vector<double>& coefficients);
   PolynomialMinimum least(const Polynomial& loss) const;
   double loss_at_node(std::size_t node, const std::vector<double>& coefficients);
   std::vector<std::size_t> coarse_minima(const std::vector<double>& coefficients);
   std::size_t descend(std::size_t node, const std::vector<double>& coefficients);
   Match refine(std::size_t node, const std::vector<double>& coefficients);
-  Match match_at(double x, const Polynomial& loss, double power) const;
-  double source_power(const std::vector<double>& coefficients) const;
+  Match match_at(double x, const Polynomial& loss, const Polynomial& loss_of_means,
+                 const std::vector<double>& coefficients) const;
 
   const TargetBank& bank_;
   std::vector<std::vector<float>> basis_;
-  std::vector<float> weights_;
+  PictureWeights weights_;
   std::vector<std::vector<float>> weighted_basis_;
-  std::vector<std::vector<double>> power_;  // inner products of the basis pictures
-  std::map<std::size_t, Products> products_;
+  // Inner products of the basis pictures, and the part of the means.
+  std::vector<std::vector<double>> power_, power_of_means_;
+  std::map<std::size_t, NodeProducts> products_;
 };
 
 }  // namespace remap

@@ -172,9 +172,8 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   const std::vector<RoleValues> others = matcher.other_guesses();
   guesses.insert(guesses.end(), others.begin(), others.end());
   const JointMatch match = matcher.match(guesses);
-  return {sample, target_values(matching, match.points),
-          rounded(match.error * matching.options.objective.error_factor(), kMatchErrorDigits), match.status,
-          0};
+  return {sample, target_values(matching, match.points), rounded(match.picture_error, kMatchErrorDigits),
+          match.status, 0};
 }
 
 Matching make_matching(const MaterialSampleOptions& options, const PictureTaker& picture_taker,

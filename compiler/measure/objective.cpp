@@ -21,10 +21,11 @@ Objective recorded_objective(const std::string& name) {
 
 bool is_black(std::span<const float> picture) { return *std::ranges::max_element(picture) <= kBlackRadiance; }
 
-std::vector<float> squared_weights(const Objective& objective, std::span<const float> source,
-                                   std::span<const float> view_cosines) {
-  if (objective.weighting == Weighting::kUniform) return std::vector<float>(source.size(), 1.0f);
-  std::vector<float> weights;
+PictureWeights squared_weights(const Objective& objective, std::span<const float> source,
+                               std::span<const float> view_cosines) {
+  if (objective.weighting == Weighting::kUniform) return {std::vector<float>(source.size(), 1.0f), {}};
+  PictureWeights result;
+  std::vector<float>& weights = result.squared;
   weights.reserve(source.size());
   const std::size_t pixels = view_cosines.size();
   while (weights.size() < source.size()) {
@@ -40,10 +41,11 @@ std::vector<float> squared_weights(const Objective& objective, std::span<const f
     }
     if (!objective.compares_means()) continue;
     const double mean = source[weights.size()];
+    result.means.push_back(weights.size());
     weights.push_back(static_cast<float>(is_black(picture) ? objective.mean_share
                                                            : objective.mean_share * power / (mean * mean)));
   }
-  return weights;
+  return result;
 }
 
 }  // namespace remap

@@ -29,7 +29,7 @@ struct Objective {
   double floor = 0.1;       // used by kRelative
   double mean_share = 0.0;  // used by kRelative
 
-  // Image errors are relative to the power of the pixels: the root of loss over power, times this.
+  // The root of loss over power, times this, is relative to the power of the pixels.
   double error_factor() const { return compares_means() ? std::sqrt(1.0 + mean_share) : 1.0; }
   bool compares_means() const { return weighting == Weighting::kRelative && mean_share > 0.0; }
   bool operator==(const Objective&) const = default;
@@ -50,10 +50,16 @@ Objective recorded_objective(const std::string& name);
 inline constexpr float kBlackRadiance = 1e-12f;
 bool is_black(std::span<const float> picture);
 
+// How much each number of a picture counts.
+struct PictureWeights {
+  std::vector<float> squared;      // w^2
+  std::vector<std::size_t> means;  // indices of the numbers that are means; the others are pixels
+};
+
 // Returns w^2 for the pictures of one source material. `source` holds one picture of `view_cosines.size()`
 // pixels for each light, followed by its mean if the objective compares means; max(I) is taken for each
 // picture separately.
-std::vector<float> squared_weights(const Objective& objective, std::span<const float> source,
-                                   std::span<const float> view_cosines);
+PictureWeights squared_weights(const Objective& objective, std::span<const float> source,
+                               std::span<const float> view_cosines);
 
 }  // namespace remap

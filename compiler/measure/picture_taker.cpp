@@ -81,7 +81,7 @@ std::vector<float> PictureTaker::take(const Material& material) const {
   return std::move(rows[1]);
 }
 
-std::vector<float> PictureTaker::weights(const std::vector<float>& source) const {
+PictureWeights PictureTaker::weights(const std::vector<float>& source) const {
   return squared_weights(objective_, source, cosines_);
 }
 

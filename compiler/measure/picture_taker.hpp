@@ -68,7 +68,7 @@ class PictureTaker {
   std::vector<std::vector<float>> take_channels(const Material& material) const;
 
   // Returns squared_weights() of the objective for pictures that this object took.
-  std::vector<float> weights(const std::vector<float>& source) const;
+  PictureWeights weights(const std::vector<float>& source) const;
 
   // Returns the picture under the first light as a square, row 0 at the top, 0 outside the sphere.
   std::vector<float> square_picture(const std::vector<float>& row) const;

@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <mutex>
 
 #include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "lower/interpreter.hpp"
+#include "measure/family_probe.hpp"
 #include "measure/picture_sums.hpp"
 #include "measure/picture_taker.hpp"
+#include "measure/polynomial.hpp"
 #include "measure/sweep.hpp"
+#include "table/light.hpp"
 
 namespace remap {
 namespace {
@@ -22,6 +28,8 @@ double part(const Range& range, std::size_t i, std::size_t count) {
   return range.min + (range.max - range.min) * static_cast<double>(i) / static_cast<double>(count - 1);
 }
 
+Range common(const Range& a, const Range& b) { return {std::max(a.min, b.min), std::min(a.max, b.max)}; }
+
 Objective objective_of(const Fit& fit) {
   const auto found = fit.table.comments.find("objective");
   if (found == fit.table.comments.end())
@@ -29,28 +37,47 @@ Objective objective_of(const Fit& fit) {
   return recorded_objective(found->second);
 }
 
-// The widths of a target with the two pictures of each, and the range of its specular.
-struct TargetWidths {
-  std::vector<double> alphas;
-  std::vector<AffinePictures> pictures;
-  Range speculars;
+ProbedModel probed(const PictureTaker& taker, const Renderer& renderer, const std::string& name,
+                   const Range& alphas) {
+  ProbedModel model{renderer.model(name), {}};
+  model.response = specular_response(renderer, model.model);
+  if (!model.response.affine()) model.curve = probe_family(taker, model.model, alphas);
+  return model;
+}
+
+// The widths of a target, a hundredth apart, with the pictures that give all others of each. Thread-safe.
+class TargetWidths {
+ public:
+  TargetWidths(const PictureTaker& taker, ProbedModel target, double narrowest)
+      : taker_(taker), target_(std::move(target)) {
+    if (!target_.family())
+      throw input_error(target_.model.name + ": its pictures follow no law that this study knows");
+    const double least = std::max(target_.model.alpha.min, narrowest);
+    for (double alpha = target_.model.alpha.max; alpha > least; alpha /= kAlphaRatio)
+      alphas_.push_back(alpha);
+    alphas_.push_back(least);
+    slots_.resize(alphas_.size());
+  }
+
+  std::size_t size() const { return alphas_.size(); }
+  double alpha(std::size_t i) const { return alphas_[i]; }
+  const ProbedModel& target() const { return target_; }
+  // Renders them when they are first asked for.
+  const std::vector<std::vector<float>>& pictures(std::size_t i) const {
+    std::call_once(slots_[i].once, [&] { slots_[i].pictures = take_family(taker_, target_, alphas_[i]); });
+    return slots_[i].pictures;
+  }
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    std::vector<std::vector<float>> pictures;
+  };
+  const PictureTaker& taker_;
+  ProbedModel target_;
+  std::vector<double> alphas_;
+  mutable std::deque<Slot> slots_;
 };
-
-ProbedModel probed(const Renderer& renderer, const std::string& name) {
-  const ModelDescription model = renderer.model(name);
-  return {model, specular_response(renderer, model)};
-}
-
-TargetWidths target_widths(const PictureTaker& taker, const ProbedModel& target, double narrowest) {
-  TargetWidths widths;
-  widths.speculars = target.linear_range();
-  const double least = std::max(target.model.alpha.min, narrowest);
-  for (double alpha = target.model.alpha.max; alpha > least; alpha /= kAlphaRatio)
-    widths.alphas.push_back(alpha);
-  widths.alphas.push_back(least);
-  for (const double alpha : widths.alphas) widths.pictures.push_back(take_affine(taker, target, alpha));
-  return widths;
-}
 
 // The difference of a source picture from those of a target whose specular is free.
 class Comparison {
@@ -64,13 +91,21 @@ class Comparison {
   struct Best {
     double specular = 0.0, error = 0.0;
   };
-  // The best specular of a width is at the foot of a parabola, or at the end of the range.
-  Best best(const AffinePictures& target, const Range& speculars) const {
-    const double slope = product(target.slope, target.slope);
-    const double cross = product(target.slope, source_) - product(target.slope, target.base);
-    const double specular = std::clamp(cross / slope, speculars.min, speculars.max);
-    const double base = power_ - 2.0 * product(source_, target.base) + product(target.base, target.base);
-    return {specular, relative(base - 2.0 * specular * cross + specular * specular * slope)};
+  // The best specular of a width: its loss is a polynomial.
+  Best best(const std::vector<std::vector<float>>& pictures, const SpecularFamily& family) const {
+    std::vector<double> loss = {power_};
+    const auto add = [&](double factor, const std::vector<double>& polynomial) {
+      loss.resize(std::max(loss.size(), polynomial.size()));
+      for (std::size_t i = 0; i < polynomial.size(); ++i) loss[i] += factor * polynomial[i];
+    };
+    for (std::size_t j = 0; j < pictures.size(); ++j) {
+      add(-2.0 * product(source_, pictures[j]), family.weights[j]);
+      for (std::size_t k = j; k < pictures.size(); ++k)
+        add((j == k ? 1.0 : 2.0) * product(pictures[j], pictures[k]),
+            polynomial_product(family.weights[j], family.weights[k]));
+    }
+    const PolynomialMinimum least = polynomial_minima(loss, family.coordinate_range()).front();
+    return {family.specular(least.at), relative(least.value)};
   }
   double error(const std::vector<float>& target) const {
     std::vector<float> difference(target.size());
@@ -99,10 +134,11 @@ double least_between(double before, double middle, double after) {
 
 // Looks at every sixth width, then at all around those that are better than their neighbours.
 void find_least(const Comparison& comparison, const TargetWidths& target, ReachedMaterial* material) {
-  const std::size_t count = target.alphas.size();
+  const std::size_t count = target.size();
+  const SpecularFamily family = target.target().family().value();
   std::vector<double> errors(count, INFINITY);
   const auto look_at = [&](std::size_t i) {
-    if (std::isinf(errors[i])) errors[i] = comparison.best(target.pictures[i], target.speculars).error;
+    if (std::isinf(errors[i])) errors[i] = comparison.best(target.pictures(i), family).error;
     return errors[i];
   };
   std::vector<std::size_t> coarse;
@@ -114,8 +150,8 @@ void find_least(const Comparison& comparison, const TargetWidths& target, Reache
     for (std::size_t i = from; i <= to; ++i) look_at(i);
   }
   const auto best = static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin());
-  material->least_alpha = target.alphas[best];
-  material->least_specular = comparison.best(target.pictures[best], target.speculars).specular;
+  material->least_alpha = target.alpha(best);
+  material->least_specular = comparison.best(target.pictures(best), family).specular;
   material->least_error = best == 0 || best + 1 == count
                               ? errors[best]
                               : least_between(errors[best - 1], errors[best], errors[best + 1]);
@@ -123,32 +159,32 @@ void find_least(const Comparison& comparison, const TargetWidths& target, Reache
 
 class FitStudy {
  public:
-  FitStudy(const Renderer& renderer, const Fit& fit, const ReachOptions& options)
+  FitStudy(const Renderer& renderer, std::size_t index, const ReachOptions& options)
       : options_(options),
-        fit_(fit),
-        objective_(objective_of(fit)),
+        fit_(options.fits[index]),
+        objective_(objective_of(fit_)),
         taker_(renderer, objective_, options.resolution, 1),
-        source_(probed(renderer, fit.source.model)),
-        target_(probed(renderer, fit.target.model)),
-        widths_(target_widths(taker_, target_, kNarrowest * options.alphas.min)) {}
+        alphas_(common(options.alphas, renderer.model(fit_.source.model).alpha)),
+        source_(probed(taker_, renderer, fit_.source.model, alphas_)),
+        widths_(taker_, probed(taker_, renderer, fit_.target.model, alphas_), kNarrowest * alphas_.min),
+        speculars_(options.speculars.empty() ? Range{0.0, source_.linear_range().max}
+                                             : options.speculars[index]) {
+    const auto scale = fit_.table.comments.find(kLightScaleComment);
+    if (scale != fit_.table.comments.end()) source_.exposure = parse_number(scale->second).value_or(1.0);
+  }
 
   // The materials of one source width.
   std::vector<ReachedMaterial> materials(std::size_t row) const {
     std::vector<ReachedMaterial> all;
-    const double alpha = part(options_.alphas, row, options_.materials);
-    const AffinePictures pictures = take_affine(taker_, source_, alpha);
-    std::vector<float> source(pictures.base.size());
     for (std::size_t k = 1; k <= options_.materials; ++k) {
       ReachedMaterial material;
-      material.alpha = alpha;
-      material.specular =
-          source_.linear_range().max * static_cast<double>(k) / static_cast<double>(options_.materials);
-      for (std::size_t i = 0; i < source.size(); ++i)
-        source[i] = pictures.base[i] + static_cast<float>(material.specular) * pictures.slope[i];
-      const Comparison comparison(source, taker_.weights(source), objective_.error_factor());
+      material.alpha = part(alphas_, row, options_.materials);
+      material.specular = part(speculars_, k, options_.materials + 1);
+      const std::vector<float> source = taker_.take(source_, {material.alpha, material.specular, 0.0});
+      const Comparison comparison(source, taker_.weights(source).squared, objective_.error_factor());
       convert(&material);
-      material.error =
-          comparison.error(taker_.take(target_, {material.target_alpha, material.target_specular, 0.0}));
+      material.error = comparison.error(
+          taker_.take(widths_.target(), {material.target_alpha, material.target_specular, 0.0}));
       find_least(comparison, widths_, &material);
       all.push_back(material);
     }
@@ -166,8 +202,10 @@ class FitStudy {
   const Fit& fit_;
   Objective objective_;
   PictureTaker taker_;
-  ProbedModel source_, target_;
+  Range alphas_;
+  ProbedModel source_;
   TargetWidths widths_;
+  Range speculars_;
 };
 
 }  // namespace
@@ -187,7 +225,7 @@ const ReachedMaterial& FitReach::worst() const {
 std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& options) {
   std::vector<FitReach> all;
   for (std::size_t f = 0; f < options.fits.size(); ++f) {
-    const FitStudy study(renderer, options.fits[f], options);
+    const FitStudy study(renderer, f, options);
     std::vector<std::vector<ReachedMaterial>> rows(options.materials);
     run_parallel(options.materials, options.jobs, [&](std::size_t row) {
       if (options.cancelled != nullptr && *options.cancelled)

@@ -12,7 +12,8 @@
 namespace remap {
 
 struct ReachOptions {
-  std::vector<Fit> fits;           // between models of the built-in renderer
+  std::vector<Fit> fits;           // between models that the renderer has
+  std::vector<Range> speculars;    // of the sources, canonical, a range a fit; empty: their whole ranges
   std::size_t materials = 32;      // of each parameter: their product is compared
   Range alphas{0.05, 1.0};         // of the source; narrower highlights need more pixels
   int resolution = 192;            // width and height of the pictures in pixels
@@ -43,8 +44,8 @@ struct FitReach {
 
 // Renders every material, its conversion (by the interpreter, with the domain rule), and the target at widths
 // a hundredth apart, each at its best specular in closed form. No search of a sweep takes part. Throws kUsage
-// for models that the renderer does not have, kInput for a fit whose table does not name its objective, and
-// kInterrupted.
+// for models that the renderer does not have, kInput for a fit whose table does not name its objective and
+// for a target without a family (specular_response.hpp), and kInterrupted.
 std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& options);
 
 }  // namespace remap

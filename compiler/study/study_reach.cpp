@@ -7,6 +7,8 @@
 #include "study/reach_report.hpp"
 #include "study/studies.hpp"
 #include "study/study_options.hpp"
+#include "table/table.hpp"
+#include "worker/renderer_options.hpp"
 
 namespace remap {
 namespace {
@@ -16,15 +18,20 @@ struct ReachCommand {
   std::filesystem::path fit_folder;
   ReachOptions study;
   OutputOptions output;
+  RendererOptions renderers;
 };
 
 bool is_builtin(const std::string& model) { return model.rfind("mitsuba/", 0) == 0; }
 
+Range sampled_speculars(const std::filesystem::path& table) {
+  const std::vector<TableRow> rows = read_table(table).rows;
+  const auto [least, most] = std::ranges::minmax_element(rows, {}, &TableRow::specular1);
+  return {least->specular1, most->specular1};
+}
+
 // The fits that were asked for, else all between models of the built-in renderer that were matched by
 // pictures.
-std::vector<Fit> chosen_fits(const ReachCommand& command) {
-  const std::filesystem::path folder = fit_folder_of(command.fit_folder);
-  if (folder.empty()) throw usage_error("--fits: there is no folder `fits` here (name one)");
+std::vector<Fit> chosen_fits(const ReachCommand& command, const std::filesystem::path& folder) {
   std::vector<Fit> chosen;
   for (Fit& fit : load_fits(folder)) {
     const bool is_asked_for = std::ranges::find(command.ids, fit.id) != command.ids.end();
@@ -39,8 +46,12 @@ std::vector<Fit> chosen_fits(const ReachCommand& command) {
 
 void run(const ReachCommand& command) {
   ReachOptions options = command.study;
-  options.fits = chosen_fits(command);
-  const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
+  const std::filesystem::path folder = fit_folder_of(command.fit_folder);
+  if (folder.empty()) throw usage_error("--fits: there is no folder `fits` here (name one)");
+  options.fits = chosen_fits(command, folder);
+  for (const Fit& fit : options.fits)
+    options.speculars.push_back(sampled_speculars(folder / "tables" / (fit.id + ".csv")));
+  const std::unique_ptr<RendererSet> renderer = make_renderers(command.renderers);
   const std::vector<FitReach> result =
       run_study("reach", options, command.output,
                 [&](const ReachOptions& study) { return study_reach(*renderer, study); });
@@ -54,7 +65,7 @@ void add_reach_study(Command& app) {
       "reach",
       "Compare converted materials with the best that the target can do, over the whole range of the source");
   ReachCommand& options = set_work<ReachCommand>(*command, run);
-  command->add_option("ID", options.ids, "Fits between Mitsuba models; default: all of the folder");
+  command->add_option("ID", options.ids, "Fits; default: all of the folder between Mitsuba models");
   command->add_option("--fits", options.fit_folder, "Folder of the fits; default: fits, if it exists");
   command->add_option("--materials", options.study.materials, "Source alphas, and speculars of each")
       ->range(2, 256);
@@ -64,6 +75,7 @@ void add_reach_study(Command& app) {
                      {"Write reach.csv, a row for each material, to this folder", "",
                       "Number of threads; 0: one per core. Results do not depend on it",
                       "Print the figures of each fit as JSON"});
+  add_renderer_options(*command, options.renderers);
   command->footer("Example:\n  remap-study reach mitsuba_as_to_mitsuba_ward --materials 16");
 }
 

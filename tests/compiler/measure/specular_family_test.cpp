@@ -70,7 +70,7 @@ class RenderedLoss {
       : picture_taker_(renderer, options.objective, options.resolution, 1),
         target_(renderer.model(options.target)),
         source_(picture_taker_.take(renderer.model(options.source), source)),
-        weights_(picture_taker_.weights(source_)) {}
+        weights_(picture_taker_.weights(source_).squared) {}
 
   double operator()(double alpha, double specular) const {
     const auto picture = picture_taker_.take(target_, {alpha, specular, 0.0});

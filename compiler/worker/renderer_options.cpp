@@ -1,4 +1,4 @@
-#include "commands/renderer_options.hpp"
+#include "worker/renderer_options.hpp"
 
 #include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
