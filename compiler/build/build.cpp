@@ -63,24 +63,25 @@ class Builder {
           return std::any_of(waiting.begin(), waiting.end(),
                              [&](const ManifestItem* other) { return other->id == input; });
         });
-        const bool is_lost =
-            std::ranges::any_of(inputs, [&](const auto& input) { return failures_.contains(input); });
-        if (!is_lost)
+        const auto lost =
+            std::ranges::find_if(inputs, [&](const auto& input) { return failures_.contains(input); });
+        if (lost == inputs.end())
           (waits ? later : ready).push_back(item);
         else
-          failures_.emplace(item->id, item->id + ": needs an item that failed");
+          failures_.emplace(item->id, FailedItem{item->id, "needs " + *lost, failures_.at(*lost).kind});
       }
       run_parallel(ready.size(), execution_.jobs, [&](std::size_t i) { build_item(*ready[i]); });
       waiting = later;
     }
-    require_success();
+    std::ranges::sort(built_, {}, &BuiltItem::id);
+    BuildResult result{std::move(built_), {}, std::move(pruned_)};
+    for (const auto& [id, failed] : failures_) result.failed.push_back(failed);
+    if (!result.failed.empty()) return result;
     const FitFolder folder = load_fit_folder(folders_.fits);
     write_converters(folder);
     write_report(folder);
     if (lock_ != load_lock(folders_.fits)) save_lock(folders_.fits, lock_);
-    std::sort(built_.begin(), built_.end(),
-              [](const BuiltItem& a, const BuiltItem& b) { return a.id < b.id; });
-    return {std::move(built_), std::move(pruned_)};
+    return result;
   }
 
  private:
@@ -130,8 +131,7 @@ class Builder {
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       const std::lock_guard lock(mutex_);
-      failures_.emplace(item.id, item.id + ": " + error.what());
-      if (!first_kind_) first_kind_ = error.kind();
+      failures_.emplace(item.id, FailedItem{item.id, error.what(), error.kind()});
       return;
     }
     const std::lock_guard lock(mutex_);
@@ -146,17 +146,6 @@ class Builder {
     }
     ++done_;
     if (execution_.progress) execution_.progress(done_, manifest_.items.size());
-  }
-
-  // Throws the errors of all items that failed; what was finished stays.
-  void require_success() const {
-    if (failures_.empty()) return;
-    std::string text;
-    for (const auto& [id, failure] : failures_) text += (text.empty() ? "" : "; ") + failure;
-    if (failures_.size() > 1)
-      text = std::to_string(failures_.size()) + " of " + std::to_string(manifest_.items.size()) +
-             " items failed: " + text;
-    throw Error(first_kind_.value_or(ErrorKind::kInput), text);
   }
 
   // Whether the table of the last build can be reused because a renderer that would make it is not installed.
@@ -328,8 +317,7 @@ class Builder {
   std::mutex mutex_;
   std::size_t done_ = 0;
   std::vector<BuiltItem> built_;
-  std::map<std::string, std::string> failures_;  // by id
-  std::optional<ErrorKind> first_kind_;          // of a failure
+  std::map<std::string, FailedItem> failures_;  // by id
   std::vector<std::string> pruned_;
 };
 

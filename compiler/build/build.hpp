@@ -10,6 +10,7 @@
 #include "build/freshness.hpp"
 #include "build/manifest.hpp"
 #include "lower/fit.hpp"
+#include "remap/error.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remap {
@@ -41,17 +42,22 @@ struct BuiltItem {
   std::string kept_table;  // why the table of an earlier build was reused; empty if it was up to date or made
 };
 
+struct FailedItem {
+  std::string id, why;
+  ErrorKind kind = ErrorKind::kInput;
+};
+
 struct BuildResult {
   std::vector<BuiltItem> built;     // by id
+  std::vector<FailedItem> failed;   // by id
   std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
 };
 
 // Makes every item of `manifest` whose recipe, inputs or files changed since the last build, then the
 // data of all converters of the folder and the report. Each item is swept and fitted by one thread. An item
-// that fails does not stop the others; then throws what sweeping, fitting and lowering threw, each opened by
-// its item's id, and makes neither the data of converters nor the report. Finished items stay. If a renderer
-// is not installed, even `force` reuses a table made by the same recipe, and throws if there is none. Pruning
-// deletes only files that have not been changed after their build.
+// that fails does not stop the others; then neither the data of converters nor the report is made. Finished
+// items stay. If a renderer is not installed, even `force` reuses a table made by the same recipe; without
+// one, the item fails. Pruning deletes only files that have not been changed after their build.
 BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
                   const BuildExecution& execution);
 

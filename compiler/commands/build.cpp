@@ -55,11 +55,10 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
             double seconds) {
   const std::vector<std::string> vanished = vanished_items(manifest, command.folders);
   if (command.json) {
-    Json json = {{"items", manifest.items.size()},
-                 {"seconds", seconds},
-                 {"pruned", result.pruned},
-                 {"vanished", vanished},
-                 {"built", Json::list()}};
+    Json json = {{"items", manifest.items.size()}, {"seconds", seconds},     {"pruned", result.pruned},
+                 {"vanished", vanished},           {"failed", Json::list()}, {"built", Json::list()}};
+    for (const FailedItem& item : result.failed)
+      json["failed"].push_back({{"id", item.id}, {"why", item.why}});
     for (const BuiltItem& item : result.built)
       json["built"].push_back({{"id", item.id},
                                {"table", item.table},
@@ -92,6 +91,16 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
             << seconds_text(seconds) << "\n";
 }
 
+void require_success(const BuildResult& result, std::size_t items) {
+  if (result.failed.empty()) return;
+  std::string text;
+  for (const FailedItem& item : result.failed)
+    text += (text.empty() ? "" : "; ") + (item.id + ": " + item.why);
+  if (result.failed.size() > 1)
+    text = std::to_string(result.failed.size()) + " of " + std::to_string(items) + " items failed: " + text;
+  throw Error(result.failed.front().kind, text);
+}
+
 void run(const BuildCommand& command) {
   const Stopwatch stopwatch;
   const Manifest manifest = load_manifest(command.folders.fits);
@@ -113,6 +122,7 @@ void run(const BuildCommand& command) {
     result = build(*renderer, manifest, command.folders, execution);
   }
   report(command, manifest, result, stopwatch.seconds());
+  require_success(result, manifest.items.size());
 }
 
 }  // namespace

@@ -13,8 +13,9 @@
 namespace remap {
 namespace {
 
-// The joint of the wide regime is one more width, with a row for each specular.
-constexpr std::size_t kFewestWide = 8, kFewestBright = 20, kFewestBrightWidths = 2;
+// The joint of the wide regime is one more width, with a row for each specular. Nine rows determine a bright
+// series of degree 2.
+constexpr std::size_t kFewestWide = 8, kFewestBright = 9, kFewestBrightWidths = 2;
 // Widths beyond the joint at every specular to which the mapping is continued. One would do; the second keeps
 // a curve from turning back.
 constexpr std::size_t kContinuedWidths = 2;
@@ -25,6 +26,9 @@ constexpr int kHalvings = 40;
 constexpr int kWideSpeculars = 2;
 // Times the limit of alpha: where the mapping is clamped, more than its lowering may change beyond the seam.
 constexpr double kBeyondLimit = 1.0 + kSeam + 1e-4;
+// Of a bright series. Its rows leave a part of its box empty, where higher degrees oscillate more than a
+// table can follow.
+constexpr int kBrightDegree = 12;
 constexpr double kLeastWide = 1e-3;    // of source alpha
 constexpr double kLeastBright = 1e-3;  // of the range of source specular
 constexpr double kSameJoint =
@@ -242,8 +246,9 @@ class RegimeFit {
                           {}};
     if (box.specular.max - box.specular.min < kLeastBright * domain_.specular.max) return std::nullopt;
     const std::map<double, Column> columns = columns_of(rows);
-    const TexelSeries series = best_series(rows, columns.size(), &TableRow::alpha2, box,
-                                           series_shapes({specular_degree(columns)}), seed_);
+    std::vector<SeriesShape> shapes = series_shapes({specular_degree(columns)});
+    std::erase_if(shapes, [](const SeriesShape& shape) { return shape.degree > kBrightDegree; });
+    const TexelSeries series = best_series(rows, columns.size(), &TableRow::alpha2, box, shapes, seed_);
     (*method_)["bright"] = series_text(series) + rows_text(rows);
     return series;
   }

@@ -225,8 +225,7 @@ StudyReport environments_report(const EnvironmentsOptions& options, const Enviro
                      report_json(options, result),
                      {{"environments.csv", comparisons_csv(options, result)},
                       {"environments_summary.csv", summary_csv(options, result)}},
-                     "environments.svg",
-                     plot_script(options, result),
+                     {{"environments.svg", plot_script(options, result)}},
                      {}};
   for (std::size_t e = 0; e < result.sheets.size(); ++e)
     report.sheets.emplace_back("spheres_" + options.environments[e].name + ".png", result.sheets[e]);

@@ -73,12 +73,12 @@ std::vector<std::string> write_report(const OutputOptions& options, const StudyR
     write_png(options.folder / name, sheet);
     names.push_back(name);
   }
-  try {
-    write_svg(options.folder / report.plot_name, report.plot_script);
-    names.push_back(report.plot_name);
-  } catch (const Error& error) {
-    print_message("remap-study", "warning: " + report.plot_name + " was not drawn: " + error.what());
-  }
+  for (const auto& [name, script] : report.plots) try {
+      write_svg(options.folder / name, script);
+      names.push_back(name);
+    } catch (const Error& error) {
+      print_message("remap-study", "warning: " + name + " was not drawn: " + error.what());
+    }
   return names;
 }
 

@@ -64,7 +64,7 @@ auto run_study(const std::string& name, Options& options, const OutputOptions& o
 }
 
 // Writes the files of a report to the output folder and returns their names. Prints a warning if gnuplot is
-// missing or fails, and leaves the plot out.
+// missing or fails, and leaves plots out.
 std::vector<std::string> write_report(const OutputOptions& options, const StudyReport& report);
 
 // Writes the files, if there is a folder for them, and prints the summary or the figures.

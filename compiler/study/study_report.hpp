@@ -14,7 +14,7 @@ struct StudyReport {
   std::string summary;                                      // text for the terminal
   Json figures;                                             // the same for programs
   std::vector<std::pair<std::string, std::string>> tables;  // file name and CSV text
-  std::string plot_name, plot_script;                       // file name of the SVG, commands for gnuplot
+  std::vector<std::pair<std::string, std::string>> plots;   // file name of the SVG and commands for gnuplot
   std::vector<std::pair<std::string, Image>> sheets;        // file name and display values
 };
 

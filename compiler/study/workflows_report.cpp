@@ -213,8 +213,7 @@ StudyReport workflows_report(const WorkflowsOptions& options, const WorkflowsRes
                      report_json(options, result, family),
                      {{"workflows.csv", materials_csv(options, result)},
                       {"workflows_summary.csv", summary_csv(options, result)}},
-                     "workflows.svg",
-                     plot_script(options, result),
+                     {{"workflows.svg", plot_script(options, result)}},
                      {}};
   for (const std::string& remark : remarks) report.summary += "Note: " + remark + ".\n";
   report.figures["remarks"] = remarks;

@@ -229,6 +229,10 @@ TEST_CASE("remapc build: items that fail do not stop the others, and all are nam
   CHECK_THAT(failed.last_error(), Catch::Matchers::Contains("4 of 8 items failed") &&
                                       Catch::Matchers::Contains("mitsuba_ward_to_mitsuba_wart: ") &&
                                       Catch::Matchers::Contains("mitsuba_wart_to_mitsuba_ward_duer: "));
+  const auto report = nlohmann::json::parse(failed.output);
+  CHECK(report["failed"].size() == 4);
+  CHECK(report["failed"][0]["id"] == "mitsuba_ward_duer_to_mitsuba_wart");
+  CHECK(report["built"].size() == 4);
   CHECK(std::filesystem::exists(session.path("generated/a_b_to_mitsuba_ward_duer.hpp")));
   CHECK_FALSE(std::filesystem::exists(session.path("generated/converters.json")));
   session.write("fits/manifest.json", quick_manifest().dump());

@@ -142,7 +142,7 @@ TEST_CASE("study workflows: tables, sheets and the same figures for any number o
   CHECK_THAT(report.summary,
              Contains("above the least that any base color and metallic reach") && !Contains("nan"));
   CHECK_THAT(report.tables[1].second, Contains("plain,projection,paint,"));
-  CHECK_THAT(report.plot_script, Contains("1 - SSIM"));
+  CHECK_THAT(report.plots[0].second, Contains("1 - SSIM"));
   options.jobs = 1;
   CHECK(workflows_report(options, study_workflows(options), {}, {}).tables[0].second == csv);
 }
