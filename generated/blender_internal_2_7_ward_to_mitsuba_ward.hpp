@@ -3,11 +3,11 @@
 //
 // blender-internal-2.7/ward to mitsuba/ward: which parameters of the second give the same picture as those of the first.
 // Table blender_internal_2_7_ward_to_mitsuba_ward.csv, sha256 2cd0c6527d8eb266f34dc8e9abbc2e5468cc1a4f9c2e51abeb1139dc9154baec;
-// Fit: mlp, seed 1, 384 rows trained, 96 held out.
-// Error on the rows held out: alpha rms 2.2e-06, 99 % 5.5e-06, max 5.5e-06;
-// specular rms 7.9e-06, 99 % 3.5e-05, max 3.5e-05.
-// Lowered from the fit. Target alpha: degree 10, proven within 7.7e-06 (sampled 6.6e-06), rising with alpha.
-// Target specular: degree 9, 6 in specular, proven within 8.3e-05 (sampled 7.5e-05), rising with specular.
+// Fit: series, seed 1, 384 rows trained, 96 held out.
+// Error on the rows held out: alpha rms 1.5e-05, 99 % 4.6e-05, max 4.6e-05;
+// specular rms 2e-05, 99 % 5.2e-05, max 5.2e-05.
+// Lowered from the fit. Target alpha: degree 8, proven within 4.6e-07 (sampled 3.4e-08), rising with alpha.
+// Target specular: degree 9 in alpha / (alpha + 1), proven within 9.9e-05 (sampled 9.4e-05), rising with specular.
 // Covers alpha 0.0100865924 to 0.71, specular 0 to 0.13855854089332115.
 #ifndef REMAP_GENERATED_BLENDER_INTERNAL_2_7_WARD_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_BLENDER_INTERNAL_2_7_WARD_TO_MITSUBA_WARD_HPP
@@ -35,8 +35,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 2.2e-06f;
-inline constexpr float kSpecularRmsError = 7.9e-06f;
+inline constexpr float kAlphaRmsError = 1.5e-05f;
+inline constexpr float kSpecularRmsError = 2e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = -1.0f;
@@ -76,17 +76,15 @@ inline constexpr std::size_t kBlock = 128;
 inline float target_alpha(float alpha, float) noexcept {
   const float u = alpha - 0.36004406f;
   const float u_2 = u * u;
-  float c0 = 245.3019f;
-  float c0_next = 36.97819f;
-  c0 = c0 * u_2 + -95.509026f;
-  c0_next = c0_next * u_2 + -31.76961f;
-  c0 = c0 * u_2 + 2.005669f;
-  c0_next = c0_next * u_2 + 2.033985f;
-  c0 = c0 * u_2 + 1.0956594f;
-  c0_next = c0_next * u_2 + 1.1539769f;
-  c0 = c0 * u_2 + 0.8457358f;
-  c0_next = c0_next * u_2 + 1.292643f;
-  c0 = c0 * u_2 + 0.39603588f;
+  float c0 = -23.465984f;
+  float c0_next = -21.579453f;
+  c0 = c0 * u_2 + -5.3143954f;
+  c0_next = c0_next * u_2 + 1.1024128f;
+  c0 = c0 * u_2 + 1.3948449f;
+  c0_next = c0_next * u_2 + 1.1853441f;
+  c0 = c0 * u_2 + 0.8415428f;
+  c0_next = c0_next * u_2 + 1.292362f;
+  c0 = c0 * u_2 + 0.39604503f;
   c0 = c0_next * u + c0;
   return c0;
 }
@@ -94,9 +92,7 @@ inline float target_alpha(float alpha, float) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock];
-  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
-  float wide[kBlock], bright[kBlock];         // shares of the regimes
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
 };
 
 template <class Count>
@@ -111,77 +107,39 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.36004406f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.21259552f;
     const float u_2 = u * u;
-    float c0 = 37.503395f;
-    float c0_next = -9.364776f;
-    c0 = c0 * u_2 + -22.764557f;
-    c0_next = c0_next * u_2 + -4.5014405f;
-    c0 = c0 * u_2 + 1.4478137f;
-    c0_next = c0_next * u_2 + 1.1828535f;
-    c0 = c0 * u_2 + 0.86432993f;
-    c0_next = c0_next * u_2 + 0.6361107f;
-    c0 = c0 * u_2 + 0.30518255f;
-    c0_next = c0_next * u_2 + 0.2749622f;
+    float c0 = -2553.1533f;
+    float c0_next = -180.19794f;
+    c0 = c0 * u_2 + 246.23817f;
+    c0_next = c0_next * u_2 + 13.203058f;
+    c0 = c0 * u_2 + -7.9524345f;
+    c0_next = c0_next * u_2 + -0.28717217f;
+    c0 = c0 * u_2 + 0.095375985f;
+    c0_next = c0_next * u_2 + 0.0018206034f;
+    c0 = c0 * u_2 + -0.00031250043f;
+    c0_next = c0_next * u_2 + -1.1421652e-06f;
     c0 = c0 * u + c0_next;
-    float c1 = 483.27383f;
-    float c1_next = -127.8233f;
-    c1 = c1 * u_2 + -309.23602f;
-    c1_next = c1_next * u_2 + -69.97086f;
-    c1 = c1 * u_2 + 18.486444f;
-    c1_next = c1_next * u_2 + 17.55169f;
-    c1 = c1 * u_2 + 12.539959f;
-    c1_next = c1_next * u_2 + 9.167617f;
-    c1 = c1 * u_2 + 4.4073687f;
-    c1_next = c1_next * u_2 + 3.9692438f;
+    float c1 = -569221.3f;
+    float c1_next = -134559.8f;
+    c1 = c1 * u_2 + 30065.613f;
+    c1_next = c1_next * u_2 + 9714.843f;
+    c1 = c1 * u_2 + 672.1987f;
+    c1_next = c1_next * u_2 + 183.5837f;
+    c1 = c1 * u_2 + 85.14544f;
+    c1_next = c1_next * u_2 + 23.467802f;
+    c1 = c1 * u_2 + 4.866433f;
+    c1_next = c1_next * u_2 + 3.6379251f;
     c1 = c1 * u + c1_next;
-    float c2 = 16.658743f;
-    float c2_next = -8.696041f;
-    c2 = c2 * u_2 + -4.916749f;
-    c2_next = c2_next * u_2 + 1.4406942f;
-    c2 = c2 * u_2 + 0.37158084f;
-    c2_next = c2_next * u_2 + -0.03022163f;
-    c2 = c2 * u + c2_next;
-    float c3 = 271.06555f;
-    float c3_next = 69.2578f;
-    c3 = c3 * u_2 + -13.037073f;
-    c3_next = c3_next * u_2 + -4.032363f;
-    c3 = c3 * u_2 + -0.37874427f;
-    c3 = c3_next * u + c3;
-    float c4 = 2998.1414f;
-    float c4_next = 790.85266f;
-    c4 = c4 * u_2 + -747.1916f;
-    c4_next = c4_next * u_2 + -136.96205f;
-    c4 = c4 * u_2 + 20.653175f;
-    c4 = c4_next * u + c4;
-    float c5 = -67536.945f;
-    float c5_next = -16824.947f;
-    c5 = c5 * u_2 + 3170.3423f;
-    c5_next = c5_next * u_2 + 948.6094f;
-    c5 = c5 * u_2 + 97.27817f;
-    c5 = c5_next * u + c5;
-    float c6 = 86606.18f;
-    c6 = c6 * u + 13079.976f;
-    c6 = c6 * u + -3571.3894f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.06927941f;
-  float sum = terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -251,22 +209,6 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
-// A number from 0, clamped to the least and at the largest that it may be.
-inline Float clamped_above(Float value, Float least) noexcept {
-  return float_from_bits(larger(bits(value), bits(least)));
-}
-inline Float clamped_below(Float value, Float limit) noexcept {
-  return float_from_bits(smaller(bits(value), bits(limit)));
-}
-
-// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
-// `inverse`: 200 / limit.
-inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
-  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
-}
-
-inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
-
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
@@ -284,20 +226,6 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
-  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
-  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
-  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
-  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
-  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::target_specular(terms, i, specular);
-  }
-  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::target_alpha(terms.alpha[i], specular);
-  }
-  template <class Count>
-  static void find_wide_terms(Count, Terms&) noexcept {}
-  template <class Count>
-  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -405,34 +333,9 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
-// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
-// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
-// its limit (bright). A block without such texels does not look at them.
-
-// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
   const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float alpha = load(terms.alpha + i);
-    store(terms.source_alpha + i, alpha);
-    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
-  }
-}
-
-// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
-template <class Count>
-inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  Bits any = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -442,81 +345,12 @@ inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexc
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Float width = mapping.target_alpha(terms, i, top);
-    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
-    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
-    any = any | above(bits(width), bits(mapping.alpha_limit));
-  }
-  return any;
-}
-
-// Target specular of a channel, without its limit.
-template <bool kAnyWide>
-inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
-  const Float inside = mapping.target_specular(terms, i, specular);
-  if constexpr (kAnyWide)
-    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
-  else
-    return inside;
-}
-
-// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
-template <bool kAnyWide, class Count>
-inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  Bits any = 0;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
-    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
-    any = any | above(bits(specular), bits(mapping.specular_limit));
-  }
-  return any;
-}
-
-template <class Count>
-inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  mapping.find_bright_terms(count, terms);
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
-    const Float free = clamped_below(bright, mapping.alpha_limit);
-    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
-  }
-}
-
-template <class Count>
-inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
     const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
   }
 }
 
-template <bool kInside, bool kAnyWide, class Count>
+template <bool kInside, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -528,22 +362,15 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
-    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
-    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
-    const Float limited = clamped_below(mapped, mapping.specular_limit);
-    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
+    if constexpr (kInside) {
+      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
+      store(out + i, clamped_channel(mapped) * load(block.scale + i));
+    } else {
+      const Float clamped = clamped_channel(load(in + i));
+      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
+      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
+    }
   }
-}
-
-template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
-inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
-                            float* const* specular_out, Block& block) noexcept {
-  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
-    use_bright_widths(count, mapping, block);
-  store_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -551,19 +378,16 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
-  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
-  if (any_wide) mapping.find_wide_terms(count, block.terms);
-  const auto convert = [&](auto is_inside, auto is_wide) {
-    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
-  };
-  if (inside)
-    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
-  else
-    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
+  convert_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c) {
+    if (inside)
+      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
+    else
+      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
+  }
 }
 
 }  // namespace detail
@@ -634,19 +458,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.010086592f, 0.13855854f}, {0.010005428f, 0.44091898f}, {8.2e-06f, 8.3e-05f}},
-      {{0.09757577f, 0.12989862f}, {0.098213755f, 0.4254897f}, {8.2e-06f, 8.3e-05f}},
-      {{0.18506494f, 0.12123872f}, {0.19038841f, 0.41514763f}, {8.2e-06f, 8.3e-05f}},
-      {{0.2725541f, 0.11257881f}, {0.2886998f, 0.41048267f}, {8.3e-06f, 8.3e-05f}},
-      {{0.3600433f, 0.1039189f}, {0.3960361f, 0.41242608f}, {8.3e-06f, 8.3e-05f}},
-      {{0.44753245f, 0.095258996f}, {0.5164441f, 0.42239508f}, {8.4e-06f, 8.3e-05f}},
-      {{0.5350216f, 0.08659908f}, {0.65548646f, 0.4419604f}, {8.5e-06f, 8.3e-05f}},
-      {{0.6225108f, 0.077939175f}, {0.81854874f, 0.4708491f}, {8.5e-06f, 8.3e-05f}},
-      {{0.71f, 0.06927927f}, {0.9999993f, 0.5000052f}, {8.6e-06f, 8.3e-05f}},
-      {{0.005043296f, 0.06927927f}, {0.010005428f, 0.2204653f}, {8.2e-06f, 8.3e-05f}},
-      {{1.0649999f, 0.034639634f}, {0.9999993f, 0.25000343f}, {8.6e-06f, 8.3e-05f}},
-      {{0.3600433f, 0.0f}, {0.3960361f, 0.0f}, {8.3e-06f, 8.3e-05f}},
-      {{0.3600433f, 0.27711707f}, {0.3960361f, 1.0998061f}, {8.3e-06f, 0.00017f}},
+      {{0.010086592f, 0.13855854f}, {0.009999797f, 0.44098017f}, {9.5e-07f, 9.9e-05f}},
+      {{0.09757577f, 0.12989862f}, {0.098214135f, 0.42550406f}, {9.9e-07f, 9.9e-05f}},
+      {{0.18506494f, 0.12123872f}, {0.19038631f, 0.41513294f}, {1.1e-06f, 9.9e-05f}},
+      {{0.2725541f, 0.11257881f}, {0.28869855f, 0.41047642f}, {1.1e-06f, 9.9e-05f}},
+      {{0.3600433f, 0.1039189f}, {0.39604402f, 0.41244867f}, {1.2e-06f, 9.9e-05f}},
+      {{0.44753245f, 0.095258996f}, {0.51643085f, 0.42237017f}, {1.2e-06f, 9.9e-05f}},
+      {{0.5350216f, 0.08659908f}, {0.6555021f, 0.44198978f}, {1.3e-06f, 9.9e-05f}},
+      {{0.6225108f, 0.077939175f}, {0.81852716f, 0.47083393f}, {1.4e-06f, 9.9e-05f}},
+      {{0.71f, 0.06927927f}, {0.9999748f, 0.50000477f}, {1.5e-06f, 9.9e-05f}},
+      {{0.005043296f, 0.06927927f}, {0.009999797f, 0.22048597f}, {9.5e-07f, 9.9e-05f}},
+      {{1.0649999f, 0.034639634f}, {0.9999748f, 0.24999335f}, {1.5e-06f, 9.9e-05f}},
+      {{0.3600433f, 0.0f}, {0.39604402f, 0.0f}, {1.2e-06f, 9.9e-05f}},
+      {{0.3600433f, 0.27711707f}, {0.39604402f, 1.099867f}, {1.2e-06f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

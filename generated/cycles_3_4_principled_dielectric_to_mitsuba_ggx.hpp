@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // cycles-3.4/principled-dielectric to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table cycles_3_4_principled_dielectric_to_mitsuba_ggx.csv, sha256 97c5a75ec4653a5c6e6a0fde2d7f165334e935fe38011db11cc6a69ed3ad1ca2;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 3.4.1; remapc 0.1.0.
-// Fit: svr, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 0.00039, 99 % 0.00092, max 0.0013;
-// f0 rms 3.3e-05, 99 % 6.8e-05, max 6.8e-05.
-// Lowered from the fit. Target alpha: degree 7, 8 in specular, proven within 1e-05 (sampled 9.5e-06), rising with alpha.
-// Target specular: degree 4 in alpha / (alpha + 1), 5 in specular, proven within 9.2e-06 (sampled 8.9e-06), rising with specular.
-// Covers alpha 0.01 to 0.95, specular 0 to 1.
+// Table cycles_3_4_principled_dielectric_to_mitsuba_ggx.csv, sha256 c754c5e138803329e92ee21aeaeb65340b223a7094e9ec74d3fb246d25dc9b08;
+// objective natural-1 (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 3.4.1; remapc 0.1.0.
+// Fit: series, seed 1, 480 rows trained, 120 held out.
+// Error on the rows held out: alpha rms 5.1e-05, 99 % 0.00019, max 0.00025;
+// f0 rms 3.1e-06, 99 % 7.2e-06, max 2.1e-05.
+// Lowered from the fit. Target alpha: degree 9 in alpha / (alpha + 1), 7 in specular, proven within 8.6e-06 (sampled 7.1e-06), rising with alpha.
+// Target specular: degree 4, 6 in specular, proven within 9.2e-06 (sampled 8.3e-06), rising with specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_3_4_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_3_4_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 
@@ -36,8 +36,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00039f;
-inline constexpr float kSpecularRmsError = 3.3e-05f;
+inline constexpr float kAlphaRmsError = 5.1e-05f;
+inline constexpr float kSpecularRmsError = 3.1e-06f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.0053f;
@@ -55,7 +55,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.9746794f, 1.0f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,60 +75,74 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.480001f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = 0.08283808f;
-  float c0_next = 0.026088448f;
-  c0 = c0 * u_2 + -0.2756947f;
-  c0_next = c0_next * u_2 + -0.0023829276f;
-  c0 = c0 * u_2 + 0.08688296f;
-  c0_next = c0_next * u_2 + -0.02480849f;
-  c0 = c0 * u_2 + 0.9647478f;
-  c0_next = c0_next * u_2 + 0.47220045f;
+  float c0 = -337.22763f;
+  float c0_next = -63.95692f;
+  c0 = c0 * u_2 + 48.447414f;
+  c0_next = c0_next * u_2 + 14.229309f;
+  c0 = c0 * u_2 + 3.091808f;
+  c0_next = c0_next * u_2 + 3.9835842f;
+  c0 = c0 * u_2 + 3.1462808f;
+  c0_next = c0_next * u_2 + 2.2620256f;
+  c0 = c0 * u_2 + 1.754454f;
+  c0_next = c0_next * u_2 + 0.338005f;
   c0 = c0 * u + c0_next;
-  float c1 = 0.015474646f;
-  float c1_next = -0.013708945f;
-  c1 = c1 * u_2 + -0.047351416f;
-  c1_next = c1_next * u_2 + 0.029930757f;
-  c1 = c1 * u_2 + 0.040902976f;
-  c1_next = c1_next * u_2 + 0.006894204f;
+  float c1 = 32.299442f;
+  float c1_next = 9.055089f;
+  c1 = c1 * u_2 + -1.3151338f;
+  c1_next = c1_next * u_2 + -0.6057341f;
+  c1 = c1 * u_2 + 0.11494431f;
+  c1_next = c1_next * u_2 + 0.14357933f;
+  c1 = c1 * u_2 + 0.039821167f;
+  c1_next = c1_next * u_2 + 0.0035801071f;
   c1 = c1 * u + c1_next;
-  float c2 = -0.41767082f;
-  float c2_next = -0.058477264f;
-  c2 = c2 * u_2 + 0.25605187f;
-  c2_next = c2_next * u_2 + 0.026649041f;
-  c2 = c2 * u_2 + -0.06408336f;
-  c2_next = c2_next * u_2 + -0.018275378f;
+  float c2 = -3.2245834f;
+  float c2_next = 8.259895f;
+  c2 = c2 * u_2 + 3.7083468f;
+  c2_next = c2_next * u_2 + 0.26638082f;
+  c2 = c2 * u_2 + -0.054997582f;
+  c2_next = c2_next * u_2 + -0.05109318f;
+  c2 = c2 * u_2 + -0.0018980276f;
+  c2_next = c2_next * u_2 + 0.0019601197f;
   c2 = c2 * u + c2_next;
-  float c3 = -0.21771713f;
-  float c3_next = 0.069509186f;
-  c3 = c3 * u_2 + 0.42388943f;
-  c3_next = c3_next * u_2 + -0.11596662f;
-  c3 = c3 * u_2 + -0.20986523f;
-  c3_next = c3_next * u_2 + 0.0025165018f;
+  float c3 = -174.45596f;
+  float c3_next = -50.097664f;
+  c3 = c3 * u_2 + 5.6811194f;
+  c3_next = c3_next * u_2 + 4.1532187f;
+  c3 = c3 * u_2 + 1.088449f;
+  c3_next = c3_next * u_2 + 0.2873582f;
+  c3 = c3 * u_2 + 0.009505447f;
+  c3_next = c3_next * u_2 + -0.0064508957f;
   c3 = c3 * u + c3_next;
-  float c4 = 0.8466457f;
-  float c4_next = -0.0012167556f;
-  c4 = c4 * u_2 + -1.4143323f;
-  c4_next = c4_next * u_2 + -0.004664775f;
-  c4 = c4 * u_2 + 0.68894947f;
-  c4_next = c4_next * u_2 + 0.19567654f;
+  float c4 = -14.947063f;
+  float c4_next = -9.394838f;
+  c4 = c4 * u_2 + -2.744671f;
+  c4_next = c4_next * u_2 + -0.26073325f;
+  c4 = c4 * u_2 + -0.22743586f;
+  c4_next = c4_next * u_2 + -0.05580706f;
   c4 = c4 * u + c4_next;
-  float c5 = -0.22962427f;
-  c5 = c5 * u + 0.21251218f;
-  c5 = c5 * u + 0.06223731f;
-  c5 = c5 * u + -0.25304455f;
-  float c6 = 1.0030075f;
-  c6 = c6 * u + 0.00052082766f;
-  c6 = c6 * u + -0.9392328f;
-  c6 = c6 * u + -0.20194797f;
-  float c7 = 0.043224048f;
-  c7 = c7 * u + 0.20851587f;
-  float c8 = 0.41281447f;
-  c8 = c8 * u + 0.090756685f;
+  float c5 = 2.7257617f;
+  float c5_next = -8.8639965f;
+  c5 = c5 * u_2 + -6.4703784f;
+  c5_next = c5_next * u_2 + -3.7052789f;
+  c5 = c5 * u_2 + -0.39783505f;
+  c5_next = c5_next * u_2 + 0.053760476f;
+  c5 = c5 * u + c5_next;
+  float c6 = 73.30013f;
+  float c6_next = 42.819714f;
+  c6 = c6 * u_2 + 18.072111f;
+  c6_next = c6_next * u_2 + 9.114195f;
+  c6 = c6 * u_2 + 3.580999f;
+  c6_next = c6_next * u_2 + 0.48950207f;
+  c6 = c6 * u + c6_next;
+  float c7 = -8.850572f;
+  c7 = c7 * u + -6.410674f;
+  c7 = c7 * u + -4.2447963f;
+  c7 = c7 * u + -0.7471678f;
   const float w = specular - 0.500001f;
-  float sum = c8;
-  sum = sum * w + c7;
+  float sum = c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
@@ -142,7 +156,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -157,43 +173,48 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.24854049f;
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = 0.010857627f;
-    float c0_next = -0.0029557343f;
-    c0 = c0 * u_2 + -0.015753603f;
-    c0_next = c0_next * u_2 + -0.0069366144f;
-    c0 = c0 * u_2 + 0.047976002f;
+    float c0 = -0.0029653416f;
+    float c0_next = 0.0029686815f;
+    c0 = c0 * u_2 + -0.0003819869f;
+    c0_next = c0_next * u_2 + -0.004321609f;
+    c0 = c0 * u_2 + 0.04723793f;
     c0 = c0_next * u + c0;
-    float c1 = -0.050774828f;
-    float c1_next = -0.0063112006f;
-    c1 = c1 * u_2 + -0.00896188f;
-    c1_next = c1_next * u_2 + -0.0060419403f;
-    c1 = c1 * u_2 + 0.08842072f;
+    float c1 = -0.0031775672f;
+    float c1_next = 0.003477225f;
+    c1 = c1 * u_2 + -0.00034737046f;
+    c1_next = c1_next * u_2 + -0.0042748484f;
+    c1 = c1 * u_2 + 0.088092566f;
     c1 = c1_next * u + c1;
-    float c2 = -0.013025322f;
-    c2 = c2 * u + 0.029738149f;
-    c2 = c2 * u + 0.014335421f;
-    c2 = c2 * u + -0.010004096f;
-    float c3 = -0.045180008f;
-    c3 = c3 * u + -0.013248142f;
-    c3 = c3 * u + 0.013156955f;
-    float c4 = -0.0016999808f;
-    c4 = c4 * u + -0.003026257f;
-    const float c5 = -0.010115447f;
+    float c2 = 0.0069117243f;
+    float c2_next = -0.005663692f;
+    c2 = c2 * u_2 + 9.529582e-05f;
+    c2_next = c2_next * u_2 + 0.0063153794f;
+    c2 = c2 * u_2 + -0.0076913675f;
+    c2 = c2_next * u + c2;
+    float c3 = -0.0011921247f;
+    c3 = c3 * u + -0.004526668f;
+    c3 = c3 * u + 0.0057308176f;
+    float c4 = 0.009801854f;
+    c4 = c4 * u + -0.005520367f;
+    float c5 = -0.012342841f;
+    c5 = c5 * u + 0.015893951f;
+    const float c6 = -0.019320976f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
     terms.c3[i] = c3;
     terms.c4[i] = c4;
     terms.c5[i] = c5;
+    terms.c6[i] = c6;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   const float w = specular - 0.500001f;
-  float sum = terms.c5[i];
+  float sum = terms.c6[i];
+  sum = sum * w + terms.c5[i];
   sum = sum * w + terms.c4[i];
   sum = sum * w + terms.c3[i];
   sum = sum * w + terms.c2[i];
@@ -268,6 +289,22 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.specular,
@@ -285,6 +322,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -392,8 +443,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -403,13 +459,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -421,15 +566,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -437,16 +589,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -517,19 +672,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 1.0f}, {0.010332139f, 0.09179006f}, {1.1e-05f, 9.2e-06f}},
-      {{0.20933492f, 0.9375f}, {0.04369413f, 0.086523265f}, {1.1e-05f, 9.2e-06f}},
-      {{0.31866986f, 0.875f}, {0.10101639f, 0.08112419f}, {1.1e-05f, 9.2e-06f}},
-      {{0.42800477f, 0.8125f}, {0.18220647f, 0.07556119f}, {1.1e-05f, 9.2e-06f}},
-      {{0.5373397f, 0.75f}, {0.28652215f, 0.06981894f}, {1.1e-05f, 9.2e-06f}},
-      {{0.64667463f, 0.6875f}, {0.41301298f, 0.06389528f}, {1.1e-05f, 9.2e-06f}},
-      {{0.7560096f, 0.625f}, {0.5613844f, 0.05781227f}, {1.1e-05f, 9.2e-06f}},
-      {{0.86534446f, 0.5625f}, {0.7321225f, 0.05162599f}, {1.1e-05f, 9.2e-06f}},
-      {{0.9746794f, 0.5f}, {0.92342794f, 0.045419153f}, {1.1e-05f, 9.2e-06f}},
-      {{0.05f, 0.5f}, {0.010335842f, 0.0488091f}, {1.1e-05f, 9.2e-06f}},
-      {{1.4620191f, 0.25f}, {0.91760594f, 0.023431301f}, {1.1e-05f, 9.2e-06f}},
-      {{0.5373397f, 0.0f}, {0.2904412f, 0.0f}, {1.1e-05f, 9.2e-06f}},
-      {{0.5373397f, 2.0f}, {0.28696996f, 0.1820256f}, {1.1e-05f, 1.9e-05f}},
+      {{0.1f, 1.0f}, {0.009998059f, 0.09177357f}, {9.1e-06f, 9.2e-06f}},
+      {{0.2125f, 0.9375f}, {0.045144647f, 0.08649587f}, {9.1e-06f, 9.2e-06f}},
+      {{0.325f, 0.875f}, {0.10547712f, 0.08111797f}, {9.2e-06f, 9.2e-06f}},
+      {{0.4375f, 0.8125f}, {0.19058976f, 0.07557865f}, {9.2e-06f, 9.2e-06f}},
+      {{0.55f, 0.75f}, {0.2999322f, 0.06982242f}, {9.2e-06f, 9.2e-06f}},
+      {{0.6625f, 0.6875f}, {0.4330419f, 0.06383874f}, {9.3e-06f, 9.2e-06f}},
+      {{0.775f, 0.625f}, {0.58954465f, 0.05768283f}, {9.4e-06f, 9.2e-06f}},
+      {{0.8875f, 0.5625f}, {0.7690463f, 0.05144643f}, {9.5e-06f, 9.2e-06f}},
+      {{1.0f, 0.5f}, {0.9709087f, 0.045188412f}, {9.6e-06f, 9.2e-06f}},
+      {{0.05f, 0.5f}, {0.009998819f, 0.048748683f}, {9.1e-06f, 9.2e-06f}},
+      {{1.5f, 0.25f}, {0.964938f, 0.023294773f}, {9.6e-06f, 9.2e-06f}},
+      {{0.55f, 0.0f}, {0.30571923f, 0.0f}, {9.2e-06f, 9.2e-06f}},
+      {{0.55f, 2.0f}, {0.30042273f, 0.18186365f}, {9.2e-06f, 1.9e-05f}},
   }};
   std::array<float, kGolden.size()> roughness{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

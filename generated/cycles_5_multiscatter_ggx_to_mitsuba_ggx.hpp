@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // cycles-5/multiscatter-ggx to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table cycles_5_multiscatter_ggx_to_mitsuba_ggx.csv, sha256 46335d8746537a6c3a881346ac4bb3626d1e97d212ccda66166d64d0ba58a015;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
-// Fit: mlp, seed 1, 246 rows trained, 62 held out.
-// Error on the rows held out: alpha rms 2.2e-05, 99 % 9.4e-05, max 9.4e-05;
-// f0 rms 3.4e-05, 99 % 0.00013, max 0.00013.
-// Lowered from the fit. Target alpha: degree 10, 11 in specular, proven within 7.9e-06 (sampled 6.8e-06), rising with alpha.
-// Target specular: degree 8, 5 in specular, proven within 6.4e-05 (sampled 5.8e-05), rising with specular.
-// Covers alpha 0.01 to 0.931724138, color 0 to 0.55.
+// Table cycles_5_multiscatter_ggx_to_mitsuba_ggx.csv, sha256 88177aed1c96dc38c31535216612d37c0e17914f62ec1959a6849d9d0571774e;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
+// Fit: series, seed 1, 570 rows trained, 143 held out.
+// Error on the rows held out: alpha rms 0.00029, 99 % 0.0016, max 0.0017;
+// f0 rms 0.00089, 99 % 0.0044, max 0.0051.
+// Lowered from the fit. Target alpha: degree 8, 7 in specular, proven within 4.6e-06 (sampled 3.7e-06), rising with alpha.
+// Target specular: degree 7, 8 in specular, proven within 7.1e-05 (sampled 6.3e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, 2 in specular, proven within 7.6e-07 (sampled 5.2e-08), rising with specular.
+// Where specular is at its limit, target alpha: degree 10, 8 in specular, proven within 9.2e-05 (sampled 3.9e-05).
+// All together within 0.00021 in alpha, 7.8e-05 in specular.
+// Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_5_MULTISCATTER_GGX_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_5_MULTISCATTER_GGX_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 2.2e-05f;
-inline constexpr float kSpecularRmsError = 3.4e-05f;
+inline constexpr float kAlphaRmsError = 0.00029f;
+inline constexpr float kSpecularRmsError = 0.00089f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.019f;
+inline constexpr float kImageRmsError = 0.13f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.9652586f, 0.55f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,87 +78,59 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.47086304f;
+  const float u = alpha - 0.49826926f;
   const float u_2 = u * u;
-  float c0 = 1.7624828f;
-  float c0_next = 0.033369135f;
-  c0 = c0 * u_2 + -1.5357838f;
-  c0_next = c0_next * u_2 + -0.024397448f;
-  c0 = c0 * u_2 + 0.5809914f;
-  c0_next = c0_next * u_2 + -0.078538425f;
-  c0 = c0 * u_2 + -0.08352206f;
-  c0_next = c0_next * u_2 + 0.11535322f;
-  c0 = c0 * u_2 + 0.0764838f;
-  c0_next = c0_next * u_2 + 1.0159869f;
-  c0 = c0 * u_2 + 0.4721506f;
+  float c0 = -2.4723415f;
+  float c0_next = -0.93055487f;
+  c0 = c0 * u_2 + 1.5581787f;
+  c0_next = c0_next * u_2 + 0.42309627f;
+  c0 = c0 * u_2 + -0.41626722f;
+  c0_next = c0_next * u_2 + -0.05273504f;
+  c0 = c0 * u_2 + 0.08800431f;
+  c0_next = c0_next * u_2 + 1.0259464f;
+  c0 = c0 * u_2 + 0.49992985f;
   c0 = c0_next * u + c0;
-  float c1 = 2.4785383f;
-  float c1_next = -2.0431f;
-  c1 = c1 * u_2 + -2.0859985f;
-  c1_next = c1_next * u_2 + 0.92092973f;
-  c1 = c1 * u_2 + 0.55599177f;
-  c1_next = c1_next * u_2 + -0.1556799f;
-  c1 = c1 * u_2 + -0.10450894f;
-  c1_next = c1_next * u_2 + -0.049848974f;
-  c1 = c1 * u_2 + -0.024312992f;
-  c1_next = c1_next * u_2 + -0.0041069826f;
+  float c1 = -1.2127692f;
+  float c1_next = 0.372206f;
+  c1 = c1 * u_2 + 0.74739975f;
+  c1_next = c1_next * u_2 + -0.26678073f;
+  c1 = c1 * u_2 + -0.28883895f;
+  c1_next = c1_next * u_2 + -0.060131952f;
+  c1 = c1 * u_2 + -0.014412312f;
+  c1_next = c1_next * u_2 + -0.0034855874f;
   c1 = c1 * u + c1_next;
-  float c2 = -1.7407882f;
-  float c2_next = 0.7752797f;
-  c2 = c2 * u_2 + 0.65974003f;
-  c2_next = c2_next * u_2 + -0.21393275f;
-  c2 = c2 * u_2 + -0.081518576f;
-  c2_next = c2_next * u_2 + 0.047140703f;
-  c2 = c2 * u_2 + 0.045313008f;
-  c2_next = c2_next * u_2 + 0.008477503f;
-  c2 = c2 * u + c2_next;
-  float c3 = 3.4142675f;
-  float c3_next = 0.5434806f;
-  c3 = c3 * u_2 + -1.8142945f;
-  c3_next = c3_next * u_2 + -0.5064632f;
-  c3 = c3 * u_2 + 0.14595439f;
-  c3_next = c3_next * u_2 + -0.09428351f;
-  c3 = c3 * u_2 + -0.031955693f;
-  c3 = c3_next * u + c3;
-  float c4 = -14.948952f;
-  float c4_next = -0.53517324f;
-  c4 = c4 * u_2 + 5.0747676f;
-  c4_next = c4_next * u_2 + 0.22259624f;
-  c4 = c4 * u_2 + -3.2603278f;
-  c4_next = c4_next * u_2 + -1.5743667f;
-  c4 = c4 * u_2 + -0.0011883696f;
+  float c2 = -0.73016727f;
+  float c2_next = 0.020361831f;
+  c2 = c2 * u_2 + 0.7590236f;
+  c2_next = c2_next * u_2 + 0.43228227f;
+  c2 = c2 * u_2 + 0.102761455f;
+  c2_next = c2_next * u_2 + 0.024141142f;
+  c2 = c2 * u_2 + 0.0050945077f;
+  c2 = c2_next * u + c2;
+  float c3 = -0.35224524f;
+  float c3_next = -0.18845816f;
+  c3 = c3 * u_2 + 0.24286413f;
+  c3_next = c3_next * u_2 + 0.3659509f;
+  c3 = c3 * u_2 + 0.14274469f;
+  c3_next = c3_next * u_2 + 0.011450949f;
+  c3 = c3 * u + c3_next;
+  float c4 = -0.58811754f;
+  float c4_next = -0.865405f;
+  c4 = c4 * u_2 + -0.6045462f;
+  c4_next = c4_next * u_2 + -0.28994784f;
+  c4 = c4 * u_2 + -0.0670249f;
   c4 = c4_next * u + c4;
-  float c5 = 7.1161323f;
-  float c5_next = 10.12806f;
-  c5 = c5 * u_2 + 5.714567f;
-  c5_next = c5_next * u_2 + 5.429269f;
-  c5 = c5 * u_2 + 0.7018453f;
-  c5 = c5_next * u + c5;
-  float c6 = -24.519627f;
-  c6 = c6 * u + 121.53229f;
-  c6 = c6 * u + 64.43164f;
-  c6 = c6 * u + 1.3333168f;
-  float c7 = -393.53146f;
-  c7 = c7 * u + -314.03223f;
-  c7 = c7 * u + -41.269966f;
-  float c8 = -1548.2644f;
-  c8 = c8 * u + -417.6735f;
-  c8 = c8 * u + 105.729805f;
-  float c9 = 5685.351f;
-  c9 = c9 * u + 3274.5088f;
-  c9 = c9 * u + 182.86789f;
-  float c10 = 6179.3022f;
-  c10 = c10 * u + 889.5052f;
-  c10 = c10 * u + -628.625f;
-  float c11 = -25422.316f;
-  c11 = c11 * u + -11919.14f;
-  c11 = c11 * u + -11.476941f;
-  const float w = specular - 0.27500054f;
-  float sum = c11;
-  sum = sum * w + c10;
-  sum = sum * w + c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
+  float c5 = -0.21215074f;
+  c5 = c5 * u + -1.3525592f;
+  c5 = c5 * u + -0.69187707f;
+  c5 = c5 * u + -0.036690313f;
+  float c6 = 1.9905674f;
+  c6 = c6 * u + 2.0626397f;
+  c6 = c6 * u + 0.5400087f;
+  float c7 = -1.1872563f;
+  c7 = c7 * u + -0.5919816f;
+  const float w = specular - 0.500001f;
+  float sum = c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
@@ -169,7 +144,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock], c8[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -184,62 +161,181 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.47086304f;
+    const float u = alpha - 0.49826926f;
     const float u_2 = u * u;
-    float c0 = -1.5053272f;
-    float c0_next = 0.22265519f;
-    c0 = c0 * u_2 + 0.8543844f;
-    c0_next = c0_next * u_2 + -0.24100097f;
-    c0 = c0 * u_2 + -0.07324336f;
-    c0_next = c0_next * u_2 + 0.0734797f;
-    c0 = c0 * u_2 + 0.08801482f;
-    c0_next = c0_next * u_2 + 0.09291595f;
-    c0 = c0 * u_2 + 0.29966795f;
-    c0 = c0_next * u + c0;
-    float c1 = -8.371964f;
-    float c1_next = 1.0438712f;
-    c1 = c1 * u_2 + 4.7561445f;
-    c1_next = c1_next * u_2 + -1.1968914f;
-    c1 = c1 * u_2 + -0.47456083f;
-    c1_next = c1_next * u_2 + 0.09739986f;
-    c1 = c1 * u_2 + 0.5000922f;
-    c1_next = c1_next * u_2 + 0.6790758f;
-    c1 = c1 * u_2 + 1.1914965f;
-    c1 = c1_next * u + c1;
-    float c2 = 2.2021124f;
-    float c2_next = -0.52828974f;
-    c2 = c2 * u_2 + -0.20006993f;
-    c2_next = c2_next * u_2 + -0.48291096f;
-    c2 = c2 * u_2 + 0.9034997f;
-    c2_next = c2_next * u_2 + 1.3823932f;
-    c2 = c2 * u_2 + 0.37330684f;
+    float c0 = -2.5416336f;
+    float c0_next = 0.7051771f;
+    c0 = c0 * u_2 + 0.5364747f;
+    c0_next = c0_next * u_2 + -0.14022516f;
+    c0 = c0 * u_2 + -0.023440838f;
+    c0_next = c0_next * u_2 + 0.18625131f;
+    c0 = c0 * u_2 + 0.29932988f;
+    c0_next = c0_next * u_2 + 0.5942763f;
+    c0 = c0 * u + c0_next;
+    float c1 = -6.09559f;
+    float c1_next = -0.5565087f;
+    c1 = c1 * u_2 + 0.57892066f;
+    c1_next = c1_next * u_2 + 0.39773363f;
+    c1 = c1 * u_2 + -0.33193073f;
+    c1_next = c1_next * u_2 + 0.6451502f;
+    c1 = c1 * u_2 + 1.27788f;
+    c1_next = c1_next * u_2 + 1.4017109f;
+    c1 = c1 * u + c1_next;
+    float c2 = -4.7603664f;
+    float c2_next = -1.8580947f;
+    c2 = c2 * u_2 + 2.232777f;
+    c2_next = c2_next * u_2 + -1.2244085f;
+    c2 = c2 * u_2 + 0.637888f;
+    c2_next = c2_next * u_2 + 1.8328846f;
+    c2 = c2 * u_2 + 0.52395743f;
     c2 = c2_next * u + c2;
-    float c3 = 1.1914728f;
-    c3 = c3 * u + 1.3041403f;
-    c3 = c3 * u + 0.51321733f;
-    c3 = c3 * u + 0.08266173f;
-    float c4 = 1.3799344f;
-    c4 = c4 * u + 1.0851848f;
-    c4 = c4 * u + 0.26789033f;
-    c4 = c4 * u + 0.082378246f;
-    const float c5 = -0.20635389f;
+    float c3 = 3.2572384f;
+    float c3_next = -2.239851f;
+    c3 = c3 * u_2 + -3.2467291f;
+    c3_next = c3_next * u_2 + 0.1272386f;
+    c3 = c3 * u_2 + 0.2706391f;
+    c3 = c3_next * u + c3;
+    float c4 = 4.402041f;
+    float c4_next = 3.6270952f;
+    c4 = c4 * u_2 + -8.813649f;
+    c4_next = c4_next * u_2 + -4.839721f;
+    c4 = c4 * u_2 + -0.6188905f;
+    c4 = c4_next * u + c4;
+    float c5 = 10.623305f;
+    c5 = c5 * u + 5.4461665f;
+    c5 = c5 * u + -5.3534756f;
+    c5 = c5 * u + -1.8682117f;
+    float c6 = 18.742569f;
+    c6 = c6 * u + 7.1226606f;
+    c6 = c6 * u + 1.390042f;
+    float c7 = 9.465973f;
+    c7 = c7 * u + 2.8963408f;
+    const float c8 = -3.2060778f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
     terms.c3[i] = c3;
     terms.c4[i] = c4;
     terms.c5[i] = c5;
+    terms.c6[i] = c6;
+    terms.c7[i] = c7;
+    terms.c8[i] = c8;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.27500054f;
-  float sum = terms.c5[i];
+  const float w = specular - 0.500001f;
+  float sum = terms.c8[i];
+  sum = sum * w + terms.c7[i];
+  sum = sum * w + terms.c6[i];
+  sum = sum * w + terms.c5[i];
   sum = sum * w + terms.c4[i];
   sum = sum * w + terms.c3[i];
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
   sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9617558f;
+  float c0 = 1.7288686f;
+  c0 = c0 * u + -0.7762737f;
+  c0 = c0 * u + 0.7910737f;
+  float c1 = -1.6274034f;
+  c1 = c1 * u + 2.150535f;
+  const float c2 = 1.153083f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -158.75163f;
+  float c0_next = -2.2918346f;
+  c0 = c0 * u_2 + 241.04126f;
+  c0_next = c0_next * u_2 + -162.29207f;
+  c0 = c0 * u_2 + 19.455114f;
+  c0_next = c0_next * u_2 + 14.369581f;
+  c0 = c0 * u_2 + -5.8229613f;
+  c0_next = c0_next * u_2 + 0.89179873f;
+  c0 = c0 * u_2 + -0.12915707f;
+  c0_next = c0_next * u_2 + 0.5227679f;
+  c0 = c0 * u_2 + 0.4651311f;
+  c0 = c0_next * u + c0;
+  float c1 = 372.5382f;
+  float c1_next = -1461.1517f;
+  c1 = c1 * u_2 + 1485.5944f;
+  c1_next = c1_next * u_2 + -493.179f;
+  c1 = c1 * u_2 + -53.661903f;
+  c1_next = c1_next * u_2 + 73.1653f;
+  c1 = c1 * u_2 + -17.731163f;
+  c1_next = c1_next * u_2 + 1.338527f;
+  c1 = c1 * u_2 + -0.68391067f;
+  c1_next = c1_next * u_2 + -0.9603875f;
+  c1 = c1 * u + c1_next;
+  float c2 = 3420.294f;
+  float c2_next = -5286.4565f;
+  c2 = c2 * u_2 + 2401.3464f;
+  c2_next = c2_next * u_2 + 402.1377f;
+  c2 = c2 * u_2 + -787.75934f;
+  c2_next = c2_next * u_2 + 319.55554f;
+  c2 = c2 * u_2 + -57.873886f;
+  c2_next = c2_next * u_2 + 0.6962943f;
+  c2 = c2 * u_2 + 1.82459f;
+  c2 = c2_next * u + c2;
+  float c3 = 3785.4844f;
+  float c3_next = -2628.9617f;
+  c3 = c3 * u_2 + -3843.3843f;
+  c3_next = c3_next * u_2 + 5387.1406f;
+  c3 = c3 * u_2 + -2733.4958f;
+  c3_next = c3_next * u_2 + 734.53174f;
+  c3 = c3 * u_2 + -113.16002f;
+  c3_next = c3_next * u_2 + 9.385527f;
+  c3 = c3 * u + c3_next;
+  float c4 = -3295.096f;
+  float c4_next = 12159.964f;
+  c4 = c4 * u_2 + -13677.487f;
+  c4_next = c4_next * u_2 + 6704.058f;
+  c4 = c4 * u_2 + -2054.9854f;
+  c4_next = c4_next * u_2 + 633.7974f;
+  c4 = c4 * u_2 + -93.9131f;
+  c4 = c4_next * u + c4;
+  float c5 = -15485.665f;
+  float c5_next = 30484.502f;
+  c5 = c5 * u_2 + -19740.176f;
+  c5_next = c5_next * u_2 + 5095.888f;
+  c5 = c5 * u_2 + -418.58475f;
+  c5 = c5_next * u + c5;
+  float c6 = 77284.37f;
+  float c6_next = -151139.52f;
+  c6 = c6 * u_2 + 127819.484f;
+  c6_next = c6_next * u_2 + -51398.043f;
+  c6 = c6 * u_2 + 6937.3564f;
+  c6 = c6_next * u + c6;
+  float c7 = 94953.305f;
+  c7 = c7 * u + -172927.3f;
+  c7 = c7 * u + 97139.086f;
+  c7 = c7 * u + -17704.809f;
+  float c8 = -88508.29f;
+  c8 = c8 * u + 79664.484f;
+  c8 = c8 * u + -5258.305f;
+  const float w = specular - 0.80117226f;
+  float sum = c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -309,10 +405,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.color,
-                                 kDomainMax.color, 1.8181818f};
+                                 kDomainMax.color, 1.0f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -326,6 +438,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.98653644f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.9235115f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.60234374f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -433,8 +559,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -444,13 +575,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -462,15 +682,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -478,16 +705,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -558,19 +788,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 0.55f}, {0.009990826f, 0.54985875f}, {8.4e-06f, 6.5e-05f}},
-      {{0.20815733f, 0.515625f}, {0.04329953f, 0.5157892f}, {8.4e-06f, 6.5e-05f}},
-      {{0.31631464f, 0.48125002f}, {0.10009786f, 0.48466873f}, {8.4e-06f, 6.5e-05f}},
-      {{0.42447197f, 0.446875f}, {0.1803113f, 0.45852458f}, {8.5e-06f, 6.5e-05f}},
-      {{0.5326293f, 0.41250002f}, {0.28377125f, 0.43643156f}, {8.5e-06f, 6.5e-05f}},
-      {{0.64078665f, 0.378125f}, {0.41093996f, 0.41638845f}, {8.6e-06f, 6.5e-05f}},
-      {{0.7489439f, 0.34375f}, {0.5639236f, 0.39765427f}, {8.6e-06f, 6.5e-05f}},
-      {{0.85710126f, 0.30937502f}, {0.74670035f, 0.38049734f}, {8.7e-06f, 6.5e-05f}},
-      {{0.9652586f, 0.275f}, {0.9656433f, 0.36616832f}, {8.8e-06f, 6.5e-05f}},
-      {{0.05f, 0.275f}, {0.010020827f, 0.27417707f}, {8.4e-06f, 6.5e-05f}},
-      {{1.4478879f, 0.1375f}, {0.9710592f, 0.1654375f}, {8.8e-06f, 6.4e-05f}},
-      {{0.5326293f, 0.0f}, {0.28653267f, 0.0f}, {8.5e-06f, 6.4e-05f}},
-      {{0.5326293f, 1.1f}, {0.2837112f, 1.1880561f}, {8.5e-06f, 0.00013f}},
+      {{0.1f, 1.0f}, {0.009997706f, 1.0f}, {0.00021f, 7.8e-05f}},
+      {{0.2125f, 0.9375f}, {0.045146476f, 0.93965036f}, {0.00021f, 7.8e-05f}},
+      {{0.325f, 0.875f}, {0.10569397f, 0.89321995f}, {0.00021f, 7.8e-05f}},
+      {{0.4375f, 0.8125f}, {0.1913306f, 0.86607057f}, {0.00021f, 7.8e-05f}},
+      {{0.55f, 0.75f}, {0.30189595f, 0.8517408f}, {0.00021f, 7.8e-05f}},
+      {{0.6625f, 0.6875f}, {0.43893304f, 0.84176993f}, {0.00021f, 7.8e-05f}},
+      {{0.775f, 0.625f}, {0.60520166f, 0.8305665f}, {0.00021f, 7.8e-05f}},
+      {{0.8875f, 0.5625f}, {0.80040044f, 0.8139703f}, {0.00021f, 7.8e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.7639123f}, {0.00021f, 7.8e-05f}},
+      {{0.05f, 0.5f}, {0.009997329f, 0.49875554f}, {0.00021f, 7.8e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.31390646f}, {0.00021f, 7.8e-05f}},
+      {{0.55f, 0.0f}, {0.30686656f, 0.0f}, {0.00021f, 7.8e-05f}},
+      {{0.55f, 2.0f}, {0.2641137f, 2.0f}, {0.00021f, 0.00016f}},
   }};
   std::array<float, kGolden.size()> roughness{}, color{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // cycles-5/principled-dielectric to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table cycles_5_principled_dielectric_to_mitsuba_ggx.csv, sha256 09d2096271ae7835d006cead96a1f016546ecb36bdee8c7cbade5fdfb40845f8;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
-// Fit: parametric, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 7.9e-05, 99 % 0.00028, max 0.00034;
-// f0 rms 0.00023, 99 % 5e-04, max 0.00061.
-// Lowered from the fit. Target alpha: degree 6, 6 in specular, proven within 3.2e-06 (sampled 2e-08), rising with alpha.
-// Target specular: degree 6, 2 in specular, proven within 9.3e-06 (sampled 9e-06), rising with specular.
-// Covers alpha 0.01 to 0.95, specular 0 to 1.
+// Table cycles_5_principled_dielectric_to_mitsuba_ggx.csv, sha256 1c3a10cc9a8211c057c231e60e2766b523f62eb51c1925a4bbe988f067223362;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
+// Fit: series, seed 1, 480 rows trained, 120 held out.
+// Error on the rows held out: alpha rms 8e-05, 99 % 0.00031, max 0.00037;
+// f0 rms 2.3e-05, 99 % 0.00012, max 2e-04.
+// Lowered from the fit. Target alpha: degree 9 in alpha / (alpha + 1), 7 in specular, proven within 9.1e-06 (sampled 7.2e-06), rising with alpha.
+// Target specular: degree 5, 6 in specular, proven within 1.1e-05 (sampled 9.6e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, 2 in specular, proven within 3.7e-08 (sampled 1.1e-09), rising with specular.
+// All together within 9.1e-06 in alpha, 1.3e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_5_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_5_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 7.9e-05f;
-inline constexpr float kSpecularRmsError = 0.00023f;
+inline constexpr float kAlphaRmsError = 8e-05f;
+inline constexpr float kSpecularRmsError = 2.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.018f;
+inline constexpr float kImageRmsError = 0.022f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.9746794f, 1.0f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,42 +77,81 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.480001f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25373927f;
   const float u_2 = u * u;
-  float c0 = 0.17091888f;
-  float c0_next = -0.091210395f;
-  c0 = c0 * u_2 + -0.056190018f;
-  c0_next = c0_next * u_2 + 0.14402848f;
-  c0 = c0 * u_2 + 0.064558744f;
-  c0_next = c0_next * u_2 + 0.98718417f;
-  c0 = c0 * u_2 + 0.47347173f;
-  c0 = c0_next * u + c0;
-  float c1 = -0.0003003002f;
-  c1 = c1 * u + 0.028263854f;
-  c1 = c1 * u + 0.02631907f;
-  c1 = c1 * u + 0.0060879495f;
-  float c2 = -0.020043284f;
-  c2 = c2 * u + -0.02158121f;
-  c2 = c2 * u + -0.010176927f;
-  c2 = c2 * u + -0.0021292442f;
-  float c3 = -0.07699237f;
-  c3 = c3 * u + 0.055861138f;
-  c3 = c3 * u + 0.10282758f;
-  c3 = c3 * u + 0.027972087f;
-  float c4 = 0.109047554f;
-  c4 = c4 * u + 0.04800267f;
-  c4 = c4 * u + -0.0051296153f;
-  c4 = c4 * u + -0.001462219f;
-  float c5 = 1.0224034f;
-  c5 = c5 * u + -0.6122679f;
-  c5 = c5 * u + -1.246358f;
-  c5 = c5 * u + -0.34411567f;
-  float c6 = -1.6640149f;
-  c6 = c6 * u + 0.7586103f;
-  c6 = c6 * u + 1.7753364f;
-  c6 = c6 * u + 0.4933508f;
+  float c0 = 811.00995f;
+  float c0_next = 349.49817f;
+  c0 = c0 * u_2 + 7.657241f;
+  c0_next = c0_next * u_2 + 1.7406532f;
+  c0 = c0 * u_2 + 15.058588f;
+  c0_next = c0_next * u_2 + 9.197944f;
+  c0 = c0 * u_2 + 4.04626f;
+  c0_next = c0_next * u_2 + 2.3238597f;
+  c0 = c0 * u_2 + 1.7493957f;
+  c0_next = c0_next * u_2 + 0.33565226f;
+  c0 = c0 * u + c0_next;
+  float c1 = 129.8839f;
+  float c1_next = 323.89236f;
+  c1 = c1 * u_2 + 103.37327f;
+  c1_next = c1_next * u_2 + -3.8882968f;
+  c1 = c1 * u_2 + -3.3949873f;
+  c1_next = c1_next * u_2 + 0.07619727f;
+  c1 = c1 * u_2 + 0.2809917f;
+  c1_next = c1_next * u_2 + 0.15288718f;
+  c1 = c1 * u_2 + 0.03632435f;
+  c1_next = c1_next * u_2 + 0.003080964f;
+  c1 = c1 * u + c1_next;
+  float c2 = -1640.8573f;
+  float c2_next = -433.7269f;
+  c2 = c2 * u_2 + 125.85254f;
+  c2_next = c2_next * u_2 + 59.558716f;
+  c2 = c2 * u_2 + 7.1608067f;
+  c2_next = c2_next * u_2 + -1.1487404f;
+  c2 = c2 * u_2 + -0.34768742f;
+  c2_next = c2_next * u_2 + -0.003751095f;
+  c2 = c2 * u_2 + 0.026897825f;
+  c2_next = c2_next * u_2 + 0.005963599f;
+  c2 = c2 * u + c2_next;
+  float c3 = -1001.2486f;
+  float c3_next = -286.52997f;
+  c3 = c3 * u_2 + 64.76963f;
+  c3_next = c3_next * u_2 + 17.623795f;
+  c3 = c3 * u_2 + 3.4338074f;
+  c3_next = c3_next * u_2 + 1.649941f;
+  c3 = c3 * u_2 + 0.3297076f;
+  c3_next = c3_next * u_2 + -0.024120258f;
+  c3 = c3 * u_2 + -0.012908373f;
+  c3 = c3_next * u + c3;
+  float c4 = -107.90868f;
+  float c4_next = -82.257545f;
+  c4 = c4 * u_2 + -22.740807f;
+  c4_next = c4_next * u_2 + -3.6079128f;
+  c4 = c4 * u_2 + 0.09987303f;
+  c4_next = c4_next * u_2 + -0.2752201f;
+  c4 = c4 * u_2 + -0.08627539f;
+  c4 = c4_next * u + c4;
+  float c5 = 38.621635f;
+  float c5_next = -1.3156071f;
+  c5 = c5 * u_2 + -9.375055f;
+  c5_next = c5_next * u_2 + -6.473468f;
+  c5 = c5 * u_2 + -0.8057273f;
+  c5_next = c5_next * u_2 + 0.072840266f;
+  c5 = c5 * u + c5_next;
+  float c6 = 117.98446f;
+  float c6_next = 69.14146f;
+  c6 = c6 * u_2 + 29.4451f;
+  c6_next = c6_next * u_2 + 14.938046f;
+  c6 = c6 * u_2 + 5.9476266f;
+  c6_next = c6_next * u_2 + 0.8174229f;
+  c6 = c6 * u + c6_next;
+  float c7 = -14.539279f;
+  c7 = c7 * u + -10.552322f;
+  c7 = c7 * u + -7.01032f;
+  c7 = c7 * u + -1.229115f;
   const float w = specular - 0.500001f;
-  float sum = c6;
+  float sum = c7;
+  sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
   sum = sum * w + c3;
@@ -123,7 +164,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -138,42 +181,71 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.480001f;
+    const float u = alpha - 0.5001785f;
     const float u_2 = u * u;
-    float c0 = 0.06433303f;
-    float c0_next = -0.025495317f;
-    c0 = c0 * u_2 + -0.040557146f;
-    c0_next = c0_next * u_2 + 0.023824178f;
-    c0 = c0 * u_2 + 0.013079027f;
-    c0_next = c0_next * u_2 + -0.002266522f;
-    c0 = c0 * u_2 + 0.04591841f;
-    c0 = c0_next * u + c0;
-    float c1 = 0.1363457f;
-    float c1_next = -0.07743482f;
-    c1 = c1 * u_2 + -0.05092149f;
-    c1_next = c1_next * u_2 + 0.03576668f;
-    c1 = c1 * u_2 + 0.022093948f;
-    c1_next = c1_next * u_2 + 0.000533982f;
-    c1 = c1 * u_2 + 0.08685796f;
-    c1 = c1_next * u + c1;
-    float c2 = -0.052888483f;
-    float c2_next = 0.065474644f;
-    c2 = c2 * u_2 + -0.023763109f;
-    c2_next = c2_next * u_2 + -0.008549693f;
-    c2 = c2 * u_2 + 0.010134013f;
-    c2_next = c2_next * u_2 + -0.009952141f;
-    c2 = c2 * u + c2_next;
+    float c0 = -0.006586138f;
+    float c0_next = 0.0005308418f;
+    c0 = c0 * u_2 + 0.018379498f;
+    c0_next = c0_next * u_2 + 0.012883259f;
+    c0 = c0 * u_2 + -0.0003025224f;
+    c0_next = c0_next * u_2 + 0.04801867f;
+    c0 = c0 * u + c0_next;
+    float c1 = -0.009750261f;
+    float c1_next = 0.00540656f;
+    c1 = c1 * u_2 + 0.034441497f;
+    c1_next = c1_next * u_2 + 0.024786776f;
+    c1 = c1 * u_2 + 0.003235857f;
+    c1_next = c1_next * u_2 + 0.087863915f;
+    c1 = c1 * u + c1_next;
+    float c2 = 0.009529729f;
+    float c2_next = -0.004312482f;
+    c2 = c2 * u_2 + -0.0013461084f;
+    c2_next = c2_next * u_2 + 0.0073518287f;
+    c2 = c2 * u_2 + -0.0105784265f;
+    c2 = c2_next * u + c2;
+    float c3 = -0.00034563334f;
+    c3 = c3 * u + -0.0055976133f;
+    c3 = c3 * u + 0.008053885f;
+    float c4 = 0.013620206f;
+    c4 = c4 * u + -0.008133917f;
+    float c5 = -0.019041203f;
+    c5 = c5 * u + 0.024365753f;
+    const float c6 = -0.030504478f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
+    terms.c3[i] = c3;
+    terms.c4[i] = c4;
+    terms.c5[i] = c5;
+    terms.c6[i] = c6;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   const float w = specular - 0.500001f;
-  float sum = terms.c2[i];
+  float sum = terms.c6[i];
+  sum = sum * w + terms.c5[i];
+  sum = sum * w + terms.c4[i];
+  sum = sum * w + terms.c3[i];
+  sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
   sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.96088094f;
+  float c0 = -0.6659187f;
+  c0 = c0 * u + -0.031955488f;
+  c0 = c0 * u + 0.053688303f;
+  float c1 = -0.14439678f;
+  c1 = c1 * u + 0.10083149f;
+  const float c2 = -0.014191029f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -243,6 +315,22 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.specular,
@@ -260,6 +348,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.9903549f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.9217617f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -367,8 +469,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -378,13 +485,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -396,15 +592,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -412,16 +615,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -492,19 +698,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 1.0f}, {0.0099911345f, 0.08854264f}, {3.7e-06f, 9.3e-06f}},
-      {{0.20933492f, 0.9375f}, {0.043798298f, 0.08329603f}, {3.7e-06f, 9.3e-06f}},
-      {{0.31866986f, 0.875f}, {0.10143552f, 0.07816777f}, {3.7e-06f, 9.3e-06f}},
-      {{0.42800477f, 0.8125f}, {0.18252495f, 0.073067f}, {3.8e-06f, 9.3e-06f}},
-      {{0.5373397f, 0.75f}, {0.2865241f, 0.067689724f}, {3.8e-06f, 9.3e-06f}},
-      {{0.64667463f, 0.6875f}, {0.41356128f, 0.06202069f}, {3.9e-06f, 9.3e-06f}},
-      {{0.7560096f, 0.625f}, {0.56559783f, 0.05658655f}, {4e-06f, 9.3e-06f}},
-      {{0.86534446f, 0.5625f}, {0.7468898f, 0.05201916f}, {4e-06f, 9.3e-06f}},
-      {{0.9746794f, 0.5f}, {0.9636702f, 0.048341457f}, {4.1e-06f, 9.3e-06f}},
-      {{0.05f, 0.5f}, {0.009994089f, 0.046699144f}, {3.7e-06f, 9.3e-06f}},
-      {{1.4620191f, 0.25f}, {0.9567124f, 0.024642952f}, {4.1e-06f, 9.3e-06f}},
-      {{0.5373397f, 0.0f}, {0.2906306f, 0.0f}, {3.8e-06f, 9.3e-06f}},
-      {{0.5373397f, 2.0f}, {0.28698725f, 0.17454068f}, {3.8e-06f, 1.9e-05f}},
+      {{0.1f, 1.0f}, {0.009996893f, 0.091322914f}, {9.6e-06f, 1.3e-05f}},
+      {{0.2125f, 0.9375f}, {0.04514513f, 0.08615786f}, {9.6e-06f, 1.3e-05f}},
+      {{0.325f, 0.875f}, {0.10545897f, 0.08086304f}, {9.6e-06f, 1.3e-05f}},
+      {{0.4375f, 0.8125f}, {0.19050701f, 0.0754071f}, {9.7e-06f, 1.3e-05f}},
+      {{0.55f, 0.75f}, {0.29969603f, 0.06979396f}, {9.7e-06f, 1.3e-05f}},
+      {{0.6625f, 0.6875f}, {0.43320027f, 0.06419156f}, {9.8e-06f, 1.3e-05f}},
+      {{0.775f, 0.625f}, {0.5935807f, 0.05905716f}, {9.9e-06f, 1.3e-05f}},
+      {{0.8875f, 0.5625f}, {0.7867811f, 0.055126585f}, {1e-05f, 1.3e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.051419083f}, {1.1e-05f, 1.3e-05f}},
+      {{0.05f, 0.5f}, {0.009998535f, 0.04931602f}, {9.6e-06f, 1.3e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.02673643f}, {1.1e-05f, 1.3e-05f}},
+      {{0.55f, 0.0f}, {0.31237707f, 0.0f}, {9.7e-06f, 1.3e-05f}},
+      {{0.55f, 2.0f}, {0.30020854f, 0.1805601f}, {9.7e-06f, 2.6e-05f}},
   }};
   std::array<float, kGolden.size()> roughness{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // cycles-5/principled-metal to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table cycles_5_principled_metal_to_mitsuba_ggx.csv, sha256 41d29c8579b32d55d223ad37d6e06786bf237872a022fcc8a7b53401f26a9416;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
-// Fit: mlp, seed 1, 403 rows trained, 101 held out.
-// Error on the rows held out: alpha rms 0.00011, 99 % 0.00035, max 0.00072;
-// f0 rms 2.3e-05, 99 % 6.9e-05, max 8.1e-05.
-// Lowered from the fit. Target alpha: degree 9, proven within 9.3e-06 (sampled 8.3e-06), rising with alpha.
-// Target specular: degree 8 in alpha / (alpha + 1), 5 in specular, proven within 9e-05 (sampled 8.1e-05), rising with specular.
-// Covers alpha 0.01 to 0.931724138, base_color 0 to 0.9.
+// Table cycles_5_principled_metal_to_mitsuba_ggx.csv, sha256 c5b90bdf8c1c5f46de7047418e92e150f52025e889b9a9a25b3f32a837f33199;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Cycles of Blender 5.0.1; remapc 0.1.0.
+// Fit: series, seed 1, 563 rows trained, 141 held out.
+// Error on the rows held out: alpha rms 0.00013, 99 % 0.00063, max 0.00069;
+// f0 rms 7.1e-05, 99 % 0.00024, max 0.00031.
+// Lowered from the fit. Target alpha: degree 5, 2 in specular, proven within 7.9e-06 (sampled 6.9e-06), rising with alpha.
+// Target specular: degree 5, proven within 1e-04 (sampled 9.2e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2 in alpha / (alpha + 0.3), proven within 8e-05 (sampled 7.5e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 5, 2 in specular, proven within 9.7e-05 (sampled 9.2e-05), rising with alpha.
+// All together within 0.00022 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, base_color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_5_PRINCIPLED_METAL_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_5_PRINCIPLED_METAL_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00011f;
-inline constexpr float kSpecularRmsError = 2.3e-05f;
+inline constexpr float kAlphaRmsError = 0.00013f;
+inline constexpr float kSpecularRmsError = 7.1e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.018f;
+inline constexpr float kImageRmsError = 0.025f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.9652586f, 0.9f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,27 +77,41 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float) noexcept {
-  const float u = alpha - 0.47086304f;
+inline float target_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.48185757f;
   const float u_2 = u * u;
-  float c0 = -2.8458152f;
-  float c0_next = -0.7958801f;
-  c0 = c0 * u_2 + 1.5813594f;
-  c0_next = c0_next * u_2 + 0.43823203f;
-  c0 = c0 * u_2 + -0.37307414f;
-  c0_next = c0_next * u_2 + -0.049763143f;
-  c0 = c0 * u_2 + 0.15335344f;
-  c0_next = c0_next * u_2 + 0.08665279f;
-  c0 = c0 * u_2 + 1.0188411f;
-  c0_next = c0_next * u_2 + 0.47237813f;
+  float c0 = -0.04401856f;
+  float c0_next = 0.07233543f;
+  c0 = c0 * u_2 + 0.16368984f;
+  c0_next = c0_next * u_2 + 0.09589603f;
+  c0 = c0 * u_2 + 1.0225701f;
+  c0_next = c0_next * u_2 + 0.48372728f;
   c0 = c0 * u + c0_next;
-  return c0;
+  float c1 = 0.00669974f;
+  float c1_next = 0.007282244f;
+  c1 = c1 * u_2 + 0.0029064724f;
+  c1_next = c1_next * u_2 + 0.00056331285f;
+  c1 = c1 * u_2 + 5.178349e-05f;
+  c1 = c1_next * u + c1;
+  float c2 = -0.019117486f;
+  float c2_next = -0.019014925f;
+  c2 = c2 * u_2 + -0.0062646633f;
+  c2_next = c2_next * u_2 + -0.00090425275f;
+  c2 = c2 * u_2 + -8.377256e-05f;
+  c2 = c2_next * u + c2;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -109,49 +126,75 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.24611461f;
+    const float u = alpha - 0.48185757f;
     const float u_2 = u * u;
-    float c0 = 192.85585f;
-    float c0_next = 61.887802f;
-    c0 = c0 * u_2 + 3.9951339f;
-    c0_next = c0_next * u_2 + 5.5675836f;
-    c0 = c0 * u_2 + 4.2510967f;
-    c0_next = c0_next * u_2 + 1.0690082f;
-    c0 = c0 * u_2 + 0.12816161f;
-    c0_next = c0_next * u_2 + 0.009359493f;
-    c0 = c0 * u_2 + 0.45038366f;
-    c0 = c0_next * u + c0;
-    float c1 = 112.01551f;
-    float c1_next = 55.409164f;
-    c1 = c1 * u_2 + 15.108981f;
-    c1_next = c1_next * u_2 + 7.8179235f;
-    c1 = c1 * u_2 + 2.298107f;
-    c1_next = c1_next * u_2 + 0.30399686f;
-    c1 = c1 * u_2 + 0.021067677f;
-    c1_next = c1_next * u_2 + 1.0007168f;
-    c1 = c1 * u + c1_next;
-    const float c2 = -0.00035832403f;
-    const float c3 = 0.0019709046f;
-    const float c4 = 0.002395864f;
-    const float c5 = -0.00992923f;
+    float c0 = -0.05877874f;
+    float c0_next = -0.0018592816f;
+    c0 = c0 * u_2 + 0.015577418f;
+    c0_next = c0_next * u_2 + 0.0002626914f;
+    c0 = c0 * u_2 + -0.00077867473f;
+    c0_next = c0_next * u_2 + 1.2215382e-05f;
+    c0 = c0 * u + c0_next;
+    float c1 = 0.12734637f;
+    float c1_next = 0.35583586f;
+    c1 = c1 * u_2 + 0.28873658f;
+    c1_next = c1_next * u_2 + 0.09160491f;
+    c1 = c1 * u_2 + 1.0102493f;
+    c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.4500009f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 0.3f);
+  const float u = t - 0.7643865f;
+  float c0 = 6.228583f;
+  c0 = c0 * u + -0.010839569f;
+  c0 = c0 * u + 6.499906e-05f;
+  float c1 = -33.831833f;
+  c1 = c1 * u + -7.970397f;
+  c1 = c1 * u + 1.1194489f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -0.75532585f;
+  float c0_next = 0.5397288f;
+  c0 = c0 * u_2 + 0.29028997f;
+  c0_next = c0_next * u_2 + -0.44499946f;
+  c0 = c0 * u_2 + 1.0639303f;
+  c0_next = c0_next * u_2 + 0.5321329f;
+  c0 = c0 * u + c0_next;
+  float c1 = 10.78799f;
+  float c1_next = -9.037738f;
+  c1 = c1 * u_2 + -5.843027f;
+  c1_next = c1_next * u_2 + 8.2708645f;
+  c1 = c1 * u_2 + -2.8656268f;
+  c1_next = c1_next * u_2 + -0.35893455f;
+  c1 = c1 * u + c1_next;
+  float c2 = 20.021135f;
+  float c2_next = 16.96744f;
+  c2 = c2 * u_2 + -41.3816f;
+  c2_next = c2_next * u_2 + 19.359814f;
+  c2 = c2 * u_2 + -2.279529f;
+  c2 = c2_next * u + c2;
+  const float w = specular - 0.93574136f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -221,13 +264,29 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.base_color,
-                                 kDomainMax.base_color, 1.1111112f};
+                                 kDomainMax.base_color, 1.0f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
-  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -238,6 +297,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.9537131f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.94762f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.8714825f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -345,8 +418,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -356,13 +434,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -374,15 +541,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -390,16 +564,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -470,19 +647,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 0.9f}, {0.010002813f, 0.9007425f}, {9.8e-06f, 9e-05f}},
-      {{0.20815733f, 0.84375f}, {0.04332867f, 0.8439009f}, {9.8e-06f, 9e-05f}},
-      {{0.31631464f, 0.78749996f}, {0.10006074f, 0.7874508f}, {9.8e-06f, 9e-05f}},
-      {{0.42447197f, 0.73125f}, {0.18017764f, 0.731301f}, {9.9e-06f, 9e-05f}},
-      {{0.5326293f, 0.67499995f}, {0.2837445f, 0.6752914f}, {9.9e-06f, 9e-05f}},
-      {{0.64078665f, 0.61875f}, {0.4112649f, 0.62037504f}, {1e-05f, 9e-05f}},
-      {{0.7489439f, 0.5625f}, {0.5649409f, 0.569316f}, {1.1e-05f, 9e-05f}},
-      {{0.85710126f, 0.50624996f}, {0.74949104f, 0.52636623f}, {1.1e-05f, 9e-05f}},
-      {{0.9652586f, 0.45f}, {0.9722229f, 0.49628106f}, {1.1e-05f, 9e-05f}},
-      {{0.05f, 0.45f}, {0.010002813f, 0.45036903f}, {9.8e-06f, 9e-05f}},
-      {{1.4478879f, 0.225f}, {0.9722229f, 0.24813822f}, {1.1e-05f, 9e-05f}},
-      {{0.5326293f, 0.0f}, {0.2837445f, 7.323715e-05f}, {9.9e-06f, 9e-05f}},
-      {{0.5326293f, 1.8f}, {0.2837445f, 1.8007579f}, {9.9e-06f, 0.00018f}},
+      {{0.1f, 1.0f}, {0.0099960035f, 1.0f}, {0.00022f, 0.00011f}},
+      {{0.2125f, 0.9375f}, {0.04515014f, 0.9377242f}, {0.00022f, 0.00011f}},
+      {{0.325f, 0.875f}, {0.105634965f, 0.8750751f}, {0.00022f, 0.00011f}},
+      {{0.4375f, 0.8125f}, {0.19140874f, 0.8126404f}, {0.00022f, 0.00011f}},
+      {{0.55f, 0.75f}, {0.30255002f, 0.7510147f}, {0.00022f, 0.00011f}},
+      {{0.6625f, 0.6875f}, {0.43996912f, 0.69223493f}, {0.00022f, 0.00011f}},
+      {{0.775f, 0.625f}, {0.60683197f, 0.64106804f}, {0.00022f, 0.00011f}},
+      {{0.8875f, 0.5625f}, {0.81063545f, 0.60564077f}, {0.00022f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.5402523f}, {0.00022f, 0.00011f}},
+      {{0.05f, 0.5f}, {0.0099962605f, 0.50021815f}, {0.00022f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.27020627f}, {0.00022f, 0.00011f}},
+      {{0.55f, 0.0f}, {0.30253688f, 1.6147435e-05f}, {0.00022f, 0.00011f}},
+      {{0.55f, 2.0f}, {0.3023964f, 2.0f}, {0.00022f, 0.00022f}},
   }};
   std::array<float, kGolden.size()> roughness{}, base_color{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba3/principled-dielectric to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba3_principled_dielectric_to_mitsuba_ggx.csv, sha256 cd266de23ce1acd4b83c9a2a61a65bd53f3edf95d969b030995d1a58cd41fa8e;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by Mitsuba 3.9.1 (scalar_rgb); remapc 0.1.0.
-// Fit: svr, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 4e-04, 99 % 0.00082, max 0.0012;
-// f0 rms 3.4e-05, 99 % 6.6e-05, max 6.8e-05.
-// Lowered from the fit. Target alpha: degree 7, 8 in specular, proven within 8.6e-06 (sampled 7.6e-06), rising with alpha.
-// Target specular: degree 4 in alpha / (alpha + 1), 5 in specular, proven within 9.1e-06 (sampled 8.8e-06), rising with specular.
-// Covers alpha 0.01 to 0.95, specular 0 to 1.
+// Table mitsuba3_principled_dielectric_to_mitsuba_ggx.csv, sha256 9e82c8ff623dc9ad66ed521a938faa3db8f113974a8f55c9552a6a873397c20c;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Mitsuba 3.9.1 (scalar_rgb); remapc 0.1.0.
+// Fit: series, seed 1, 480 rows trained, 120 held out.
+// Error on the rows held out: alpha rms 8.2e-05, 99 % 0.00031, max 0.00037;
+// f0 rms 4.2e-06, 99 % 1.3e-05, max 1.3e-05.
+// Lowered from the fit. Target alpha: degree 7, 7 in specular, proven within 1e-05 (sampled 8.9e-06), rising with alpha.
+// Target specular: degree 4 in alpha / (alpha + 1), 6 in specular, proven within 9.5e-06 (sampled 9e-06), rising with specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA3_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA3_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +36,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 4e-04f;
-inline constexpr float kSpecularRmsError = 3.4e-05f;
+inline constexpr float kAlphaRmsError = 8.2e-05f;
+inline constexpr float kSpecularRmsError = 4.2e-06f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.0053f;
+inline constexpr float kImageRmsError = 0.0061f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +55,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.9746794f, 1.0f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,61 +75,57 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.480001f;
+  const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 0.071853906f;
-  float c0_next = 0.029446207f;
-  c0 = c0 * u_2 + -0.25978792f;
-  c0_next = c0_next * u_2 + -0.005445919f;
-  c0 = c0 * u_2 + 0.08306958f;
-  c0_next = c0_next * u_2 + -0.024359396f;
-  c0 = c0 * u_2 + 0.96493804f;
-  c0_next = c0_next * u_2 + 0.47226804f;
+  float c0 = -0.11114421f;
+  float c0_next = 0.06907027f;
+  c0 = c0 * u_2 + 0.01431326f;
+  c0_next = c0_next * u_2 + -0.045393962f;
+  c0 = c0 * u_2 + 0.02438883f;
+  c0_next = c0_next * u_2 + -0.018634895f;
+  c0 = c0 * u_2 + 0.9611355f;
+  c0_next = c0_next * u_2 + 0.49461046f;
   c0 = c0 * u + c0_next;
-  float c1 = 0.014296423f;
-  float c1_next = -0.0034136518f;
-  c1 = c1 * u_2 + -0.044297338f;
-  c1_next = c1_next * u_2 + 0.025361162f;
-  c1 = c1 * u_2 + 0.040473986f;
-  c1_next = c1_next * u_2 + 0.006830141f;
-  c1 = c1 * u + c1_next;
-  float c2 = -0.43175185f;
-  float c2_next = -0.06494987f;
-  c2 = c2 * u_2 + 0.26243472f;
-  c2_next = c2_next * u_2 + 0.033129342f;
-  c2 = c2 * u_2 + -0.06629733f;
-  c2_next = c2_next * u_2 + -0.02080046f;
-  c2 = c2 * u + c2_next;
-  float c3 = -0.22013342f;
-  float c3_next = 0.052820064f;
-  c3 = c3 * u_2 + 0.41997582f;
-  c3_next = c3_next * u_2 + -0.11419063f;
-  c3 = c3 * u_2 + -0.2000051f;
-  c3_next = c3_next * u_2 + 0.004374965f;
+  float c1 = -0.0041117f;
+  float c1_next = 0.07619624f;
+  c1 = c1 * u_2 + 0.025948377f;
+  c1_next = c1_next * u_2 + -0.038090773f;
+  c1 = c1 * u_2 + 0.009251863f;
+  c1_next = c1_next * u_2 + 0.027211819f;
+  c1 = c1 * u_2 + 0.007335816f;
+  c1 = c1_next * u + c1;
+  float c2 = -0.24081874f;
+  float c2_next = 0.014041074f;
+  c2 = c2 * u_2 + 0.12658474f;
+  c2_next = c2_next * u_2 + 0.04700994f;
+  c2 = c2 * u_2 + -0.0004297335f;
+  c2_next = c2_next * u_2 + 0.011896824f;
+  c2 = c2 * u_2 + 0.0076952907f;
+  c2 = c2_next * u + c2;
+  float c3 = -0.30958736f;
+  float c3_next = -0.24665387f;
+  c3 = c3 * u_2 + 0.03149501f;
+  c3_next = c3_next * u_2 + 0.16308714f;
+  c3 = c3 * u_2 + 0.03735728f;
+  c3_next = c3_next * u_2 + -0.011243562f;
   c3 = c3 * u + c3_next;
-  float c4 = 0.8539165f;
-  float c4_next = 0.008876737f;
-  c4 = c4 * u_2 + -1.4175516f;
-  c4_next = c4_next * u_2 + -0.021009274f;
-  c4 = c4 * u_2 + 0.68849355f;
-  c4_next = c4_next * u_2 + 0.20963158f;
-  c4 = c4 * u + c4_next;
-  float c5 = -0.21665742f;
-  c5 = c5 * u + 0.31407338f;
-  c5 = c5 * u + 0.035166547f;
-  c5 = c5 * u + -0.2755483f;
-  float c6 = 1.0032855f;
-  c6 = c6 * u + 0.010083767f;
-  c6 = c6 * u + -0.9379014f;
-  c6 = c6 * u + -0.21378046f;
-  float c7 = -0.23705328f;
-  c7 = c7 * u + 0.061153416f;
-  c7 = c7 * u + 0.24412222f;
-  float c8 = 0.4122299f;
-  c8 = c8 * u + 0.09490825f;
+  float c4 = 0.22851788f;
+  float c4_next = -0.5777144f;
+  c4 = c4 * u_2 + -0.25163987f;
+  c4_next = c4_next * u_2 + -0.2004512f;
+  c4 = c4 * u_2 + -0.11484408f;
+  c4 = c4_next * u + c4;
+  float c5 = 1.0282968f;
+  c5 = c5 * u + -1.2700086f;
+  c5 = c5 * u + -0.90827686f;
+  c5 = c5 * u + -0.027298907f;
+  float c6 = 2.3100152f;
+  c6 = c6 * u + 4.0132227f;
+  c6 = c6 * u + 1.3934f;
+  float c7 = -3.8556402f;
+  c7 = c7 * u + -1.8529192f;
   const float w = specular - 0.500001f;
-  float sum = c8;
-  sum = sum * w + c7;
+  float sum = c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
@@ -143,7 +139,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -159,42 +157,47 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
     const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.24854049f;
+    const float u = t - 0.25495073f;
     const float u_2 = u * u;
-    float c0 = 0.0037580805f;
-    float c0_next = -0.0015766765f;
-    c0 = c0 * u_2 + -0.015415698f;
-    c0_next = c0_next * u_2 + -0.0069368384f;
-    c0 = c0 * u_2 + 0.047738455f;
+    float c0 = 0.013817903f;
+    float c0_next = -0.009150548f;
+    c0 = c0 * u_2 + -0.01877299f;
+    c0_next = c0_next * u_2 + -0.008597405f;
+    c0 = c0 * u_2 + 0.050299685f;
     c0 = c0_next * u + c0;
-    float c1 = -0.052855913f;
-    float c1_next = -0.004092494f;
-    c1 = c1 * u_2 + -0.008857618f;
-    c1_next = c1_next * u_2 + -0.0058742855f;
-    c1 = c1 * u_2 + 0.088013045f;
+    float c1 = 0.022833865f;
+    float c1_next = -0.013986505f;
+    c1 = c1 * u_2 + -0.018981496f;
+    c1_next = c1_next * u_2 + -0.008595365f;
+    c1 = c1 * u_2 + 0.09123663f;
     c1 = c1_next * u + c1;
-    float c2 = -0.013038419f;
-    c2 = c2 * u + 0.027618652f;
-    c2 = c2 * u + 0.01389905f;
-    c2 = c2 * u + -0.010013579f;
-    float c3 = -0.044729065f;
-    c3 = c3 * u + -0.013648301f;
-    c3 = c3 * u + 0.012898993f;
-    float c4 = -0.0019192309f;
-    c4 = c4 * u + -0.0023315263f;
-    const float c5 = -0.010014112f;
+    float c2 = 0.012536045f;
+    c2 = c2 * u + 0.027982004f;
+    c2 = c2 * u + 0.013116324f;
+    c2 = c2 * u + -0.012233296f;
+    float c3 = -0.0395014f;
+    c3 = c3 * u + -0.012127732f;
+    c3 = c3 * u + 0.009890071f;
+    float c4 = 0.038861677f;
+    c4 = c4 * u + 0.030153787f;
+    c4 = c4 * u + -0.010748944f;
+    float c5 = -0.038754355f;
+    c5 = c5 * u + 0.02673848f;
+    const float c6 = -0.031029139f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
     terms.c3[i] = c3;
     terms.c4[i] = c4;
     terms.c5[i] = c5;
+    terms.c6[i] = c6;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   const float w = specular - 0.500001f;
-  float sum = terms.c5[i];
+  float sum = terms.c6[i];
+  sum = sum * w + terms.c5[i];
   sum = sum * w + terms.c4[i];
   sum = sum * w + terms.c3[i];
   sum = sum * w + terms.c2[i];
@@ -269,6 +272,22 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.specular,
@@ -286,6 +305,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -393,8 +426,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -404,13 +442,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -422,15 +549,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -438,16 +572,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -518,19 +655,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 1.0f}, {0.010249081f, 0.091317266f}, {9.1e-06f, 9.1e-06f}},
-      {{0.20933492f, 0.9375f}, {0.043567527f, 0.08608711f}, {9.2e-06f, 9.1e-06f}},
-      {{0.31866986f, 0.875f}, {0.10089897f, 0.0807265f}, {9.2e-06f, 9.1e-06f}},
-      {{0.42800477f, 0.8125f}, {0.18211856f, 0.07519415f}, {9.2e-06f, 9.1e-06f}},
-      {{0.5373397f, 0.75f}, {0.2864667f, 0.06947731f}, {9.3e-06f, 9.1e-06f}},
-      {{0.64667463f, 0.6875f}, {0.41300008f, 0.063581154f}, {9.3e-06f, 9.1e-06f}},
-      {{0.7560096f, 0.625f}, {0.5614222f, 0.057530385f}, {9.4e-06f, 9.1e-06f}},
-      {{0.86534446f, 0.5625f}, {0.7321726f, 0.051376913f}, {9.5e-06f, 9.1e-06f}},
-      {{0.9746794f, 0.5f}, {0.9234839f, 0.045196332f}, {9.6e-06f, 9.1e-06f}},
-      {{0.05f, 0.5f}, {0.010386631f, 0.048549026f}, {9.1e-06f, 9.1e-06f}},
-      {{1.4620191f, 0.25f}, {0.91761255f, 0.023285829f}, {9.6e-06f, 9.1e-06f}},
-      {{0.5373397f, 0.0f}, {0.29102528f, 0.0f}, {9.3e-06f, 9.1e-06f}},
-      {{0.5373397f, 2.0f}, {0.2869131f, 0.18117127f}, {9.3e-06f, 1.9e-05f}},
+      {{0.1f, 1.0f}, {0.010001456f, 0.0951858f}, {1.1e-05f, 9.6e-06f}},
+      {{0.2125f, 0.9375f}, {0.04514535f, 0.089833185f}, {1.1e-05f, 9.6e-06f}},
+      {{0.325f, 0.875f}, {0.105457656f, 0.08433239f}, {1.1e-05f, 9.6e-06f}},
+      {{0.4375f, 0.8125f}, {0.19048233f, 0.0786341f}, {1.1e-05f, 9.6e-06f}},
+      {{0.55f, 0.75f}, {0.2995694f, 0.072692685f}, {1.1e-05f, 9.6e-06f}},
+      {{0.6625f, 0.6875f}, {0.43211558f, 0.06649256f}, {1.1e-05f, 9.6e-06f}},
+      {{0.775f, 0.625f}, {0.5877102f, 0.060072392f}, {1.1e-05f, 9.6e-06f}},
+      {{0.8875f, 0.5625f}, {0.766098f, 0.05353497f}, {1.1e-05f, 9.6e-06f}},
+      {{1.0f, 0.5f}, {0.9666753f, 0.04698041f}, {1.1e-05f, 9.6e-06f}},
+      {{0.05f, 0.5f}, {0.010002912f, 0.051462088f}, {1.1e-05f, 9.6e-06f}},
+      {{1.5f, 0.25f}, {0.96272224f, 0.024468848f}, {1.1e-05f, 9.6e-06f}},
+      {{0.55f, 0.0f}, {0.3114881f, 0.0f}, {1.1e-05f, 9.5e-06f}},
+      {{0.55f, 2.0f}, {0.30010033f, 0.18800503f}, {1.1e-05f, 2e-05f}},
   }};
   std::array<float, kGolden.size()> roughness{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

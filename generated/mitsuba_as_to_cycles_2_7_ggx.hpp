@@ -3,11 +3,11 @@
 //
 // mitsuba/as to cycles-2.7/ggx: which parameters of the second give the same picture as those of the first.
 // Table mitsuba_as_to_cycles_2_7_ggx.csv, sha256 448358681c768b5cfafb7161db86956f92526db2936f13cf71b4a25a8d962cff;
-// Fit: mlp, seed 1, 384 rows trained, 96 held out.
-// Error on the rows held out: alpha rms 1.4e-05, 99 % 5.2e-05, max 5.2e-05;
-// f0 rms 5.7e-05, 99 % 0.00024, max 0.00024.
-// Lowered from the fit. Target alpha: degree 6 on 8 pieces, proven within 7.5e-06 (sampled 6.5e-06), rising with alpha.
-// Target specular: degree 18, 5 in specular, proven within 1e-04 (sampled 4.6e-05), rising with specular.
+// Fit: series, seed 1, 384 rows trained, 96 held out.
+// Error on the rows held out: alpha rms 6.5e-05, 99 % 0.00028, max 0.00028;
+// f0 rms 3.3e-05, 99 % 0.00017, max 0.00017.
+// Lowered from the fit. Target alpha: degree 12, proven within 8.4e-07 (sampled 1.6e-08), rising with alpha.
+// Target specular: degree 15, proven within 1e-04 (sampled 7.7e-05), rising with specular.
 // Covers alpha 0.007929146100000001 to 0.8400000000000001, f0 0 to 0.6481118329302015.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_2_7_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_2_7_GGX_HPP
@@ -35,8 +35,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.4e-05f;
-inline constexpr float kSpecularRmsError = 5.7e-05f;
+inline constexpr float kAlphaRmsError = 6.5e-05f;
+inline constexpr float kSpecularRmsError = 3.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = -1.0f;
@@ -73,36 +73,22 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, clamped to [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[8][7] = {
-    {0.0695171f, 0.111150995f, -0.012662237f, 0.0054939557f, -0.0016593277f, -0.0004361409f, 0.00071601436f},
-    {0.17196083f, 0.09650595f, -0.0039796443f, 0.0014666698f, -0.0002599089f, 0.0001407165f, -8.569373e-05f},
-    {0.26576293f, 0.09221155f, -0.00062543363f, 0.00083326764f, -0.0001030662f, 4.411508e-05f, 1.5105299e-05f},
-    {0.35813218f, 0.09330649f, 0.0017369712f, 0.00081062457f, -2.2190565e-05f, -2.5852167e-05f, 2.470275e-05f},
-    {0.45397845f, 0.09925177f, 0.004426525f, 0.0012088387f, 0.00012409888f, -0.00010812519f, -2.1271717e-06f},
-    {0.5589415f, 0.112134516f, 0.009011755f, 0.0023814538f, 0.0005731625f, -5.7971407e-05f, -4.6574118e-05f},
-    {0.6830326f, 0.1397768f, 0.020732371f, 0.0071474146f, 0.003021208f, 0.00097380043f, 2.9551007e-05f},
-    {0.8550357f, 0.22285135f, 0.08334365f, 0.062077694f, 0.057818998f, 0.038444046f, 0.0075926953f},
-};
 inline float target_alpha(float alpha, float) noexcept {
-  const float x = alpha * 9.614545f - 0.07623485f;
-  const std::int32_t cell = cell_of(x, 7);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
+  const float u = alpha - 0.42396545f;
   const float u_2 = u * u;
-  float c0 = row[6];
-  float c0_next = row[5];
-  c0 = c0 * u_2 + row[4];
-  c0_next = c0_next * u_2 + row[3];
-  c0 = c0 * u_2 + row[2];
-  c0_next = c0_next * u_2 + row[1];
-  c0 = c0 * u_2 + row[0];
+  float c0 = 2765.4568f;
+  float c0_next = 2018.3953f;
+  c0 = c0 * u_2 + -621.43274f;
+  c0_next = c0_next * u_2 + -621.6236f;
+  c0 = c0 * u_2 + 44.372433f;
+  c0_next = c0_next * u_2 + 84.27695f;
+  c0 = c0 * u_2 + 4.2725286f;
+  c0_next = c0_next * u_2 + -2.4402087f;
+  c0 = c0 * u_2 + 0.39557776f;
+  c0_next = c0_next * u_2 + 0.8742828f;
+  c0 = c0 * u_2 + 0.2773728f;
+  c0_next = c0_next * u_2 + 0.9188388f;
+  c0 = c0 * u_2 + 0.40529916f;
   c0 = c0_next * u + c0;
   return c0;
 }
@@ -110,9 +96,7 @@ inline float target_alpha(float alpha, float) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
-  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
-  float wide[kBlock], bright[kBlock];         // shares of the regimes
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
 };
 
 template <class Count>
@@ -129,107 +113,47 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.42396545f;
     const float u_2 = u * u;
-    float c0 = -15436748.0f;
-    float c0_next = 5439656.0f;
-    c0 = c0 * u_2 + 10355914.0f;
-    c0_next = c0_next * u_2 + -3421840.5f;
-    c0 = c0 * u_2 + -2885505.2f;
-    c0_next = c0_next * u_2 + 889014.1f;
-    c0 = c0 * u_2 + 432685.03f;
-    c0_next = c0_next * u_2 + -122473.96f;
-    c0 = c0 * u_2 + -37754.94f;
-    c0_next = c0_next * u_2 + 9586.912f;
-    c0 = c0 * u_2 + 1951.0579f;
-    c0_next = c0_next * u_2 + -419.47018f;
-    c0 = c0 * u_2 + -57.898605f;
-    c0_next = c0_next * u_2 + 12.416019f;
-    c0 = c0 * u_2 + -0.12509443f;
-    c0_next = c0_next * u_2 + 0.58045155f;
-    c0 = c0 * u_2 + 0.434302f;
-    c0_next = c0_next * u_2 + -0.1067697f;
-    c0 = c0 * u_2 + 0.39395082f;
-    c0 = c0_next * u + c0;
-    float c1 = -29802572.0f;
-    float c1_next = 8572698.0f;
-    c1 = c1 * u_2 + 18531168.0f;
-    c1_next = c1_next * u_2 + -5170212.0f;
-    c1 = c1 * u_2 + -4697135.5f;
-    c1_next = c1_next * u_2 + 1288662.0f;
-    c1 = c1 * u_2 + 623578.2f;
-    c1_next = c1_next * u_2 + -167274.83f;
-    c1 = c1 * u_2 + -46428.35f;
-    c1_next = c1_next * u_2 + 11749.592f;
-    c1 = c1 * u_2 + 2037.6826f;
-    c1_next = c1_next * u_2 + -407.41577f;
-    c1 = c1 * u_2 + -61.403038f;
-    c1_next = c1_next * u_2 + 14.644772f;
-    c1 = c1 * u_2 + -1.6183708f;
-    c1_next = c1_next * u_2 + 2.0310717f;
-    c1 = c1 * u_2 + 1.336912f;
-    c1_next = c1_next * u_2 + -0.32850114f;
-    c1 = c1 * u_2 + 1.2156284f;
+    float c0 = 519192.34f;
+    float c0_next = -11976.904f;
+    c0 = c0 * u_2 + -337039.56f;
+    c0_next = c0_next * u_2 + 7001.841f;
+    c0 = c0 * u_2 + 87536.87f;
+    c0_next = c0_next * u_2 + -1596.5939f;
+    c0 = c0 * u_2 + -11582.548f;
+    c0_next = c0_next * u_2 + 179.17953f;
+    c0 = c0 * u_2 + 821.2557f;
+    c0_next = c0_next * u_2 + -10.243064f;
+    c0 = c0 * u_2 + -29.923065f;
+    c0_next = c0_next * u_2 + 0.27636927f;
+    c0 = c0 * u_2 + 0.48167157f;
+    c0_next = c0_next * u_2 + -0.0027536142f;
+    c0 = c0 * u_2 + -0.0022515664f;
+    c0_next = c0_next * u_2 + 3.9582483e-06f;
+    c0 = c0 * u + c0_next;
+    float c1 = -332939.75f;
+    float c1_next = 164686.7f;
+    c1 = c1 * u_2 + 174779.34f;
+    c1_next = c1_next * u_2 + -78756.9f;
+    c1 = c1 * u_2 + -35459.926f;
+    c1_next = c1_next * u_2 + 14604.414f;
+    c1 = c1 * u_2 + 3566.5935f;
+    c1_next = c1_next * u_2 + -1290.1136f;
+    c1 = c1 * u_2 + -183.00342f;
+    c1_next = c1_next * u_2 + 64.43407f;
+    c1 = c1 * u_2 + 1.3282242f;
+    c1_next = c1_next * u_2 + 1.0560508f;
+    c1 = c1 * u_2 + 1.3138304f;
+    c1_next = c1_next * u_2 + -0.32487446f;
+    c1 = c1 * u_2 + 1.215711f;
     c1 = c1_next * u + c1;
-    float c2 = -7009535.0f;
-    float c2_next = 715363.5f;
-    c2 = c2 * u_2 + 4344707.5f;
-    c2_next = c2_next * u_2 + -433515.6f;
-    c2 = c2 * u_2 + -1077346.0f;
-    c2_next = c2_next * u_2 + 104416.484f;
-    c2 = c2 * u_2 + 137118.34f;
-    c2_next = c2_next * u_2 + -12711.006f;
-    c2 = c2 * u_2 + -9528.355f;
-    c2_next = c2_next * u_2 + 838.119f;
-    c2 = c2 * u_2 + 347.88968f;
-    c2_next = c2_next * u_2 + -31.612064f;
-    c2 = c2 * u_2 + -4.9503546f;
-    c2_next = c2_next * u_2 + 0.6390648f;
-    c2 = c2 * u_2 + -0.044746283f;
-    c2_next = c2_next * u_2 + -0.0028724973f;
-    c2 = c2 * u_2 + -0.0005108844f;
-    c2 = c2_next * u + c2;
-    float c3 = -17193.04f;
-    float c3_next = 3341.318f;
-    c3 = c3 * u_2 + 6654.378f;
-    c3_next = c3_next * u_2 + -1204.6376f;
-    c3 = c3 * u_2 + -889.2455f;
-    c3_next = c3_next * u_2 + 137.68077f;
-    c3 = c3 * u_2 + 46.039837f;
-    c3_next = c3_next * u_2 + -4.004161f;
-    c3 = c3 * u_2 + -0.4066531f;
-    c3_next = c3_next * u_2 + -0.022326205f;
-    c3 = c3 * u_2 + -0.038801212f;
-    c3_next = c3_next * u_2 + 0.0027369487f;
-    c3 = c3 * u + c3_next;
-    float c4 = -143.17262f;
-    float c4_next = 3.0974662f;
-    c4 = c4 * u_2 + 39.02518f;
-    c4_next = c4_next * u_2 + -4.9192033f;
-    c4 = c4 * u_2 + -1.6297095f;
-    c4_next = c4_next * u_2 + 0.61534f;
-    c4 = c4 * u_2 + -0.016757162f;
-    c4_next = c4_next * u_2 + 0.0098038735f;
-    c4 = c4 * u + c4_next;
-    float c5 = -2.1252553f;
-    c5 = c5 * u + -0.8840993f;
-    c5 = c5 * u + 0.2843448f;
-    c5 = c5 * u + -0.022864887f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.32405657f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -299,22 +223,6 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
-// A number from 0, clamped to the least and at the largest that it may be.
-inline Float clamped_above(Float value, Float least) noexcept {
-  return float_from_bits(larger(bits(value), bits(least)));
-}
-inline Float clamped_below(Float value, Float limit) noexcept {
-  return float_from_bits(smaller(bits(value), bits(limit)));
-}
-
-// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
-// `inverse`: 200 / limit.
-inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
-  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
-}
-
-inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
-
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
@@ -332,20 +240,6 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
-  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
-  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
-  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
-  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
-  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::target_specular(terms, i, specular);
-  }
-  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::target_alpha(terms.alpha[i], specular);
-  }
-  template <class Count>
-  static void find_wide_terms(Count, Terms&) noexcept {}
-  template <class Count>
-  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -453,34 +347,9 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
-// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
-// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
-// its limit (bright). A block without such texels does not look at them.
-
-// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
   const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float alpha = load(terms.alpha + i);
-    store(terms.source_alpha + i, alpha);
-    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
-  }
-}
-
-// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
-template <class Count>
-inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  Bits any = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -490,81 +359,12 @@ inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexc
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Float width = mapping.target_alpha(terms, i, top);
-    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
-    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
-    any = any | above(bits(width), bits(mapping.alpha_limit));
-  }
-  return any;
-}
-
-// Target specular of a channel, without its limit.
-template <bool kAnyWide>
-inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
-  const Float inside = mapping.target_specular(terms, i, specular);
-  if constexpr (kAnyWide)
-    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
-  else
-    return inside;
-}
-
-// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
-template <bool kAnyWide, class Count>
-inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  Bits any = 0;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
-    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
-    any = any | above(bits(specular), bits(mapping.specular_limit));
-  }
-  return any;
-}
-
-template <class Count>
-inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
-  const std::size_t size = count;
-  Terms& terms = block.terms;
-  mapping.find_bright_terms(count, terms);
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
-    const Float free = clamped_below(bright, mapping.alpha_limit);
-    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
-  }
-}
-
-template <class Count>
-inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
     const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
   }
 }
 
-template <bool kInside, bool kAnyWide, class Count>
+template <bool kInside, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -576,22 +376,15 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
-    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
-    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
-    const Float limited = clamped_below(mapped, mapping.specular_limit);
-    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
+    if constexpr (kInside) {
+      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
+      store(out + i, clamped_channel(mapped) * load(block.scale + i));
+    } else {
+      const Float clamped = clamped_channel(load(in + i));
+      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
+      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
+    }
   }
-}
-
-template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
-inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
-                            float* const* specular_out, Block& block) noexcept {
-  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
-    use_bright_widths(count, mapping, block);
-  store_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -599,19 +392,16 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
-  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
-  if (any_wide) mapping.find_wide_terms(count, block.terms);
-  const auto convert = [&](auto is_inside, auto is_wide) {
-    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
-  };
-  if (inside)
-    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
-  else
-    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
+  convert_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c) {
+    if (inside)
+      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
+    else
+      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
+  }
 }
 
 }  // namespace detail
@@ -682,19 +472,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.007929146f, 0.6481118f}, {0.010010444f, 0.7844102f}, {8e-06f, 0.00011f}},
-      {{0.111938f, 0.60760486f}, {0.12250743f, 0.80855125f}, {8.1e-06f, 0.00011f}},
-      {{0.21594685f, 0.56709784f}, {0.21938865f, 0.7456998f}, {8.1e-06f, 0.00011f}},
-      {{0.3199557f, 0.5265908f}, {0.3118111f, 0.66443956f}, {8.2e-06f, 0.00011f}},
-      {{0.42396456f, 0.48608387f}, {0.40531838f, 0.59091365f}, {8.2e-06f, 0.00011f}},
-      {{0.5279734f, 0.44557688f}, {0.5048653f, 0.53382117f}, {8.3e-06f, 0.00011f}},
-      {{0.63198227f, 0.4050699f}, {0.6175911f, 0.49500212f}, {8.3e-06f, 0.00011f}},
-      {{0.7359911f, 0.3645629f}, {0.75921464f, 0.4764448f}, {8.4e-06f, 0.00011f}},
-      {{0.84f, 0.3240559f}, {0.99998385f, 0.49997404f}, {8.5e-06f, 0.00011f}},
-      {{0.003964573f, 0.3240559f}, {0.010010444f, 0.392026f}, {8e-06f, 0.00011f}},
-      {{1.26f, 0.16202796f}, {0.99998385f, 0.24996713f}, {8.5e-06f, 1e-04f}},
-      {{0.42396456f, 0.0f}, {0.40531838f, 6.264672e-05f}, {8.2e-06f, 1e-04f}},
-      {{0.42396456f, 1.2962236f}, {0.40531838f, 1.5759028f}, {8.2e-06f, 0.00021f}},
+      {{0.007929146f, 0.6481118f}, {0.010000163f, 0.7841991f}, {1.4e-06f, 1e-04f}},
+      {{0.111938f, 0.60760486f}, {0.12250749f, 0.8086224f}, {1.4e-06f, 1e-04f}},
+      {{0.21594685f, 0.56709784f}, {0.21938232f, 0.74569595f}, {1.5e-06f, 1e-04f}},
+      {{0.3199557f, 0.5265908f}, {0.31181955f, 0.6644277f}, {1.5e-06f, 1e-04f}},
+      {{0.42396456f, 0.48608387f}, {0.40529835f, 0.59092784f}, {1.6e-06f, 1e-04f}},
+      {{0.5279734f, 0.44557688f}, {0.5048827f, 0.5338222f}, {1.6e-06f, 1e-04f}},
+      {{0.63198227f, 0.4050699f}, {0.6175513f, 0.4949549f}, {1.7e-06f, 1e-04f}},
+      {{0.7359911f, 0.3645629f}, {0.7592965f, 0.4764244f}, {1.7e-06f, 1e-04f}},
+      {{0.84f, 0.3240559f}, {0.99991494f, 0.5000016f}, {1.8e-06f, 1e-04f}},
+      {{0.003964573f, 0.3240559f}, {0.010000163f, 0.392098f}, {1.4e-06f, 1e-04f}},
+      {{1.26f, 0.16202796f}, {0.99991494f, 0.24999917f}, {1.8e-06f, 1e-04f}},
+      {{0.42396456f, 0.0f}, {0.40529835f, 0.0f}, {1.6e-06f, 1e-04f}},
+      {{0.42396456f, 1.2962236f}, {0.40529835f, 1.575814f}, {1.6e-06f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

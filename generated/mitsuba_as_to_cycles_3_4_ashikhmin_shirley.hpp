@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to cycles-3.4/ashikhmin-shirley: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_cycles_3_4_ashikhmin_shirley.csv, sha256 30a8c5319ed546f7075d9081d0ecdeb898a570a0c7f67c01c696f6d8444400ef;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 3.4.1.
-// Fit: parametric, seed 1, 120 rows trained, 30 held out.
-// Error on the rows held out: alpha rms 0.00021, 99 % 7e-04, max 7e-04;
-// color rms 0.00052, 99 % 0.0016, max 0.0016.
-// Lowered from the fit. Target alpha: degree 6, 2 in specular, proven within 4e-07 (sampled 2e-08), rising with alpha.
-// Target specular: degree 7 in alpha / (alpha + 1), proven within 9.2e-05 (sampled 8.4e-05), rising with specular.
-// Covers alpha 0.01 to 0.829310345, f0 0 to 0.3.
+// Table mitsuba_as_to_cycles_3_4_ashikhmin_shirley.csv, sha256 2cc9244d8027fd1ed77f30aee090253ed301860b822d99d35cb6ff6349e71df7;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 3.4.1.
+// Fit: series, seed 1, 579 rows trained, 145 held out.
+// Error on the rows held out: alpha rms 0.00032, 99 % 0.0013, max 0.0014;
+// color rms 0.00017, 99 % 0.00062, max 0.00094.
+// Lowered from the fit. Target alpha: degree 15 in alpha / (alpha + 1), 10 in specular, proven within 8.3e-06 (sampled 5.3e-06), rising with alpha.
+// Target specular: degree 15 in alpha / (alpha + 1), 8 in specular, proven within 6.6e-05 (sampled 4.9e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, 2 in specular, proven within 4.4e-05 (sampled 4.1e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 8, 8 in specular, proven within 1.3e-05 (sampled 1.3e-07).
+// All together within 5.4e-05 in alpha, 8.7e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_3_4_ASHIKHMIN_SHIRLEY_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_3_4_ASHIKHMIN_SHIRLEY_HPP
 
@@ -37,11 +40,11 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "color";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00021f;
-inline constexpr float kSpecularRmsError = 0.00052f;
+inline constexpr float kAlphaRmsError = 0.00032f;
+inline constexpr float kSpecularRmsError = 0.00017f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.16f;
+inline constexpr float kImageRmsError = 0.28f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -56,7 +59,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. color is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.82931036f, 0.3f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -76,26 +79,130 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.41965604f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.24078642f;
   const float u_2 = u * u;
-  float c0 = -0.79061663f;
-  float c0_next = 0.7340756f;
-  c0 = c0 * u_2 + 0.0177046f;
-  c0_next = c0_next * u_2 + -0.45181772f;
-  c0 = c0 * u_2 + 0.17769335f;
-  c0_next = c0_next * u_2 + 1.2320522f;
-  c0 = c0 * u_2 + 0.4656761f;
-  c0 = c0_next * u + c0;
-  float c1 = -0.023133038f;
-  c1 = c1 * u + 0.031779993f;
-  c1 = c1 * u + 0.028751282f;
-  c1 = c1 * u + 0.004759163f;
-  float c2 = 0.1177406f;
-  c2 = c2 * u + -0.13993597f;
-  c2 = c2 * u + -0.14028598f;
-  c2 = c2 * u + -0.02552582f;
-  const float w = specular - 0.1500003f;
-  float sum = c2;
+  float c0 = -180185104.0f;
+  float c0_next = -47032776.0f;
+  c0 = c0 * u_2 + 23001974.0f;
+  c0_next = c0_next * u_2 + 6048207.5f;
+  c0 = c0 * u_2 + -1130715.1f;
+  c0_next = c0_next * u_2 + -300350.38f;
+  c0 = c0 * u_2 + 19412.393f;
+  c0_next = c0_next * u_2 + 4211.0337f;
+  c0 = c0 * u_2 + -66.05665f;
+  c0_next = c0_next * u_2 + 186.2234f;
+  c0 = c0 * u_2 + 15.598766f;
+  c0_next = c0_next * u_2 + -8.969476f;
+  c0 = c0 * u_2 + 2.627531f;
+  c0_next = c0_next * u_2 + 3.5104551f;
+  c0 = c0 * u_2 + 2.0522957f;
+  c0_next = c0_next * u_2 + 0.34309235f;
+  c0 = c0 * u + c0_next;
+  float c1 = -28479864.0f;
+  float c1_next = -9398305.0f;
+  c1 = c1 * u_2 + 3653794.2f;
+  c1_next = c1_next * u_2 + 1271305.6f;
+  c1 = c1 * u_2 + -177434.22f;
+  c1_next = c1_next * u_2 + -58034.79f;
+  c1 = c1 * u_2 + 7634.3433f;
+  c1_next = c1_next * u_2 + 1576.9476f;
+  c1 = c1 * u_2 + -295.42285f;
+  c1_next = c1_next * u_2 + -46.60258f;
+  c1 = c1 * u_2 + 4.2567706f;
+  c1_next = c1_next * u_2 + 0.5831279f;
+  c1 = c1 * u_2 + -0.037797403f;
+  c1_next = c1_next * u_2 + 0.00014008311f;
+  c1 = c1 * u_2 + 0.0005542703f;
+  c1 = c1_next * u + c1;
+  float c2 = 20177010.0f;
+  float c2_next = 6711682.0f;
+  c2 = c2 * u_2 + -1479591.1f;
+  c2_next = c2_next * u_2 + -612581.56f;
+  c2 = c2 * u_2 + 32243.268f;
+  c2_next = c2_next * u_2 + 17604.469f;
+  c2 = c2 * u_2 + -1979.5991f;
+  c2_next = c2_next * u_2 + -486.1992f;
+  c2 = c2 * u_2 + 79.57506f;
+  c2_next = c2_next * u_2 + 13.021569f;
+  c2 = c2 * u_2 + -1.271706f;
+  c2_next = c2_next * u_2 + -0.068285f;
+  c2 = c2 * u_2 + 0.026129633f;
+  c2_next = c2_next * u_2 + 0.0010587382f;
+  c2 = c2 * u + c2_next;
+  float c3 = -6332483.0f;
+  float c3_next = -2248115.8f;
+  c3 = c3 * u_2 + 293582.7f;
+  c3_next = c3_next * u_2 + 129272.43f;
+  c3 = c3 * u_2 + -22020.879f;
+  c3_next = c3_next * u_2 + -5530.596f;
+  c3 = c3 * u_2 + 1284.5977f;
+  c3_next = c3_next * u_2 + 258.1245f;
+  c3 = c3 * u_2 + -8.185903f;
+  c3_next = c3_next * u_2 + 2.5872085f;
+  c3 = c3 * u_2 + 1.1484916f;
+  c3_next = c3_next * u_2 + -0.011966736f;
+  c3 = c3 * u_2 + -0.013681579f;
+  c3 = c3_next * u + c3;
+  float c4 = 285218.5f;
+  float c4_next = 96262.36f;
+  c4 = c4 * u_2 + -10303.324f;
+  c4_next = c4_next * u_2 + -289.3817f;
+  c4 = c4 * u_2 + 1718.3219f;
+  c4_next = c4_next * u_2 + 126.06871f;
+  c4 = c4 * u_2 + -10.155836f;
+  c4_next = c4_next * u_2 + -3.029756f;
+  c4 = c4 * u_2 + -3.332641f;
+  c4_next = c4_next * u_2 + -0.70509094f;
+  c4 = c4 * u_2 + -0.03735488f;
+  c4 = c4_next * u + c4;
+  float c5 = 35476.465f;
+  float c5_next = 12746.562f;
+  c5 = c5 * u_2 + -956.5052f;
+  c5_next = c5_next * u_2 + -744.58344f;
+  c5 = c5 * u_2 + -146.38322f;
+  c5_next = c5_next * u_2 + -49.651955f;
+  c5 = c5 * u_2 + -8.062348f;
+  c5_next = c5_next * u_2 + 0.6086949f;
+  c5 = c5 * u_2 + 0.1968127f;
+  c5 = c5_next * u + c5;
+  float c6 = -13518.771f;
+  float c6_next = -5540.9526f;
+  c6 = c6 * u_2 + -720.40784f;
+  c6_next = c6_next * u_2 + 24.036993f;
+  c6 = c6 * u_2 + 55.405445f;
+  c6_next = c6_next * u_2 + 23.739325f;
+  c6 = c6 * u_2 + 4.8973184f;
+  c6_next = c6_next * u_2 + 0.30696386f;
+  c6 = c6 * u + c6_next;
+  float c7 = 2566.9434f;
+  float c7_next = 1262.7706f;
+  c7 = c7 * u_2 + 355.66812f;
+  c7_next = c7_next * u_2 + 127.183784f;
+  c7 = c7 * u_2 + 20.82129f;
+  c7_next = c7_next * u_2 + -4.253641f;
+  c7 = c7 * u_2 + -1.1341565f;
+  c7 = c7_next * u + c7;
+  float c8 = -318.85864f;
+  float c8_next = -170.21703f;
+  c8 = c8 * u_2 + -60.15372f;
+  c8_next = c8_next * u_2 + -14.047146f;
+  c8 = c8 * u_2 + -0.840608f;
+  c8 = c8_next * u + c8;
+  float c9 = 23.138288f;
+  c9 = c9 * u + 17.150888f;
+  c9 = c9 * u + 2.8096483f;
+  const float c10 = -0.74090564f;
+  const float w = specular - 0.500001f;
+  float sum = c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
   sum = sum * w + c1;
   sum = sum * w + c0;
   return sum;
@@ -104,7 +211,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock], c8[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -120,34 +229,217 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
     const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.2316237f;
+    const float u = t - 0.24078642f;
     const float u_2 = u * u;
-    float c0 = 123.80666f;
-    float c0_next = 38.94343f;
-    c0 = c0 * u_2 + -24.666714f;
-    c0_next = c0_next * u_2 + -0.87141967f;
-    c0 = c0 * u_2 + 0.99004734f;
-    c0_next = c0_next * u_2 + -0.039518043f;
-    c0 = c0 * u_2 + -0.009049659f;
-    c0_next = c0_next * u_2 + 0.0019846982f;
+    float c0 = -702536704.0f;
+    float c0_next = -218566992.0f;
+    c0 = c0 * u_2 + 78110352.0f;
+    c0_next = c0_next * u_2 + 26072302.0f;
+    c0 = c0 * u_2 + -3757386.8f;
+    c0_next = c0_next * u_2 + -1322134.6f;
+    c0 = c0 * u_2 + 100257.234f;
+    c0_next = c0_next * u_2 + 40353.08f;
+    c0 = c0 * u_2 + 1475.5217f;
+    c0_next = c0_next * u_2 + 473.02097f;
+    c0 = c0 * u_2 + 88.08322f;
+    c0_next = c0_next * u_2 + -27.621483f;
+    c0 = c0 * u_2 + 4.7508497f;
+    c0_next = c0_next * u_2 + 6.488838f;
+    c0 = c0 * u_2 + 1.8472282f;
+    c0_next = c0_next * u_2 + 0.70065856f;
     c0 = c0 * u + c0_next;
-    float c1 = 5459.735f;
-    float c1_next = 2225.6965f;
-    c1 = c1 * u_2 + 102.11671f;
-    c1_next = c1_next * u_2 + -52.817413f;
-    c1 = c1 * u_2 + 22.990742f;
-    c1_next = c1_next * u_2 + 14.006364f;
-    c1 = c1 * u_2 + 3.1860042f;
-    c1_next = c1_next * u_2 + 1.3211572f;
-    c1 = c1 * u + c1_next;
+    float c1 = -466167360.0f;
+    float c1_next = -142353584.0f;
+    c1 = c1 * u_2 + 47732688.0f;
+    c1_next = c1_next * u_2 + 14071176.0f;
+    c1 = c1 * u_2 + -2424984.0f;
+    c1_next = c1_next * u_2 + -527593.3f;
+    c1 = c1 * u_2 + 103525.05f;
+    c1_next = c1_next * u_2 + 18726.645f;
+    c1 = c1 * u_2 + -136.614f;
+    c1_next = c1_next * u_2 + -136.02992f;
+    c1 = c1 * u_2 + -56.32785f;
+    c1_next = c1_next * u_2 + 13.122886f;
+    c1 = c1 * u_2 + 13.373899f;
+    c1_next = c1_next * u_2 + 3.6878927f;
+    c1 = c1 * u_2 + 1.3930027f;
+    c1 = c1_next * u + c1;
+    float c2 = -10927034.0f;
+    float c2_next = -3016346.2f;
+    c2 = c2 * u_2 + 1548530.5f;
+    c2_next = c2_next * u_2 + 479595.12f;
+    c2 = c2 * u_2 + -48751.844f;
+    c2_next = c2_next * u_2 + -19666.25f;
+    c2 = c2 * u_2 + -846.9896f;
+    c2_next = c2_next * u_2 + -154.43457f;
+    c2 = c2 * u_2 + 19.380678f;
+    c2_next = c2_next * u_2 + 18.652649f;
+    c2 = c2 * u_2 + 1.0588814f;
+    c2_next = c2_next * u_2 + -0.1677227f;
+    c2 = c2 * u_2 + -0.006753116f;
+    c2 = c2_next * u + c2;
+    float c3 = 5450034.5f;
+    float c3_next = 1639270.4f;
+    c3 = c3 * u_2 + -381577.06f;
+    c3_next = c3_next * u_2 + -190393.7f;
+    c3 = c3 * u_2 + -14061.262f;
+    c3_next = c3_next * u_2 + 3514.797f;
+    c3 = c3 * u_2 + 1133.3943f;
+    c3_next = c3_next * u_2 + 209.16331f;
+    c3 = c3 * u_2 + 4.028168f;
+    c3_next = c3_next * u_2 + -5.7631316f;
+    c3 = c3 * u_2 + -0.47472227f;
+    c3_next = c3_next * u_2 + 0.015076141f;
+    c3 = c3 * u + c3_next;
+    float c4 = -2026074.2f;
+    float c4_next = -678138.94f;
+    c4 = c4 * u_2 + 76029.63f;
+    c4_next = c4_next * u_2 + 37568.938f;
+    c4 = c4 * u_2 + 6742.906f;
+    c4_next = c4_next * u_2 + 2005.8839f;
+    c4 = c4 * u_2 + -51.926937f;
+    c4_next = c4_next * u_2 + -127.43798f;
+    c4 = c4 * u_2 + -13.864716f;
+    c4_next = c4_next * u_2 + 1.0052006f;
+    c4 = c4 * u_2 + 0.090170585f;
+    c4 = c4_next * u + c4;
+    float c5 = 177453.66f;
+    float c5_next = 58599.426f;
+    c5 = c5 * u_2 + -3252.5212f;
+    c5_next = c5_next * u_2 + -3815.848f;
+    c5 = c5 * u_2 + -838.3996f;
+    c5_next = c5_next * u_2 + -57.759274f;
+    c5 = c5 * u_2 + 23.310686f;
+    c5_next = c5_next * u_2 + 3.2472005f;
+    c5 = c5 * u_2 + -0.048874907f;
+    c5 = c5_next * u + c5;
+    float c6 = -14125.721f;
+    float c6_next = -4522.408f;
+    c6 = c6 * u_2 + 90.6804f;
+    c6_next = c6_next * u_2 + 297.20917f;
+    c6 = c6 * u_2 + 58.966824f;
+    c6_next = c6_next * u_2 + -1.6412162f;
+    c6 = c6 * u_2 + -0.42919335f;
+    c6 = c6_next * u + c6;
+    float c7 = 2897.4248f;
+    float c7_next = 1119.1793f;
+    c7 = c7 * u_2 + 118.1602f;
+    c7_next = c7_next * u_2 + -32.312634f;
+    c7 = c7 * u_2 + -6.2600765f;
+    c7_next = c7_next * u_2 + 0.037599616f;
+    c7 = c7 * u + c7_next;
+    float c8 = -220.5816f;
+    c8 = c8 * u + -87.5657f;
+    c8 = c8 * u + 0.19942653f;
+    c8 = c8 * u + 0.72008556f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
+    terms.c2[i] = c2;
+    terms.c3[i] = c3;
+    terms.c4[i] = c4;
+    terms.c5[i] = c5;
+    terms.c6[i] = c6;
+    terms.c7[i] = c7;
+    terms.c8[i] = c8;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  float sum = terms.c1[i];
-  sum = sum * specular + terms.c0[i];
+  const float w = specular - 0.500001f;
+  float sum = terms.c8[i];
+  sum = sum * w + terms.c7[i];
+  sum = sum * w + terms.c6[i];
+  sum = sum * w + terms.c5[i];
+  sum = sum * w + terms.c4[i];
+  sum = sum * w + terms.c3[i];
+  sum = sum * w + terms.c2[i];
+  sum = sum * w + terms.c1[i];
+  sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.93263084f;
+  float c0 = 0.8145936f;
+  c0 = c0 * u + -2.150652f;
+  c0 = c0 * u + 1.521429f;
+  float c1 = 1.6934699f;
+  c1 = c1 * u + -4.2686734f;
+  c1 = c1 * u + 3.0309253f;
+  float c2 = 0.039209347f;
+  c2 = c2 * u + -0.0018952573f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -44.316875f;
+  float c0_next = 8.746531f;
+  c0 = c0 * u_2 + 31.298862f;
+  c0_next = c0_next * u_2 + -11.396483f;
+  c0 = c0 * u_2 + -4.961849f;
+  c0_next = c0_next * u_2 + 2.956151f;
+  c0 = c0 * u_2 + -0.19279651f;
+  c0_next = c0_next * u_2 + 0.51849926f;
+  c0 = c0 * u_2 + 0.4919038f;
+  c0 = c0_next * u + c0;
+  float c1 = -23.946888f;
+  float c1_next = -19.029196f;
+  c1 = c1 * u_2 + 38.549644f;
+  c1_next = c1_next * u_2 + -10.400899f;
+  c1 = c1 * u_2 + -2.7258868f;
+  c1_next = c1_next * u_2 + 1.8169672f;
+  c1 = c1 * u_2 + -0.46335033f;
+  c1_next = c1_next * u_2 + -0.5592049f;
+  c1 = c1 * u + c1_next;
+  float c2 = 28.707989f;
+  float c2_next = -67.864845f;
+  c2 = c2 * u_2 + 58.569687f;
+  c2_next = c2_next * u_2 + -18.68104f;
+  c2 = c2 * u_2 + 0.4219773f;
+  c2_next = c2_next * u_2 + -0.3069102f;
+  c2 = c2 * u_2 + 0.84548616f;
+  c2 = c2_next * u + c2;
+  float c3 = 75.29039f;
+  float c3_next = -163.2309f;
+  c3 = c3 * u_2 + 111.86038f;
+  c3_next = c3_next * u_2 + -28.112722f;
+  c3 = c3 * u_2 + 4.077538f;
+  c3_next = c3_next * u_2 + -1.1722751f;
+  c3 = c3 * u + c3_next;
+  float c4 = 158.62318f;
+  float c4_next = -279.43433f;
+  c4 = c4 * u_2 + 142.21007f;
+  c4_next = c4_next * u_2 + -26.318872f;
+  c4 = c4 * u_2 + 2.7474728f;
+  c4 = c4_next * u + c4;
+  float c5 = 261.8919f;
+  c5 = c5 * u + -331.27176f;
+  c5 = c5 * u + 107.554146f;
+  c5 = c5 * u + -4.310713f;
+  float c6 = 300.6802f;
+  c6 = c6 * u + -185.79352f;
+  c6 = c6 * u + 4.2137456f;
+  float c7 = 89.73855f;
+  c7 = c7 * u + -52.00783f;
+  const float c8 = 112.03474f;
+  const float w = specular - 0.6500007f;
+  float sum = c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -217,10 +509,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 3.3333333f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return std::sqrt(alpha); }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -234,6 +542,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.8927613f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.86526144f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.3f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -341,8 +663,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -352,13 +679,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -370,15 +786,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -386,16 +809,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -466,19 +892,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.3f}, {0.10063207f, 0.30106342f}, {2.5e-06f, 9.3e-05f}},
-      {{0.112413794f, 0.28125f}, {0.3383222f, 0.30513477f}, {1.3e-06f, 9.3e-05f}},
-      {{0.21482758f, 0.26250002f}, {0.473668f, 0.31308618f}, {1.2e-06f, 9.3e-05f}},
-      {{0.31724137f, 0.24375f}, {0.58474725f, 0.33140713f}, {1.1e-06f, 9.3e-05f}},
-      {{0.41965517f, 0.22500001f}, {0.68256015f, 0.35871118f}, {1.1e-06f, 9.3e-05f}},
-      {{0.522069f, 0.20625001f}, {0.7704298f, 0.38923073f}, {1.2e-06f, 9.3e-05f}},
-      {{0.62448275f, 0.1875f}, {0.84982455f, 0.4206165f}, {1.2e-06f, 9.3e-05f}},
-      {{0.7268966f, 0.16875f}, {0.9217677f, 0.4551248f}, {1.2e-06f, 9.3e-05f}},
-      {{0.82931036f, 0.15f}, {0.98710763f, 0.49671006f}, {1.2e-06f, 9.3e-05f}},
-      {{0.005f, 0.15f}, {0.10066234f, 0.15236872f}, {2.5e-06f, 9.2e-05f}},
-      {{1.2439655f, 0.075f}, {0.98605627f, 0.2490283f}, {1.2e-06f, 9.2e-05f}},
-      {{0.41965517f, 0.0f}, {0.6814593f, 0.0015245973f}, {1.1e-06f, 9.2e-05f}},
-      {{0.41965517f, 0.6f}, {0.6825061f, 0.95554674f}, {1.1e-06f, 0.00019f}},
+      {{0.01f, 1.0f}, {0.100093596f, 1.0f}, {0.00027f, 8.7e-05f}},
+      {{0.13375f, 0.9375f}, {0.36996794f, 1.0f}, {7.3e-05f, 8.7e-05f}},
+      {{0.2575f, 0.875f}, {0.51114994f, 1.0f}, {5.3e-05f, 8.7e-05f}},
+      {{0.38125f, 0.8125f}, {0.6002733f, 1.0f}, {4.6e-05f, 8.7e-05f}},
+      {{0.505f, 0.75f}, {0.6659561f, 1.0f}, {4.1e-05f, 8.7e-05f}},
+      {{0.62875f, 0.6875f}, {0.73217446f, 1.0f}, {3.8e-05f, 8.7e-05f}},
+      {{0.7525f, 0.625f}, {0.80427694f, 1.0f}, {3.5e-05f, 8.7e-05f}},
+      {{0.87625f, 0.5625f}, {0.87609535f, 1.0f}, {3.2e-05f, 8.7e-05f}},
+      {{1.0f, 0.5f}, {0.9428997f, 1.0f}, {3e-05f, 8.7e-05f}},
+      {{0.005f, 0.5f}, {0.100089006f, 0.5040886f}, {0.00027f, 8.7e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.69256365f}, {2.8e-05f, 8.7e-05f}},
+      {{0.505f, 0.0f}, {0.75062233f, 0.0037528973f}, {3.7e-05f, 8.7e-05f}},
+      {{0.505f, 2.0f}, {0.60629576f, 2.0f}, {4.5e-05f, 0.00018f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

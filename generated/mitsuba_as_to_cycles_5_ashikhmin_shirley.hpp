@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to cycles-5/ashikhmin-shirley: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_cycles_5_ashikhmin_shirley.csv, sha256 46911512866009c30fda52a01ea710c6cd864fa631502e4a1c2f48b83091e317;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 5.0.1.
-// Fit: parametric, seed 1, 120 rows trained, 30 held out.
-// Error on the rows held out: alpha rms 0.00021, 99 % 7e-04, max 7e-04;
-// color rms 0.00052, 99 % 0.0016, max 0.0016.
-// Lowered from the fit. Target alpha: degree 6, 2 in specular, proven within 4e-07 (sampled 1.8e-08), rising with alpha.
-// Target specular: degree 7 in alpha / (alpha + 1), proven within 9.4e-05 (sampled 8.5e-05), rising with specular.
-// Covers alpha 0.01 to 0.829310345, f0 0 to 0.3.
+// Table mitsuba_as_to_cycles_5_ashikhmin_shirley.csv, sha256 7979abce423b4792b7264a392c195c4403c113e84b3855da4b0b374244d40001;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 5.0.1.
+// Fit: series, seed 1, 579 rows trained, 145 held out.
+// Error on the rows held out: alpha rms 0.00032, 99 % 0.0013, max 0.0014;
+// color rms 0.00018, 99 % 7e-04, max 0.0011.
+// Lowered from the fit. Target alpha: degree 15 in alpha / (alpha + 1), 9 in specular, proven within 9.7e-06 (sampled 6.4e-06), rising with alpha.
+// Target specular: degree 9, 8 in specular, proven within 6e-05 (sampled 5.2e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, 2 in specular, proven within 4.7e-05 (sampled 4.4e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 8, 8 in specular, proven within 1.3e-05 (sampled 4.7e-08).
+// All together within 5.4e-05 in alpha, 8.6e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_5_ASHIKHMIN_SHIRLEY_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_5_ASHIKHMIN_SHIRLEY_HPP
 
@@ -37,11 +40,11 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "color";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00021f;
-inline constexpr float kSpecularRmsError = 0.00052f;
+inline constexpr float kAlphaRmsError = 0.00032f;
+inline constexpr float kSpecularRmsError = 0.00018f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.16f;
+inline constexpr float kImageRmsError = 0.28f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -56,7 +59,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. color is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.82931036f, 0.3f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -76,26 +79,127 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.41965604f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.2405746f;
   const float u_2 = u * u;
-  float c0 = -0.78957963f;
-  float c0_next = 0.7343185f;
-  c0 = c0 * u_2 + 0.017472314f;
-  c0_next = c0_next * u_2 + -0.45186454f;
-  c0 = c0 * u_2 + 0.17770372f;
-  c0_next = c0_next * u_2 + 1.2320533f;
-  c0 = c0 * u_2 + 0.46567598f;
-  c0 = c0_next * u + c0;
-  float c1 = -0.023152735f;
-  c1 = c1 * u + 0.03177858f;
-  c1 = c1 * u + 0.028754862f;
-  c1 = c1 * u + 0.004759459f;
-  float c2 = 0.117561676f;
-  c2 = c2 * u + -0.13993701f;
-  c2 = c2 * u + -0.14024474f;
-  c2 = c2 * u + -0.025521548f;
-  const float w = specular - 0.1500003f;
-  float sum = c2;
+  float c0 = -183913616.0f;
+  float c0_next = -48319616.0f;
+  c0 = c0 * u_2 + 22813326.0f;
+  c0_next = c0_next * u_2 + 6005764.5f;
+  c0 = c0 * u_2 + -1106740.6f;
+  c0_next = c0_next * u_2 + -290362.8f;
+  c0 = c0 * u_2 + 19117.684f;
+  c0_next = c0_next * u_2 + 3966.937f;
+  c0 = c0 * u_2 + -38.282158f;
+  c0_next = c0_next * u_2 + 188.47742f;
+  c0 = c0 * u_2 + 13.610617f;
+  c0_next = c0_next * u_2 + -9.135933f;
+  c0 = c0 * u_2 + 2.6591098f;
+  c0_next = c0_next * u_2 + 3.5115743f;
+  c0 = c0 * u_2 + 2.05076f;
+  c0_next = c0_next * u_2 + 0.34264967f;
+  c0 = c0 * u + c0_next;
+  float c1 = -33736828.0f;
+  float c1_next = -11125372.0f;
+  c1 = c1 * u_2 + 4357179.0f;
+  c1_next = c1_next * u_2 + 1516643.9f;
+  c1 = c1 * u_2 + -210201.64f;
+  c1_next = c1_next * u_2 + -68977.484f;
+  c1 = c1 * u_2 + 8852.563f;
+  c1_next = c1_next * u_2 + 1787.3612f;
+  c1 = c1 * u_2 + -347.7728f;
+  c1_next = c1_next * u_2 + -52.980312f;
+  c1 = c1 * u_2 + 5.0654182f;
+  c1_next = c1_next * u_2 + 0.763481f;
+  c1 = c1 * u_2 + -0.034276295f;
+  c1_next = c1_next * u_2 + -0.0010474114f;
+  c1 = c1 * u_2 + 0.00053032336f;
+  c1 = c1_next * u + c1;
+  float c2 = 23890272.0f;
+  float c2_next = 7948081.5f;
+  c2 = c2 * u_2 + -1743534.6f;
+  c2_next = c2_next * u_2 + -738508.0f;
+  c2 = c2 * u_2 + 32131.22f;
+  c2_next = c2_next * u_2 + 20955.562f;
+  c2 = c2 * u_2 + -2070.6973f;
+  c2_next = c2_next * u_2 + -551.4845f;
+  c2 = c2 * u_2 + 97.78162f;
+  c2_next = c2_next * u_2 + 16.90829f;
+  c2 = c2 * u_2 + -1.5111593f;
+  c2_next = c2_next * u_2 + -0.13164538f;
+  c2 = c2 * u_2 + 0.026773915f;
+  c2_next = c2_next * u_2 + 0.001526857f;
+  c2 = c2 * u + c2_next;
+  float c3 = -7688065.0f;
+  float c3_next = -2731997.5f;
+  c3 = c3 * u_2 + 352102.84f;
+  c3_next = c3_next * u_2 + 155449.19f;
+  c3 = c3 * u_2 + -22796.127f;
+  c3_next = c3_next * u_2 + -5313.8164f;
+  c3 = c3 * u_2 + 1362.529f;
+  c3_next = c3_next * u_2 + 266.9787f;
+  c3 = c3 * u_2 + -3.30599f;
+  c3_next = c3_next * u_2 + 1.6178912f;
+  c3 = c3 * u_2 + 0.9496437f;
+  c3_next = c3_next * u_2 + -0.0049668f;
+  c3 = c3 * u_2 + -0.013494077f;
+  c3 = c3_next * u + c3;
+  float c4 = 400489.97f;
+  float c4_next = 136947.36f;
+  c4 = c4 * u_2 + -12949.938f;
+  c4_next = c4_next * u_2 + -1887.9016f;
+  c4 = c4 * u_2 + 1733.4985f;
+  c4_next = c4_next * u_2 + 107.13873f;
+  c4 = c4 * u_2 + -20.503536f;
+  c4_next = c4_next * u_2 + -2.8118863f;
+  c4 = c4 * u_2 + -3.2439806f;
+  c4_next = c4_next * u_2 + -0.7284824f;
+  c4 = c4 * u_2 + -0.047585092f;
+  c4 = c4_next * u + c4;
+  float c5 = 29855.514f;
+  float c5_next = 10795.034f;
+  c5 = c5 * u_2 + 202.89348f;
+  c5_next = c5_next * u_2 + -716.88074f;
+  c5 = c5 * u_2 + -241.1453f;
+  c5_next = c5_next * u_2 + -50.32167f;
+  c5 = c5 * u_2 + -6.3768992f;
+  c5_next = c5_next * u_2 + 0.6353252f;
+  c5 = c5 * u_2 + 0.19937691f;
+  c5 = c5_next * u + c5;
+  float c6 = -13484.754f;
+  float c6_next = -5534.0103f;
+  c6 = c6 * u_2 + -727.0816f;
+  c6_next = c6_next * u_2 + 27.905218f;
+  c6 = c6 * u_2 + 58.160034f;
+  c6_next = c6_next * u_2 + 24.843906f;
+  c6 = c6 * u_2 + 5.083095f;
+  c6_next = c6_next * u_2 + 0.41197127f;
+  c6 = c6 * u + c6_next;
+  float c7 = 1331.609f;
+  float c7_next = 589.9158f;
+  c7 = c7 * u_2 + 132.53468f;
+  c7_next = c7_next * u_2 + 17.027826f;
+  c7 = c7 * u_2 + -4.468652f;
+  c7_next = c7_next * u_2 + -1.1589415f;
+  c7 = c7 * u + c7_next;
+  float c8 = -333.60263f;
+  float c8_next = -177.96101f;
+  c8 = c8 * u_2 + -62.745018f;
+  c8_next = c8_next * u_2 + -14.428358f;
+  c8 = c8 * u_2 + -1.3089019f;
+  c8 = c8_next * u + c8;
+  float c9 = 23.584045f;
+  c9 = c9 * u + 17.487215f;
+  c9 = c9 * u + 2.859671f;
+  const float w = specular - 0.500001f;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
   sum = sum * w + c1;
   sum = sum * w + c0;
   return sum;
@@ -104,7 +208,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock], c8[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -119,35 +225,185 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.2316237f;
+    const float u = alpha - 0.4506233f;
     const float u_2 = u * u;
-    float c0 = 110.30666f;
-    float c0_next = 40.98427f;
-    c0 = c0 * u_2 + -23.425056f;
-    c0_next = c0_next * u_2 + -1.0765103f;
-    c0 = c0 * u_2 + 0.96184576f;
-    c0_next = c0_next * u_2 + -0.03421234f;
-    c0 = c0 * u_2 + -0.008951663f;
-    c0_next = c0_next * u_2 + 0.0019591132f;
+    float c0 = -111.46616f;
+    float c0_next = -20.523643f;
+    c0 = c0 * u_2 + 16.59578f;
+    c0_next = c0_next * u_2 + -6.120138f;
+    c0 = c0 * u_2 + 6.1186433f;
+    c0_next = c0_next * u_2 + 5.057445f;
+    c0 = c0 * u_2 + -0.61987484f;
+    c0_next = c0_next * u_2 + 0.74315286f;
+    c0 = c0 * u_2 + 1.3325305f;
+    c0_next = c0_next * u_2 + 0.8625331f;
     c0 = c0 * u + c0_next;
-    float c1 = 5452.6777f;
-    float c1_next = 2221.6628f;
-    c1 = c1 * u_2 + 102.25539f;
-    c1_next = c1_next * u_2 + -52.305153f;
-    c1 = c1 * u_2 + 22.989f;
-    c1_next = c1_next * u_2 + 13.989663f;
-    c1 = c1 * u_2 + 3.186219f;
-    c1_next = c1_next * u_2 + 1.3212583f;
+    float c1 = -265.52783f;
+    float c1_next = -98.858765f;
+    c1 = c1 * u_2 + 12.641389f;
+    c1_next = c1_next * u_2 + 1.9331264f;
+    c1 = c1 * u_2 + 21.881298f;
+    c1_next = c1_next * u_2 + 9.450715f;
+    c1 = c1 * u_2 + -2.2851362f;
+    c1_next = c1_next * u_2 + 1.4658005f;
+    c1 = c1 * u_2 + 2.6971285f;
+    c1_next = c1_next * u_2 + 1.7192248f;
     c1 = c1 * u + c1_next;
+    float c2 = -67.682495f;
+    float c2_next = -16.571775f;
+    c2 = c2 * u_2 + 49.884113f;
+    c2_next = c2_next * u_2 + 10.4876175f;
+    c2 = c2 * u_2 + -11.247433f;
+    c2_next = c2_next * u_2 + -2.1114202f;
+    c2 = c2 * u_2 + 0.82873935f;
+    c2_next = c2_next * u_2 + 0.12454892f;
+    c2 = c2 * u_2 + -0.006845146f;
+    c2 = c2_next * u + c2;
+    float c3 = 103.8861f;
+    float c3_next = 22.63047f;
+    c3 = c3 * u_2 + -56.36667f;
+    c3_next = c3_next * u_2 + -12.325358f;
+    c3 = c3 * u_2 + 9.422244f;
+    c3_next = c3_next * u_2 + 1.8403255f;
+    c3 = c3 * u_2 + -0.3886179f;
+    c3_next = c3_next * u_2 + -0.04484207f;
+    c3 = c3 * u + c3_next;
+    float c4 = -119.856f;
+    float c4_next = -29.566275f;
+    c4 = c4 * u_2 + 51.76892f;
+    c4_next = c4_next * u_2 + 12.736991f;
+    c4 = c4 * u_2 + -6.096908f;
+    c4_next = c4_next * u_2 + -1.2989174f;
+    c4 = c4 * u_2 + 0.04418948f;
+    c4 = c4_next * u + c4;
+    float c5 = 93.022766f;
+    float c5_next = 27.258232f;
+    c5 = c5 * u_2 + -34.96784f;
+    c5_next = c5_next * u_2 + -8.741369f;
+    c5 = c5 * u_2 + 2.001953f;
+    c5_next = c5_next * u_2 + 0.29158652f;
+    c5 = c5 * u + c5_next;
+    float c6 = -65.113235f;
+    float c6_next = -21.299177f;
+    c6 = c6 * u_2 + 19.454994f;
+    c6_next = c6_next * u_2 + 5.2755256f;
+    c6 = c6 * u_2 + -0.10193324f;
+    c6 = c6_next * u + c6;
+    float c7 = 45.869358f;
+    c7 = c7 * u + 12.761952f;
+    c7 = c7 * u + -3.5093281f;
+    c7 = c7 * u + -0.5745681f;
+    float c8 = -26.954517f;
+    c8 = c8 * u + -7.750928f;
+    c8 = c8 * u + 0.117933795f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
+    terms.c2[i] = c2;
+    terms.c3[i] = c3;
+    terms.c4[i] = c4;
+    terms.c5[i] = c5;
+    terms.c6[i] = c6;
+    terms.c7[i] = c7;
+    terms.c8[i] = c8;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  float sum = terms.c1[i];
-  sum = sum * specular + terms.c0[i];
+  const float w = specular - 0.500001f;
+  float sum = terms.c8[i];
+  sum = sum * w + terms.c7[i];
+  sum = sum * w + terms.c6[i];
+  sum = sum * w + terms.c5[i];
+  sum = sum * w + terms.c4[i];
+  sum = sum * w + terms.c3[i];
+  sum = sum * w + terms.c2[i];
+  sum = sum * w + terms.c1[i];
+  sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.93271506f;
+  float c0 = 0.81152767f;
+  c0 = c0 * u + -2.1465917f;
+  c0 = c0 * u + 1.5210689f;
+  float c1 = 1.6963569f;
+  c1 = c1 * u + -4.2391396f;
+  c1 = c1 * u + 3.0292156f;
+  float c2 = 0.0867048f;
+  c2 = c2 * u + -0.0040342873f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -44.29415f;
+  float c0_next = 8.720793f;
+  c0 = c0 * u_2 + 31.303535f;
+  c0_next = c0_next * u_2 + -11.391518f;
+  c0 = c0 * u_2 + -4.9645762f;
+  c0_next = c0_next * u_2 + 2.9566245f;
+  c0 = c0 * u_2 + -0.1928071f;
+  c0_next = c0_next * u_2 + 0.5184961f;
+  c0 = c0 * u_2 + 0.49190408f;
+  c0 = c0_next * u + c0;
+  float c1 = -23.868876f;
+  float c1_next = -19.094358f;
+  c1 = c1 * u_2 + 38.52026f;
+  c1_next = c1_next * u_2 + -10.358467f;
+  c1 = c1 * u_2 + -2.7401822f;
+  c1_next = c1_next * u_2 + 1.8189374f;
+  c1 = c1 * u_2 + -0.46339452f;
+  c1_next = c1_next * u_2 + -0.5592084f;
+  c1 = c1 * u + c1_next;
+  float c2 = 28.764519f;
+  float c2_next = -67.733734f;
+  c2 = c2 * u_2 + 58.35906f;
+  c2_next = c2_next * u_2 + -18.579231f;
+  c2 = c2 * u_2 + 0.39913145f;
+  c2_next = c2_next * u_2 + -0.30488732f;
+  c2 = c2 * u_2 + 0.8454246f;
+  c2 = c2_next * u + c2;
+  float c3 = 75.0234f;
+  float c3_next = -162.73447f;
+  c3 = c3 * u_2 + 111.60429f;
+  c3_next = c3_next * u_2 + -28.057253f;
+  c3 = c3 * u_2 + 4.066136f;
+  c3_next = c3_next * u_2 + -1.171898f;
+  c3 = c3 * u + c3_next;
+  float c4 = 158.23222f;
+  float c4_next = -279.39398f;
+  c4 = c4 * u_2 + 142.38536f;
+  c4_next = c4_next * u_2 + -26.34379f;
+  c4 = c4 * u_2 + 2.7481017f;
+  c4 = c4_next * u + c4;
+  float c5 = 262.37216f;
+  c5 = c5 * u + -332.16605f;
+  c5 = c5 * u + 107.92694f;
+  c5 = c5 * u + -4.3189983f;
+  float c6 = 301.61523f;
+  c6 = c6 * u + -186.8365f;
+  c6 = c6 * u + 4.310417f;
+  float c7 = 90.6559f;
+  c7 = c7 * u + -52.503464f;
+  const float c8 = 112.78284f;
+  const float w = specular - 0.6500007f;
+  float sum = c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -217,10 +473,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 3.3333333f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return std::sqrt(alpha); }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -234,6 +506,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.89124477f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.8654298f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.3f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -341,8 +627,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -352,13 +643,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -370,15 +750,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -386,16 +773,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -466,19 +856,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.3f}, {0.10063169f, 0.3010556f}, {2.5e-06f, 9.4e-05f}},
-      {{0.112413794f, 0.28125f}, {0.33832207f, 0.305141f}, {1.3e-06f, 9.4e-05f}},
-      {{0.21482758f, 0.26250002f}, {0.473668f, 0.31308216f}, {1.2e-06f, 9.4e-05f}},
-      {{0.31724137f, 0.24375f}, {0.5847472f, 0.33140954f}, {1.1e-06f, 9.4e-05f}},
-      {{0.41965517f, 0.22500001f}, {0.68256015f, 0.35871655f}, {1.1e-06f, 9.4e-05f}},
-      {{0.522069f, 0.20625001f}, {0.7704299f, 0.3892295f}, {1.2e-06f, 9.4e-05f}},
-      {{0.62448275f, 0.1875f}, {0.84982455f, 0.42061484f}, {1.2e-06f, 9.4e-05f}},
-      {{0.7268966f, 0.16875f}, {0.92176735f, 0.45512727f}, {1.2e-06f, 9.5e-05f}},
-      {{0.82931036f, 0.15f}, {0.98710763f, 0.49671072f}, {1.2e-06f, 9.5e-05f}},
-      {{0.005f, 0.15f}, {0.10066205f, 0.1523426f}, {2.5e-06f, 9.4e-05f}},
-      {{1.2439655f, 0.075f}, {0.9860563f, 0.24903218f}, {1.2e-06f, 9.4e-05f}},
-      {{0.41965517f, 0.0f}, {0.6814593f, 0.0015177124f}, {1.1e-06f, 9.4e-05f}},
-      {{0.41965517f, 0.6f}, {0.68250614f, 0.9555657f}, {1.1e-06f, 0.00019f}},
+      {{0.01f, 1.0f}, {0.10009631f, 1.0f}, {0.00027f, 8.6e-05f}},
+      {{0.13375f, 0.9375f}, {0.3699678f, 1.0f}, {7.3e-05f, 8.6e-05f}},
+      {{0.2575f, 0.875f}, {0.51114994f, 1.0f}, {5.3e-05f, 8.6e-05f}},
+      {{0.38125f, 0.8125f}, {0.600273f, 1.0f}, {4.5e-05f, 8.6e-05f}},
+      {{0.505f, 0.75f}, {0.66595584f, 1.0f}, {4.1e-05f, 8.6e-05f}},
+      {{0.62875f, 0.6875f}, {0.7321746f, 1.0f}, {3.8e-05f, 8.6e-05f}},
+      {{0.7525f, 0.625f}, {0.80427694f, 1.0f}, {3.4e-05f, 8.6e-05f}},
+      {{0.87625f, 0.5625f}, {0.8760945f, 1.0f}, {3.2e-05f, 8.6e-05f}},
+      {{1.0f, 0.5f}, {0.94290006f, 1.0f}, {3e-05f, 8.6e-05f}},
+      {{0.005f, 0.5f}, {0.10009297f, 0.5040115f}, {0.00027f, 8.6e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.69254655f}, {2.8e-05f, 8.6e-05f}},
+      {{0.505f, 0.0f}, {0.75062346f, 0.0037423142f}, {3.7e-05f, 8.6e-05f}},
+      {{0.505f, 2.0f}, {0.6062965f, 2.0f}, {4.5e-05f, 0.00018f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to threejs-r187/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_threejs_r187_phong.csv, sha256 f160cf3c39d2108707523e1c94bd083dc0c0aefb80e6fcd0f617287f6839bdb5;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; three.js r0.187.0 (HeadlessChrome/156.0.8078.79).
-// Fit: svr, seed 1, 92 rows trained, 23 held out.
-// Error on the rows held out: alpha rms 0.00018, 99 % 0.00043, max 0.00043;
-// specular rms 0.00021, 99 % 5e-04, max 5e-04.
-// Lowered from the fit. Target alpha: degree 11 in alpha / (alpha + 1), 2 in specular, proven within 9.3e-06 (sampled 7.5e-06), rising with alpha.
-// Target specular: degree 13 in alpha / (alpha + 0.2), 6 in specular, proven within 8e-05 (sampled 7.2e-05), rising with specular.
-// Covers alpha 0.01 to 0.753448276, f0 0 to 0.25.
+// Table mitsuba_as_to_threejs_r187_phong.csv, sha256 c2c3a6370db7b009840504d1693195dea8ad5264c4d27da4c385336bc1c14f1c;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; three.js r0.187.0 (HeadlessChrome/156.0.8078.79).
+// Fit: mlp, seed 1, 592 rows trained, 148 held out.
+// Error on the rows held out: alpha rms 6e-04, 99 % 0.0041, max 0.0047;
+// specular rms 8.8e-05, 99 % 0.00056, max 0.00079.
+// Lowered from the fit. Target alpha: degree 15, proven within 8.7e-06 (sampled 7.1e-06), rising with alpha.
+// Target specular: degree 12, 7 in specular, proven within 1e-04 (sampled 9.5e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 3, 2 in specular, proven within 8.1e-05 (sampled 7.3e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 15 in alpha / (alpha + 1), 10 in specular, proven within 9.9e-05 (sampled 7.3e-05), rising with alpha.
+// All together within 3e-04 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 0.99, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_THREEJS_R187_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_THREEJS_R187_PHONG_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00018f;
-inline constexpr float kSpecularRmsError = 0.00021f;
+inline constexpr float kAlphaRmsError = 6e-04f;
+inline constexpr float kSpecularRmsError = 8.8e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.048f;
+inline constexpr float kImageRmsError = 0.36f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.75344825f, 0.25f};
+inline constexpr Input kDomainMax{0.99f, 1.0f};
 
 namespace detail {
 
@@ -74,47 +77,35 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float specular) noexcept {
-  const float t = alpha / (alpha + 1.0f);
-  const float u = t - 0.21979834f;
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.3931646f;
   const float u_2 = u * u;
-  float c0 = -389352.9f;
-  float c0_next = -128581.91f;
-  c0 = c0 * u_2 + 19744.445f;
-  c0_next = c0_next * u_2 + 11386.816f;
-  c0 = c0 * u_2 + 1069.7781f;
-  c0_next = c0_next * u_2 + -95.41793f;
-  c0 = c0 * u_2 + -44.992313f;
-  c0_next = c0_next * u_2 + 5.012691f;
-  c0 = c0 * u_2 + 9.022195f;
-  c0_next = c0_next * u_2 + 4.023157f;
-  c0 = c0 * u_2 + 1.9076174f;
-  c0_next = c0_next * u_2 + 0.29644075f;
+  float c0 = 131587.89f;
+  float c0_next = -21322.242f;
+  c0 = c0 * u_2 + -82455.05f;
+  c0_next = c0_next * u_2 + 11065.215f;
+  c0 = c0 * u_2 + 20817.104f;
+  c0_next = c0_next * u_2 + -2388.4707f;
+  c0 = c0 * u_2 + -2665.6074f;
+  c0_next = c0_next * u_2 + 302.1476f;
+  c0 = c0 * u_2 + 172.5084f;
+  c0_next = c0_next * u_2 + -27.358128f;
+  c0 = c0 * u_2 + -3.1127663f;
+  c0_next = c0_next * u_2 + 1.691779f;
+  c0 = c0 * u_2 + -0.07409119f;
+  c0_next = c0_next * u_2 + 0.44736502f;
+  c0 = c0 * u_2 + 1.278077f;
+  c0_next = c0_next * u_2 + 0.43381304f;
   c0 = c0 * u + c0_next;
-  float c1 = -136.49701f;
-  float c1_next = 6.3385663f;
-  c1 = c1 * u_2 + 19.074585f;
-  c1_next = c1_next * u_2 + 1.753517f;
-  c1 = c1 * u_2 + -0.1938012f;
-  c1_next = c1_next * u_2 + 0.07075384f;
-  c1 = c1 * u_2 + 0.019223066f;
-  c1_next = c1_next * u_2 + 0.00048425383f;
-  c1 = c1 * u + c1_next;
-  float c2 = -0.8084515f;
-  c2 = c2 * u + -0.44306657f;
-  c2 = c2 * u + -0.18198933f;
-  c2 = c2 * u + -0.002320075f;
-  const float w = specular - 0.12500025f;
-  float sum = c2;
-  sum = sum * w + c1;
-  sum = sum * w + c0;
-  return sum;
+  return c0;
 }
 
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -129,67 +120,58 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.2f);
-    const float u = t - 0.41892716f;
+    const float u = alpha - 0.3931646f;
     const float u_2 = u * u;
-    float c0 = 28044.291f;
-    float c0_next = 12046.104f;
-    c0 = c0 * u_2 + -8369.523f;
-    c0_next = c0_next * u_2 + -3778.378f;
-    c0 = c0 * u_2 + 834.4731f;
-    c0_next = c0_next * u_2 + 400.5774f;
-    c0 = c0 * u_2 + -31.705051f;
-    c0_next = c0_next * u_2 + -10.436176f;
-    c0 = c0 * u_2 + 5.6377554f;
-    c0_next = c0_next * u_2 + 2.3081813f;
-    c0 = c0 * u_2 + 0.6712325f;
-    c0_next = c0_next * u_2 + 0.20830502f;
-    c0 = c0 * u_2 + 0.051253513f;
-    c0_next = c0_next * u_2 + 0.24103351f;
-    c0 = c0 * u + c0_next;
-    float c1 = 3457.6577f;
-    float c1_next = 2357.86f;
-    c1 = c1 * u_2 + -563.8914f;
-    c1_next = c1_next * u_2 + -561.3398f;
-    c1 = c1 * u_2 + 42.87656f;
-    c1_next = c1_next * u_2 + 79.244f;
-    c1 = c1 * u_2 + 19.233572f;
-    c1_next = c1_next * u_2 + 4.880297f;
-    c1 = c1 * u_2 + 1.6811353f;
-    c1_next = c1_next * u_2 + 0.39198875f;
-    c1 = c1 * u_2 + 1.9344256f;
+    float c0 = 7169.434f;
+    float c0_next = -13.41712f;
+    c0 = c0 * u_2 + -4083.2305f;
+    c0_next = c0_next * u_2 + 142.13268f;
+    c0 = c0 * u_2 + 965.28845f;
+    c0_next = c0_next * u_2 + -82.44243f;
+    c0 = c0 * u_2 + -123.0677f;
+    c0_next = c0_next * u_2 + 21.921955f;
+    c0 = c0 * u_2 + 8.8441f;
+    c0_next = c0_next * u_2 + -3.8033445f;
+    c0 = c0 * u_2 + 0.5244059f;
+    c0_next = c0_next * u_2 + 1.2513052f;
+    c0 = c0 * u_2 + 1.3089855f;
+    c0 = c0_next * u + c0;
+    float c1 = 15388.768f;
+    float c1_next = -992.9868f;
+    c1 = c1 * u_2 + -8612.281f;
+    c1_next = c1_next * u_2 + 720.99695f;
+    c1 = c1 * u_2 + 1991.7421f;
+    c1_next = c1_next * u_2 + -236.89622f;
+    c1 = c1 * u_2 + -248.62953f;
+    c1_next = c1_next * u_2 + 48.960014f;
+    c1 = c1 * u_2 + 17.630507f;
+    c1_next = c1_next * u_2 + -7.7131324f;
+    c1 = c1 * u_2 + 1.0579137f;
+    c1_next = c1_next * u_2 + 2.4984734f;
+    c1 = c1 * u_2 + 2.616106f;
     c1 = c1_next * u + c1;
-    float c2 = 2178.1685f;
-    float c2_next = 957.41736f;
-    c2 = c2 * u_2 + -376.04315f;
-    c2_next = c2_next * u_2 + -198.76074f;
-    c2 = c2 * u_2 + 4.9212003f;
-    c2_next = c2_next * u_2 + 9.012406f;
-    c2 = c2 * u_2 + 0.60040194f;
-    c2_next = c2_next * u_2 + 0.18606228f;
-    c2 = c2 * u_2 + -0.015548831f;
-    c2_next = c2_next * u_2 + -0.20543604f;
-    c2 = c2 * u + c2_next;
-    float c3 = -113037.77f;
-    float c3_next = -32740.277f;
-    c3 = c3 * u_2 + 27324.352f;
-    c3_next = c3_next * u_2 + 7689.9966f;
-    c3 = c3 * u_2 + -1871.0084f;
-    c3_next = c3_next * u_2 + -493.20752f;
-    c3 = c3 * u_2 + 45.0054f;
-    c3_next = c3_next * u_2 + 6.5986176f;
-    c3 = c3 * u_2 + 0.1814759f;
-    c3_next = c3_next * u_2 + 0.52713156f;
-    c3 = c3 * u + c3_next;
-    float c4 = 48.26118f;
-    c4 = c4 * u + 22.873358f;
-    c4 = c4 * u + 5.018257f;
-    c4 = c4 * u + 30.310604f;
-    float c5 = -1032.0602f;
-    c5 = c5 * u + -326.8883f;
-    c5 = c5 * u + -7.499685f;
-    c5 = c5 * u + -144.58733f;
-    const float c6 = -293.04266f;
+    float c2 = 0.017043732f;
+    float c2_next = 0.0052362303f;
+    c2 = c2 * u_2 + 0.016904633f;
+    c2_next = c2_next * u_2 + 0.0023106178f;
+    c2 = c2 * u_2 + -0.00040116103f;
+    c2 = c2_next * u + c2;
+    float c3 = -0.178978f;
+    c3 = c3 * u + 0.045391135f;
+    c3 = c3 * u + 0.01658647f;
+    c3 = c3 * u + -0.009750048f;
+    float c4 = -0.07168684f;
+    c4 = c4 * u + -0.25076485f;
+    c4 = c4 * u + -0.03168302f;
+    c4 = c4 * u + 0.0047526993f;
+    float c5 = 0.7735292f;
+    c5 = c5 * u + -0.18856263f;
+    c5 = c5 * u + -0.07728494f;
+    c5 = c5 * u + 0.07216085f;
+    float c6 = 0.8050649f;
+    c6 = c6 * u + 0.12203602f;
+    c6 = c6 * u + -0.013939235f;
+    const float c7 = -0.15249173f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
@@ -197,18 +179,160 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     terms.c4[i] = c4;
     terms.c5[i] = c5;
     terms.c6[i] = c6;
+    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.12500025f;
-  float sum = terms.c6[i];
+  const float w = specular - 0.500001f;
+  float sum = terms.c7[i];
+  sum = sum * w + terms.c6[i];
   sum = sum * w + terms.c5[i];
   sum = sum * w + terms.c4[i];
   sum = sum * w + terms.c3[i];
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
   sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.8817042f;
+  float c0 = 1.0131618f;
+  c0 = c0 * u + 0.5539593f;
+  c0 = c0 * u + -2.1592445f;
+  c0 = c0 * u + 1.5573606f;
+  float c1 = 1.2582698f;
+  c1 = c1 * u + -4.290495f;
+  c1 = c1 * u + 3.1115425f;
+  const float c2 = -0.00035941257f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25369447f;
+  const float u_2 = u * u;
+  float c0 = 987238912.0f;
+  float c0_next = 218094416.0f;
+  c0 = c0 * u_2 + -194827856.0f;
+  c0_next = c0_next * u_2 + -44975048.0f;
+  c0 = c0 * u_2 + 13888156.0f;
+  c0_next = c0_next * u_2 + 3459034.8f;
+  c0 = c0 * u_2 + -376260.16f;
+  c0_next = c0_next * u_2 + -109562.87f;
+  c0 = c0 * u_2 + -1429.7129f;
+  c0_next = c0_next * u_2 + 98.83444f;
+  c0 = c0 * u_2 + 308.1162f;
+  c0_next = c0_next * u_2 + 114.39509f;
+  c0 = c0 * u_2 + -2.2383714f;
+  c0_next = c0_next * u_2 + -3.1977086f;
+  c0 = c0 * u_2 + 1.0848188f;
+  c0_next = c0_next * u_2 + 0.31599006f;
+  c0 = c0 * u + c0_next;
+  float c1 = 207239984.0f;
+  float c1_next = 37244688.0f;
+  c1 = c1 * u_2 + -41091564.0f;
+  c1_next = c1_next * u_2 + -8851466.0f;
+  c1 = c1 * u_2 + 2328963.8f;
+  c1_next = c1_next * u_2 + 658525.4f;
+  c1 = c1 * u_2 + 8440.673f;
+  c1_next = c1_next * u_2 + -8694.222f;
+  c1 = c1 * u_2 + -4604.623f;
+  c1_next = c1_next * u_2 + -1160.3419f;
+  c1 = c1 * u_2 + 93.12316f;
+  c1_next = c1_next * u_2 + 50.187767f;
+  c1 = c1 * u_2 + -2.9854891f;
+  c1_next = c1_next * u_2 + -1.9114316f;
+  c1 = c1 * u_2 + -0.12725584f;
+  c1 = c1_next * u + c1;
+  float c2 = 186804464.0f;
+  float c2_next = 53410180.0f;
+  c2 = c2 * u_2 + -23290756.0f;
+  c2_next = c2_next * u_2 + -7244271.0f;
+  c2 = c2 * u_2 + 783099.5f;
+  c2_next = c2_next * u_2 + 253401.22f;
+  c2 = c2 * u_2 + -15592.978f;
+  c2_next = c2_next * u_2 + 2310.3003f;
+  c2 = c2 * u_2 + 1661.3628f;
+  c2_next = c2_next * u_2 + -207.08655f;
+  c2 = c2 * u_2 + -59.44268f;
+  c2_next = c2_next * u_2 + 10.146086f;
+  c2 = c2 * u_2 + 3.0146852f;
+  c2_next = c2_next * u_2 + 0.1914183f;
+  c2 = c2 * u + c2_next;
+  float c3 = 1221345.2f;
+  float c3_next = 298669.84f;
+  c3 = c3 * u_2 + -6664.8667f;
+  c3_next = c3_next * u_2 + -2710.0913f;
+  c3 = c3 * u_2 + -5053.629f;
+  c3_next = c3_next * u_2 + -1276.8479f;
+  c3 = c3 * u_2 + 402.10715f;
+  c3_next = c3_next * u_2 + 57.207516f;
+  c3 = c3 * u_2 + -32.49337f;
+  c3_next = c3_next * u_2 + -6.1516085f;
+  c3 = c3 * u_2 + -0.30313638f;
+  c3 = c3_next * u + c3;
+  float c4 = 102743.71f;
+  float c4_next = 74707.68f;
+  c4 = c4 * u_2 + -6269.756f;
+  c4_next = c4_next * u_2 + -9162.856f;
+  c4 = c4 * u_2 + -1862.9924f;
+  c4_next = c4_next * u_2 + -17.303854f;
+  c4 = c4 * u_2 + 129.84343f;
+  c4_next = c4_next * u_2 + 24.72563f;
+  c4 = c4 * u_2 + 0.13961253f;
+  c4 = c4_next * u + c4;
+  float c5 = -852782.3f;
+  float c5_next = -295563.38f;
+  c5 = c5 * u_2 + 14817.157f;
+  c5_next = c5_next * u_2 + 21771.17f;
+  c5 = c5 * u_2 + 5048.6924f;
+  c5_next = c5_next * u_2 + 590.56445f;
+  c5 = c5 * u_2 + -156.54109f;
+  c5_next = c5_next * u_2 + -57.833805f;
+  c5 = c5 * u_2 + 1.5907665f;
+  c5 = c5_next * u + c5;
+  float c6 = 121727.72f;
+  float c6_next = 40167.15f;
+  c6 = c6 * u_2 + -1232.1283f;
+  c6_next = c6_next * u_2 + -2133.2627f;
+  c6 = c6 * u_2 + -692.82697f;
+  c6_next = c6_next * u_2 + -92.14447f;
+  c6 = c6 * u_2 + 7.128001f;
+  c6 = c6_next * u + c6;
+  float c7 = -45921.055f;
+  float c7_next = -16022.938f;
+  c7 = c7 * u_2 + -55.757f;
+  c7_next = c7_next * u_2 + 1768.9229f;
+  c7 = c7 * u_2 + 360.49197f;
+  c7_next = c7_next * u_2 + -102.757484f;
+  c7 = c7 * u + c7_next;
+  float c8 = 296.60544f;
+  c8 = c8 * u + 556.0702f;
+  c8 = c8 * u + 192.92322f;
+  float c9 = -2079.7969f;
+  c9 = c9 * u + -1509.5876f;
+  c9 = c9 * u + 372.89417f;
+  const float c10 = -955.3208f;
+  const float w = specular - 0.64116675f;
+  float sum = c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -278,10 +402,26 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 4.0f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -295,6 +435,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 0.99750936f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.77632755f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.77340794f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.28233206f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -402,8 +556,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -413,13 +572,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -431,15 +679,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -447,16 +702,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -527,19 +785,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.25f}, {18398.186f, 0.46936864f}, {33.0f, 8.1e-05f}},
-      {{0.10293103f, 0.234375f}, {183.99127f, 0.44691896f}, {0.034f, 8.1e-05f}},
-      {{0.19586205f, 0.21875f}, {47.6396f, 0.43161684f}, {0.0047f, 8.1e-05f}},
-      {{0.2887931f, 0.203125f}, {19.541372f, 0.42626503f}, {0.0014f, 8.1e-05f}},
-      {{0.38172412f, 0.1875f}, {9.40855f, 0.42860836f}, {0.00051f, 8.1e-05f}},
-      {{0.47465515f, 0.171875f}, {4.783687f, 0.43300375f}, {0.00024f, 8.1e-05f}},
-      {{0.5675862f, 0.15625f}, {2.3625553f, 0.43391445f}, {0.00013f, 8.1e-05f}},
-      {{0.6605172f, 0.140625f}, {0.9519969f, 0.42847326f}, {6.8e-05f, 8.1e-05f}},
-      {{0.75344825f, 0.125f}, {0.06739811f, 0.41651076f}, {4e-05f, 8e-05f}},
-      {{0.005f, 0.125f}, {19769.72f, 0.23453212f}, {37.0f, 8e-05f}},
-      {{1.1301724f, 0.0625f}, {0.07247348f, 0.20767947f}, {4e-05f, 8e-05f}},
-      {{0.38172412f, 0.0f}, {9.435781f, 0.007321295f}, {0.00052f, 8e-05f}},
-      {{0.38172412f, 0.5f}, {9.411253f, 1.1436578f}, {0.00051f, 0.00017f}},
+      {{0.01f, 1.0f}, {16760.945f, 1.0f}, {960.0f, 0.00011f}},
+      {{0.13250001f, 0.9375f}, {100.64066f, 1.0f}, {0.45f, 0.00011f}},
+      {{0.255f, 0.875f}, {30.993242f, 1.0f}, {0.081f, 0.00011f}},
+      {{0.3775f, 0.8125f}, {18.284775f, 1.0f}, {0.039f, 0.00011f}},
+      {{0.5f, 0.75f}, {13.3383465f, 1.0f}, {0.026f, 0.00011f}},
+      {{0.6225f, 0.6875f}, {9.363902f, 1.0f}, {0.017f, 0.00011f}},
+      {{0.745f, 0.625f}, {5.905287f, 1.0f}, {0.0095f, 0.00011f}},
+      {{0.8675f, 0.5625f}, {3.1008203f, 1.0f}, {0.0049f, 0.00011f}},
+      {{0.99f, 0.5f}, {1.0735391f, 1.0f}, {0.0023f, 0.00011f}},
+      {{0.005f, 0.5f}, {19594.904f, 1.0f}, {1300.0f, 0.00011f}},
+      {{1.485f, 0.25f}, {0.01f, 0.6658314f}, {0.0013f, 0.00011f}},
+      {{0.5f, 0.0f}, {4.037881f, 0.0014047674f}, {0.0063f, 0.00011f}},
+      {{0.5f, 2.0f}, {16.997786f, 2.0f}, {0.036f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

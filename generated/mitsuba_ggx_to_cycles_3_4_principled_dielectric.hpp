@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to cycles-3.4/principled-dielectric: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_cycles_3_4_principled_dielectric.csv, sha256 055c792aa944adc6bd50865a99aed8a418947d829710a6eeffbdef8564a583e1;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 3.4.1.
-// Fit: svr, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 0.00041, 99 % 0.00076, max 0.0014;
-// specular rms 0.00033, 99 % 0.00066, max 7e-04.
-// Lowered from the fit. Target alpha: degree 5, 6 in specular, proven within 1e-05 (sampled 9.1e-06), rising with alpha.
-// Target specular: degree 4 in alpha / (alpha + 1), 4 in specular, proven within 9.1e-05 (sampled 8.5e-05), rising with specular.
-// Covers alpha 0.01 to 0.95, f0 0 to 0.08.
+// Table mitsuba_ggx_to_cycles_3_4_principled_dielectric.csv, sha256 161722400eaa73feba00c5be09fcd5a59b0b024f96ae70fb6f112564118be15a;
+// objective natural-1 (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 3.4.1.
+// Fit: series, seed 1, 486 rows trained, 121 held out.
+// Error on the rows held out: alpha rms 0.00014, 99 % 0.00055, max 0.00061;
+// specular rms 0.00036, 99 % 0.0016, max 0.0032.
+// Lowered from the fit. Target alpha: degree 6, 5 in specular, proven within 6.8e-06 (sampled 6.2e-06), rising with alpha.
+// Target specular: degree 3, 4 in specular, proven within 7.9e-05 (sampled 7.3e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, 2 in specular, proven within 3.7e-07 (sampled 1.5e-08), rising with specular.
+// All together within 6.8e-06 in alpha, 8.5e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 0.08.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_PRINCIPLED_DIELECTRIC_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_PRINCIPLED_DIELECTRIC_HPP
 
@@ -37,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00041f;
-inline constexpr float kSpecularRmsError = 0.00033f;
+inline constexpr float kAlphaRmsError = 0.00014f;
+inline constexpr float kSpecularRmsError = 0.00036f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.0055f;
+inline constexpr float kImageRmsError = 0.0065f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -56,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.95f, 0.08f};
+inline constexpr Input kDomainMax{1.0f, 0.08f};
 
 namespace detail {
 
@@ -76,43 +78,40 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.480001f;
+  const float u = alpha - 0.50465775f;
   const float u_2 = u * u;
-  float c0 = -0.06065274f;
-  float c0_next = 0.0038684022f;
-  c0 = c0 * u_2 + 0.005407115f;
-  c0_next = c0_next * u_2 + 0.024640625f;
-  c0 = c0 * u_2 + 1.0343547f;
-  c0_next = c0_next * u_2 + 0.48910406f;
-  c0 = c0 * u + c0_next;
-  float c1 = -0.050031096f;
-  float c1_next = 0.096245766f;
-  c1 = c1 * u_2 + 0.2785454f;
-  c1_next = c1_next * u_2 + -0.22172327f;
-  c1 = c1 * u_2 + -0.41552845f;
-  c1_next = c1_next * u_2 + -0.1401604f;
+  float c0 = -0.1574525f;
+  float c0_next = -0.010635365f;
+  c0 = c0 * u_2 + 0.06838484f;
+  c0_next = c0_next * u_2 + -0.018637862f;
+  c0 = c0 * u_2 + 0.016158199f;
+  c0_next = c0_next * u_2 + 1.0370344f;
+  c0 = c0 * u_2 + 0.5146681f;
+  c0 = c0_next * u + c0;
+  float c1 = 0.17965138f;
+  float c1_next = 0.4539844f;
+  c1 = c1 * u_2 + 0.36922723f;
+  c1_next = c1_next * u_2 + -0.372021f;
+  c1 = c1 * u_2 + -0.427726f;
+  c1_next = c1_next * u_2 + -0.09780796f;
   c1 = c1 * u + c1_next;
-  float c2 = 5.7939687f;
-  float c2_next = -1.4364619f;
-  c2 = c2 * u_2 + -18.530848f;
-  c2_next = c2_next * u_2 + 1.2983075f;
-  c2 = c2 * u_2 + -1.4346969f;
-  c2_next = c2_next * u_2 + -0.53380007f;
-  c2 = c2 * u + c2_next;
-  float c3 = -88.09025f;
-  c3 = c3 * u + -19.423532f;
-  c3 = c3 * u + 274.36594f;
-  c3 = c3 * u + 140.82065f;
-  float c4 = 1138.2996f;
-  c4 = c4 * u + 451.38553f;
-  c4 = c4 * u + -2157.083f;
-  c4 = c4 * u + -2166.2327f;
-  float c5 = -14570.687f;
-  c5 = c5 * u + -7889.749f;
-  const float c6 = 120583.91f;
+  float c2 = -7.5829544f;
+  float c2_next = 4.93206f;
+  c2 = c2 * u_2 + 4.617839f;
+  c2_next = c2_next * u_2 + 1.5152363f;
+  c2 = c2 * u_2 + 0.6719807f;
+  c2 = c2_next * u + c2;
+  float c3 = -253.86078f;
+  c3 = c3 * u + 154.2228f;
+  c3 = c3 * u + 201.19928f;
+  c3 = c3 * u + 31.038572f;
+  float c4 = -5075.9614f;
+  c4 = c4 * u + -8920.887f;
+  c4 = c4 * u + -3172.6072f;
+  float c5 = 113873.81f;
+  c5 = c5 * u + 56409.516f;
   const float w = specular - 0.04000008f;
-  float sum = c6;
-  sum = sum * w + c5;
+  float sum = c5;
   sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
@@ -125,6 +124,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -139,28 +140,21 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.24854049f;
-    const float u_2 = u * u;
-    float c0 = 0.047844566f;
-    float c0_next = 0.05664782f;
-    c0 = c0 * u_2 + 0.17780909f;
-    c0_next = c0_next * u_2 + 0.07080233f;
-    c0 = c0 * u_2 + 0.41199726f;
-    c0 = c0_next * u + c0;
-    float c1 = -27.313082f;
-    float c1_next = 0.59766996f;
-    c1 = c1 * u_2 + 4.6134295f;
-    c1_next = c1_next * u_2 + 1.3208274f;
-    c1 = c1 * u_2 + 11.055429f;
-    c1 = c1_next * u + c1;
-    float c2 = 32.775562f;
-    c2 = c2 * u + -41.779785f;
-    c2 = c2 * u + -18.783972f;
-    c2 = c2 * u + 16.871552f;
-    float c3 = 19.406422f;
-    c3 = c3 * u + -114.897415f;
-    const float c4 = -151.57323f;
+    const float u = alpha - 0.50465775f;
+    float c0 = -0.027704028f;
+    c0 = c0 * u + 0.014194279f;
+    c0 = c0 * u + 0.045436993f;
+    c0 = c0 * u + 0.41979828f;
+    float c1 = -0.64513826f;
+    c1 = c1 * u + 0.20863774f;
+    c1 = c1 * u + 0.7947036f;
+    c1 = c1 * u + 11.213304f;
+    float c2 = -3.604273f;
+    c2 = c2 * u + -10.648529f;
+    c2 = c2 * u + 13.080542f;
+    float c3 = 78.648415f;
+    c3 = c3 * u + -137.53194f;
+    const float c4 = 1450.887f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
@@ -176,6 +170,22 @@ inline float target_specular(const Terms& terms, std::size_t i, float specular) 
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
   sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.98269445f;
+  float c0 = -8.81572f;
+  c0 = c0 * u + -0.6852328f;
+  c0 = c0 * u + 0.43297568f;
+  float c1 = -18.30835f;
+  c1 = c1 * u + 11.405811f;
+  const float c2 = 15.227691f;
+  const float w = specular - 0.04000008f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -245,6 +255,22 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
@@ -262,6 +288,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.99931335f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.96538883f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -369,8 +409,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -380,13 +425,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -398,15 +532,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -414,16 +555,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -494,19 +638,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.08f}, {0.103101894f, 0.86246526f}, {4.9e-05f, 9.1e-05f}},
-      {{0.1275f, 0.074999996f}, {0.35724568f, 0.80628914f}, {1.5e-05f, 9.1e-05f}},
-      {{0.24499999f, 0.07f}, {0.49642345f, 0.7514583f}, {1.1e-05f, 9.1e-05f}},
-      {{0.36249998f, 0.065f}, {0.6051861f, 0.69874305f}, {9e-06f, 9.1e-05f}},
-      {{0.48f, 0.06f}, {0.6977468f, 0.6471824f}, {8e-06f, 9.1e-05f}},
-      {{0.59749997f, 0.055f}, {0.7800042f, 0.59587926f}, {7.3e-06f, 9.1e-05f}},
-      {{0.715f, 0.049999997f}, {0.8550919f, 0.54432976f}, {6.8e-06f, 9.1e-05f}},
-      {{0.8325f, 0.044999998f}, {0.9247806f, 0.49235243f}, {6.4e-06f, 9.1e-05f}},
-      {{0.95f, 0.04f}, {0.9899729f, 0.43996286f}, {6e-06f, 9.1e-05f}},
-      {{0.005f, 0.04f}, {0.09706507f, 0.40456322f}, {5.2e-05f, 9.1e-05f}},
-      {{1.425f, 0.02f}, {0.99172205f, 0.2138948f}, {6e-06f, 9.1e-05f}},
-      {{0.48f, 0.0f}, {0.69325376f, 0.0023836477f}, {8e-06f, 9.1e-05f}},
-      {{0.48f, 0.16f}, {0.6969909f, 1.7648419f}, {8e-06f, 0.00019f}},
+      {{0.01f, 0.08f}, {0.09998972f, 0.86256146f}, {3.5e-05f, 8.6e-05f}},
+      {{0.13375f, 0.074999996f}, {0.36609313f, 0.8058308f}, {9.9e-06f, 8.6e-05f}},
+      {{0.2575f, 0.07f}, {0.5091415f, 0.7518777f}, {7.4e-06f, 8.6e-05f}},
+      {{0.38125f, 0.065f}, {0.621093f, 0.69971585f}, {6.3e-06f, 8.6e-05f}},
+      {{0.505f, 0.06f}, {0.7164135f, 0.6485196f}, {5.6e-06f, 8.6e-05f}},
+      {{0.62875f, 0.055f}, {0.80092645f, 0.5976236f}, {5.1e-06f, 8.6e-05f}},
+      {{0.7525f, 0.049999997f}, {0.8778348f, 0.5465233f}, {4.8e-06f, 8.6e-05f}},
+      {{0.87625f, 0.044999998f}, {0.94909364f, 0.4948745f}, {4.5e-06f, 8.6e-05f}},
+      {{1.0f, 0.04f}, {1.0f, 0.41847628f}, {4.4e-06f, 8.6e-05f}},
+      {{0.005f, 0.04f}, {0.100046225f, 0.40422028f}, {3.5e-05f, 8.6e-05f}},
+      {{1.5f, 0.02f}, {1.0f, 0.2027879f}, {4.4e-06f, 8.5e-05f}},
+      {{0.505f, 0.0f}, {0.71000713f, 0.0047800294f}, {5.6e-06f, 8.5e-05f}},
+      {{0.505f, 0.16f}, {0.7154134f, 1.7685304f}, {5.6e-06f, 0.00018f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to cycles-5/principled-metal: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_cycles_5_principled_metal.csv, sha256 22efb66ea2bded6bf554a749ab5ce273782ea9dedd84bae3cbca2f11f92f33fa;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 5.0.1.
+// Table mitsuba_ggx_to_cycles_5_principled_metal.csv, sha256 43327b022e2fe224662e25a6231d33c1c1ab85e5886dfcfe5126dbbae3fdc742;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 5.0.1.
 // Fit: parametric, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 2e-04, 99 % 0.00031, max 0.00031;
-// base_color rms 2.2e-05, 99 % 5.4e-05, max 0.00012.
-// Lowered from the fit. Target alpha: degree 4, proven within 3e-07 (sampled 2.3e-08), rising with alpha.
-// Target specular: degree 9 in alpha / (alpha + 0.2), proven within 1e-04 (sampled 9.8e-05), rising with specular.
+// Error on the rows held out: alpha rms 0.00012, 99 % 0.00037, max 0.00056;
+// base_color rms 2.9e-05, 99 % 6.3e-05, max 0.00012.
+// Lowered from the fit. Target alpha: degree 6, proven within 3.7e-07 (sampled 2.6e-08), rising with alpha.
+// Target specular: degree 6, proven within 1.7e-05 (sampled 1.1e-05), rising with specular.
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_5_PRINCIPLED_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_5_PRINCIPLED_METAL_HPP
@@ -37,11 +37,11 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "base_color";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 2e-04f;
-inline constexpr float kSpecularRmsError = 2.2e-05f;
+inline constexpr float kAlphaRmsError = 0.00012f;
+inline constexpr float kSpecularRmsError = 2.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.02f;
+inline constexpr float kImageRmsError = 0.022f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -75,22 +75,32 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float) noexcept {
+inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 0.009614071f;
-  float c0_next = -0.10206915f;
-  c0 = c0 * u_2 + -0.10406864f;
-  c0_next = c0_next * u_2 + 0.9696429f;
-  c0 = c0 * u_2 + 0.5024403f;
+  float c0 = -0.121191405f;
+  float c0_next = 0.12633158f;
+  c0 = c0 * u_2 + 0.07003249f;
+  c0_next = c0_next * u_2 + -0.15262684f;
+  c0 = c0 * u_2 + -0.12121767f;
+  c0_next = c0_next * u_2 + 0.9693292f;
+  c0 = c0 * u_2 + 0.502374f;
   c0 = c0_next * u + c0;
-  return c0;
+  float c1 = -0.0038113922f;
+  c1 = c1 * u + -0.0032369862f;
+  c1 = c1 * u + -0.00075752864f;
+  c1 = c1 * u + -4.790013e-05f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
 }
 
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -105,31 +115,17 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.2f);
-    const float u = t - 0.44047627f;
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = 0.15255015f;
-    float c0_next = 0.35398197f;
-    c0 = c0 * u_2 + -0.12826914f;
-    c0_next = c0_next * u_2 + -0.15160012f;
-    c0 = c0 * u_2 + 0.058798417f;
-    c0_next = c0_next * u_2 + 0.009938091f;
-    c0 = c0 * u_2 + -0.006339074f;
-    c0_next = c0_next * u_2 + 0.0007162674f;
-    c0 = c0 * u_2 + -1.1785807e-05f;
-    c0_next = c0_next * u_2 + -1.5772095e-05f;
-    c0 = c0 * u + c0_next;
-    float c1 = -333.19485f;
-    float c1_next = -183.36856f;
-    c1 = c1 * u_2 + 29.397245f;
-    c1_next = c1_next * u_2 + 20.849203f;
-    c1 = c1 * u_2 + -3.2097778f;
-    c1_next = c1_next * u_2 + -1.4523473f;
-    c1 = c1 * u_2 + 0.071699336f;
-    c1_next = c1_next * u_2 + 0.020637758f;
-    c1 = c1 * u_2 + -0.0016663172f;
-    c1_next = c1_next * u_2 + 0.999913f;
-    c1 = c1 * u + c1_next;
+    const float c0 = 0.0f;
+    float c1 = -0.47216007f;
+    float c1_next = 0.3342433f;
+    c1 = c1 * u_2 + 0.36615396f;
+    c1_next = c1_next * u_2 + -0.25879118f;
+    c1 = c1 * u_2 + -0.3115601f;
+    c1_next = c1_next * u_2 + -0.10427555f;
+    c1 = c1 * u_2 + 0.9876102f;
+    c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -207,13 +203,29 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
                                  kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return std::sqrt(alpha); }
-  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -224,6 +236,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -331,8 +357,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -342,13 +373,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -360,15 +480,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -376,16 +503,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -456,19 +586,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.099616736f, 0.99916327f}, {2.1e-06f, 0.00011f}},
-      {{0.13375f, 0.9375f}, {0.36540553f, 0.93751854f}, {1.1e-06f, 0.00011f}},
-      {{0.2575f, 0.875f}, {0.50760347f, 0.87473524f}, {1.1e-06f, 0.00011f}},
-      {{0.38125f, 0.8125f}, {0.6172908f, 0.81104404f}, {1.1e-06f, 1e-04f}},
-      {{0.505f, 0.75f}, {0.70882946f, 0.744383f}, {1.1e-06f, 1e-04f}},
-      {{0.62875f, 0.6875f}, {0.787812f, 0.6732303f}, {1.1e-06f, 1e-04f}},
-      {{0.7525f, 0.625f}, {0.8570529f, 0.59775823f}, {1.1e-06f, 1e-04f}},
-      {{0.87625f, 0.5625f}, {0.91816986f, 0.51967293f}, {1.1e-06f, 1e-04f}},
-      {{1.0f, 0.5f}, {0.9721681f, 0.44142434f}, {1.2e-06f, 1e-04f}},
-      {{0.005f, 0.5f}, {0.099616736f, 0.4995639f}, {2.1e-06f, 1e-04f}},
-      {{1.5f, 0.25f}, {0.9721681f, 0.22070448f}, {1.2e-06f, 1e-04f}},
-      {{0.505f, 0.0f}, {0.70882946f, 0.0f}, {1.1e-06f, 1e-04f}},
-      {{0.505f, 2.0f}, {0.70882946f, 1.9850315f}, {1.1e-06f, 0.00021f}},
+      {{0.01f, 1.0f}, {0.10014447f, 0.9993888f}, {2.4e-06f, 1.8e-05f}},
+      {{0.13375f, 0.9375f}, {0.36567408f, 0.9374937f}, {1.2e-06f, 1.8e-05f}},
+      {{0.2575f, 0.875f}, {0.5074144f, 0.8743075f}, {1.1e-06f, 1.8e-05f}},
+      {{0.38125f, 0.8125f}, {0.6171438f, 0.8094959f}, {1.1e-06f, 1.8e-05f}},
+      {{0.505f, 0.75f}, {0.7087574f, 0.740714f}, {1.1e-06f, 1.8e-05f}},
+      {{0.62875f, 0.6875f}, {0.78744215f, 0.6665563f}, {1.1e-06f, 1.8e-05f}},
+      {{0.7525f, 0.625f}, {0.8559134f, 0.5877282f}, {1.2e-06f, 1.8e-05f}},
+      {{0.87625f, 0.5625f}, {0.91601205f, 0.50669867f}, {1.2e-06f, 1.8e-05f}},
+      {{1.0f, 0.5f}, {0.96918267f, 0.42662096f}, {1.2e-06f, 1.8e-05f}},
+      {{0.005f, 0.5f}, {0.10015394f, 0.4996944f}, {2.4e-06f, 1.8e-05f}},
+      {{1.5f, 0.25f}, {0.9693991f, 0.21331048f}, {1.2e-06f, 1.7e-05f}},
+      {{0.505f, 0.0f}, {0.70878273f, 0.0f}, {1.1e-06f, 1.7e-05f}},
+      {{0.505f, 2.0f}, {0.70874894f, 1.9752374f}, {1.1e-06f, 3.5e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

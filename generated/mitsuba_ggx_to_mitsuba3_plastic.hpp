@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba3/plastic: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba3_plastic.csv, sha256 924f5255b95fbb5827ab83a78154a60bda54fc883bd27c5a58d4237018c80649;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Mitsuba 3.9.1 (scalar_rgb).
-// Fit: parametric, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 0.00012, 99 % 0.00049, max 0.00049;
-// specular rms 9.9e-05, 99 % 0.00031, max 0.00041.
-// Lowered from the fit. Target alpha: degree 8 in alpha / (alpha + 1), 6 in specular, proven within 7.6e-06 (sampled 6.1e-06), rising with alpha.
-// Target specular: degree 8 in alpha / (alpha + 0.1), proven within 7.8e-05 (sampled 7.8e-05), rising with specular.
-// Covers alpha 0.01 to 0.95, f0 0 to 0.04.
+// Table mitsuba_ggx_to_mitsuba3_plastic.csv, sha256 692d331ed07ce089636bd4afaf04147e8148dd71b7cc78f0dad7b593704b503b;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Mitsuba 3.9.1 (scalar_rgb).
+// Fit: series, seed 1, 483 rows trained, 121 held out.
+// Error on the rows held out: alpha rms 6.2e-05, 99 % 0.00026, max 0.00026;
+// specular rms 7e-05, 99 % 0.00024, max 0.00026.
+// Lowered from the fit. Target alpha: degree 7, 7 in specular, proven within 7.9e-06 (sampled 6.6e-06), rising with alpha.
+// Target specular: degree 3, 4 in specular, proven within 7.8e-05 (sampled 7.7e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, 2 in specular, proven within 1.2e-05 (sampled 1.1e-05), rising with specular.
+// All together within 7.9e-06 in alpha, 8.7e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 0.04.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PLASTIC_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PLASTIC_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00012f;
-inline constexpr float kSpecularRmsError = 9.9e-05f;
+inline constexpr float kAlphaRmsError = 6.2e-05f;
+inline constexpr float kSpecularRmsError = 7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.004f;
+inline constexpr float kImageRmsError = 0.0058f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.95f, 0.04f};
+inline constexpr Input kDomainMax{1.0f, 0.04f};
 
 namespace detail {
 
@@ -75,66 +77,57 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float t = alpha / (alpha + 1.0f);
-  const float u = t - 0.24854049f;
+  const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 20.574558f;
-  float c0_next = 14.98221f;
-  c0 = c0 * u_2 + 8.738137f;
-  c0_next = c0_next * u_2 + 5.602781f;
-  c0 = c0 * u_2 + 4.1221714f;
-  c0_next = c0_next * u_2 + 3.2823558f;
-  c0 = c0 * u_2 + 2.4595025f;
-  c0_next = c0_next * u_2 + 1.7946875f;
-  c0 = c0 * u_2 + 0.33262214f;
-  c0 = c0_next * u + c0;
-  float c1 = -98.05023f;
-  float c1_next = -44.24995f;
-  c1 = c1 * u_2 + -6.8956738f;
-  c1_next = c1_next * u_2 + 5.598954f;
-  c1 = c1 * u_2 + 8.840513f;
-  c1_next = c1_next * u_2 + 6.2855897f;
-  c1 = c1 * u_2 + 1.8166115f;
-  c1_next = c1_next * u_2 + 0.17572045f;
+  float c0 = -0.08802908f;
+  float c0_next = -0.040393937f;
+  c0 = c0 * u_2 + 0.065038614f;
+  c0_next = c0_next * u_2 + 0.012060191f;
+  c0 = c0 * u_2 + -0.016333079f;
+  c0_next = c0_next * u_2 + 0.011943551f;
+  c0 = c0 * u_2 + 1.0126069f;
+  c0_next = c0_next * u_2 + 0.50748765f;
+  c0 = c0 * u + c0_next;
+  float c1 = 16.797188f;
+  float c1_next = -7.2431564f;
+  c1 = c1 * u_2 + -8.100248f;
+  c1_next = c1_next * u_2 + 3.9613783f;
+  c1 = c1 * u_2 + -0.035548594f;
+  c1_next = c1_next * u_2 + 0.8990165f;
+  c1 = c1 * u_2 + 2.2698047f;
+  c1_next = c1_next * u_2 + 0.6492138f;
   c1 = c1 * u + c1_next;
-  float c2 = 25529.086f;
-  float c2_next = 1764.3268f;
-  c2 = c2 * u_2 + -1766.1147f;
-  c2_next = c2_next * u_2 + 135.44261f;
-  c2 = c2 * u_2 + -231.72054f;
-  c2_next = c2_next * u_2 + -261.83392f;
-  c2 = c2 * u_2 + -74.122314f;
-  c2_next = c2_next * u_2 + -6.8483486f;
-  c2 = c2 * u + c2_next;
-  float c3 = -1243897.0f;
-  float c3_next = -477914.44f;
-  c3 = c3 * u_2 + 12613.298f;
-  c3_next = c3_next * u_2 + 19160.729f;
-  c3 = c3 * u_2 + 3356.0554f;
-  c3_next = c3_next * u_2 + 4103.7617f;
-  c3 = c3 * u_2 + 1349.6472f;
-  c3_next = c3_next * u_2 + 113.71301f;
+  float c2 = 396.93637f;
+  float c2_next = -142.37962f;
+  c2 = c2 * u_2 + -260.78357f;
+  c2_next = c2_next * u_2 + 67.31581f;
+  c2 = c2 * u_2 + -24.14978f;
+  c2_next = c2_next * u_2 + -101.07474f;
+  c2 = c2 * u_2 + -30.167326f;
+  c2 = c2_next * u + c2;
+  float c3 = 10670.971f;
+  float c3_next = 4258.744f;
+  c3 = c3 * u_2 + -6181.2896f;
+  c3_next = c3_next * u_2 + -334.1826f;
+  c3 = c3 * u_2 + 3516.6455f;
+  c3_next = c3_next * u_2 + 1128.1516f;
   c3 = c3 * u + c3_next;
-  float c4 = 20646360.0f;
-  float c4_next = 4411502.0f;
-  c4 = c4 * u_2 + -3765437.8f;
-  c4_next = c4_next * u_2 + -1580724.6f;
-  c4 = c4 * u_2 + -697458.8f;
-  c4_next = c4_next * u_2 + -215766.84f;
-  c4 = c4 * u_2 + -21881.533f;
-  c4 = c4_next * u + c4;
-  float c5 = 114954216.0f;
-  float c5_next = 142467520.0f;
-  c5 = c5 * u_2 + 91766896.0f;
-  c5_next = c5_next * u_2 + 25884898.0f;
-  c5 = c5 * u_2 + 2511893.0f;
-  c5 = c5_next * u + c5;
-  float c6 = -3537455360.0f;
-  c6 = c6 * u + -2742275328.0f;
-  c6 = c6 * u + -750017472.0f;
-  c6 = c6 * u + -69888480.0f;
+  float c4 = 280712.78f;
+  c4 = c4 * u + -101249.96f;
+  c4 = c4 * u + -159855.55f;
+  c4 = c4 * u + -22098.133f;
+  float c5 = -6722518.0f;
+  c5 = c5 * u + 18671574.0f;
+  c5 = c5 * u + 16602496.0f;
+  c5 = c5 * u + 2922398.8f;
+  float c6 = -595463552.0f;
+  c6 = c6 * u + -908715328.0f;
+  c6 = c6 * u + -298942208.0f;
+  float c7 = 16722335744.0f;
+  c7 = c7 * u + 7987829760.0f;
   const float w = specular - 0.02000004f;
-  float sum = c6;
+  float sum = c7;
+  sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
   sum = sum * w + c3;
@@ -147,7 +140,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -162,37 +157,51 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.1f);
-    const float u = t - 0.49783546f;
-    const float u_2 = u * u;
-    float c0 = -0.5917738f;
-    float c0_next = -2.5473456f;
-    c0 = c0 * u_2 + -1.5463166f;
-    c0_next = c0_next * u_2 + -0.15141419f;
-    c0 = c0 * u_2 + 0.020966917f;
-    c0_next = c0_next * u_2 + -0.03203945f;
-    c0 = c0 * u_2 + -0.01760723f;
-    c0_next = c0_next * u_2 + -0.006087389f;
-    c0 = c0 * u_2 + 0.026095744f;
-    c0 = c0_next * u + c0;
-    float c1 = 560.66895f;
-    float c1_next = 370.91803f;
-    c1 = c1 * u_2 + 6.718273f;
-    c1_next = c1_next * u_2 + -19.651638f;
-    c1 = c1 * u_2 + 8.025908f;
-    c1_next = c1_next * u_2 + 4.783511f;
-    c1 = c1 * u_2 + 1.2273304f;
-    c1_next = c1_next * u_2 + 0.3809661f;
-    c1 = c1 * u_2 + 18.47024f;
-    c1 = c1_next * u + c1;
+    const float u = alpha - 0.50500107f;
+    float c0 = -0.00578455f;
+    c0 = c0 * u + 0.007643641f;
+    c0 = c0 * u + 0.011032107f;
+    c0 = c0 * u + 0.3867231f;
+    float c1 = -1.4284803f;
+    c1 = c1 * u + 0.72216654f;
+    c1 = c1 * u + 2.884028f;
+    c1 = c1 * u + 17.783794f;
+    float c2 = 7.4643726f;
+    c2 = c2 * u + 6.3148403f;
+    c2 = c2 * u + -0.060151596f;
+    float c3 = -303.30298f;
+    c3 = c3 * u + -102.2799f;
+    const float c4 = 4496.554f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
+    terms.c2[i] = c2;
+    terms.c3[i] = c3;
+    terms.c4[i] = c4;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  float sum = terms.c1[i];
-  sum = sum * specular + terms.c0[i];
+  const float w = specular - 0.02000004f;
+  float sum = terms.c4[i];
+  sum = sum * w + terms.c3[i];
+  sum = sum * w + terms.c2[i];
+  sum = sum * w + terms.c1[i];
+  sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.984975f;
+  float c0 = -0.58588606f;
+  c0 = c0 * u + 0.39563295f;
+  float c1 = -28.701904f;
+  c1 = c1 * u + 18.1809f;
+  const float c2 = -0.8527919f;
+  const float w = specular - 0.02000004f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -262,6 +271,22 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
@@ -279,6 +304,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 1.0f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.96994996f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -386,8 +425,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -397,13 +441,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -415,15 +548,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -431,16 +571,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -511,19 +654,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.04f}, {0.00999795f, 0.7633789f}, {8.1e-06f, 7.9e-05f}},
-      {{0.1275f, 0.037499998f}, {0.12789175f, 0.7194315f}, {8.2e-06f, 7.9e-05f}},
-      {{0.24499999f, 0.035f}, {0.24672034f, 0.67690206f}, {8.2e-06f, 7.9e-05f}},
-      {{0.36249998f, 0.0325f}, {0.3663923f, 0.6348393f}, {8.3e-06f, 7.9e-05f}},
-      {{0.48f, 0.03f}, {0.48663878f, 0.5924605f}, {8.4e-06f, 7.9e-05f}},
-      {{0.59749997f, 0.0275f}, {0.60710406f, 0.54917496f}, {8.4e-06f, 7.9e-05f}},
-      {{0.715f, 0.024999999f}, {0.7273778f, 0.50460255f}, {8.5e-06f, 7.9e-05f}},
-      {{0.8325f, 0.022499999f}, {0.8470518f, 0.45856822f}, {8.5e-06f, 7.9e-05f}},
-      {{0.95f, 0.02f}, {0.9657722f, 0.41106984f}, {8.6e-06f, 7.9e-05f}},
-      {{0.005f, 0.02f}, {0.009999444f, 0.3953464f}, {8.1e-06f, 7.9e-05f}},
-      {{1.425f, 0.01f}, {0.94657344f, 0.2082021f}, {8.6e-06f, 7.9e-05f}},
-      {{0.48f, 0.0f}, {0.43738818f, 0.017575484f}, {8.3e-06f, 7.8e-05f}},
-      {{0.48f, 0.08f}, {0.4878201f, 1.5681777f}, {8.4e-06f, 0.00016f}},
+      {{0.01f, 0.04f}, {0.009983472f, 0.71844745f}, {8.4e-06f, 8.7e-05f}},
+      {{0.13375f, 0.037499998f}, {0.1340699f, 0.67960584f}, {8.4e-06f, 8.7e-05f}},
+      {{0.2575f, 0.035f}, {0.25931183f, 0.6414978f}, {8.5e-06f, 8.7e-05f}},
+      {{0.38125f, 0.0325f}, {0.3854845f, 0.6033227f}, {8.5e-06f, 8.7e-05f}},
+      {{0.505f, 0.03f}, {0.51194483f, 0.5644208f}, {8.6e-06f, 8.7e-05f}},
+      {{0.62875f, 0.0275f}, {0.6381992f, 0.5242733f}, {8.7e-06f, 8.7e-05f}},
+      {{0.7525f, 0.024999999f}, {0.7638404f, 0.48250183f}, {8.7e-06f, 8.7e-05f}},
+      {{0.87625f, 0.022499999f}, {0.88837606f, 0.4388691f}, {8.8e-06f, 8.7e-05f}},
+      {{1.0f, 0.02f}, {1.0f, 0.38683984f}, {8.8e-06f, 8.7e-05f}},
+      {{0.005f, 0.02f}, {0.009997975f, 0.3837599f}, {8.4e-06f, 8.7e-05f}},
+      {{1.5f, 0.01f}, {0.975803f, 0.20191443f}, {8.8e-06f, 8.7e-05f}},
+      {{0.505f, 0.0f}, {0.431172f, 0.032484032f}, {8.6e-06f, 8.7e-05f}},
+      {{0.505f, 0.08f}, {0.5143435f, 1.4843985f}, {8.6e-06f, 0.00018f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

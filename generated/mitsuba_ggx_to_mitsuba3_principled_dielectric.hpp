@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba3/principled-dielectric: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba3_principled_dielectric.csv, sha256 efa8f881c3f466f5faa8f1e2ab6a0b96a560ef0b82c2bfbe1513a01c35837c88;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; Mitsuba 3.9.1 (scalar_rgb).
-// Fit: svr, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 0.00037, 99 % 0.00069, max 0.00076;
-// specular rms 0.00034, 99 % 0.00064, max 0.00064.
-// Lowered from the fit. Target alpha: degree 10, 8 in specular, proven within 9.7e-06 (sampled 8.4e-06), rising with alpha.
-// Target specular: degree 4 in alpha / (alpha + 1), 4 in specular, proven within 7.3e-05 (sampled 6.8e-05), rising with specular.
-// Covers alpha 0.01 to 0.95, f0 0 to 0.08.
+// Table mitsuba_ggx_to_mitsuba3_principled_dielectric.csv, sha256 723b6b26b8a498e3d8fb868c13cb6e3312907850f58a6a97b582f0b9e4dfd643;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Mitsuba 3.9.1 (scalar_rgb).
+// Fit: series, seed 1, 486 rows trained, 122 held out.
+// Error on the rows held out: alpha rms 0.0024, 99 % 0.0061, max 0.0097;
+// specular rms 5e-04, 99 % 0.002, max 0.0036.
+// Lowered from the fit. Target alpha: degree 3, proven within 2.6e-07 (sampled 8.1e-09), rising with alpha.
+// Target specular: degree 7, 4 in specular, proven within 6.5e-05 (sampled 5.9e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, 2 in specular, proven within 3.9e-07 (sampled 1.5e-08), rising with specular.
+// All together within 2.6e-07 in alpha, 6.6e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 0.08.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PRINCIPLED_DIELECTRIC_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PRINCIPLED_DIELECTRIC_HPP
 
@@ -37,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00037f;
-inline constexpr float kSpecularRmsError = 0.00034f;
+inline constexpr float kAlphaRmsError = 0.0024f;
+inline constexpr float kSpecularRmsError = 5e-04f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.0055f;
+inline constexpr float kImageRmsError = 0.0075f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -56,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.95f, 0.08f};
+inline constexpr Input kDomainMax{1.0f, 0.08f};
 
 namespace detail {
 
@@ -75,91 +77,21 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.480001f;
-  const float u_2 = u * u;
-  float c0 = 2.8088822f;
-  float c0_next = 6.294551f;
-  c0 = c0 * u_2 + -3.4556422f;
-  c0_next = c0_next * u_2 + -6.614634f;
-  c0 = c0 * u_2 + 1.7330731f;
-  c0_next = c0_next * u_2 + 1.989779f;
-  c0 = c0 * u_2 + -0.31394994f;
-  c0_next = c0_next * u_2 + -0.24276768f;
-  c0 = c0 * u_2 + 0.04249646f;
-  c0_next = c0_next * u_2 + 1.0430732f;
-  c0 = c0 * u_2 + 0.48870602f;
-  c0 = c0_next * u + c0;
-  float c1 = 9.709165f;
-  float c1_next = -3.6664588f;
-  c1 = c1 * u_2 + -10.523773f;
-  c1_next = c1_next * u_2 + 2.8093348f;
-  c1 = c1 * u_2 + 4.204126f;
-  c1_next = c1_next * u_2 + -0.6453087f;
-  c1 = c1 * u_2 + -1.0091674f;
-  c1_next = c1_next * u_2 + -0.3680954f;
-  c1 = c1 * u_2 + -0.07209553f;
-  c1 = c1_next * u + c1;
-  float c2 = -49.416805f;
-  float c2_next = 66.031006f;
-  c2 = c2 * u_2 + -66.69833f;
-  c2_next = c2_next * u_2 + -74.88202f;
-  c2 = c2 * u_2 + 44.50296f;
-  c2_next = c2_next * u_2 + 16.467094f;
-  c2 = c2 * u_2 + -0.26445332f;
-  c2_next = c2_next * u_2 + 1.2659264f;
-  c2 = c2 * u + c2_next;
-  float c3 = 2741.1812f;
-  float c3_next = -1396.35f;
-  c3 = c3 * u_2 + -2421.1255f;
-  c3_next = c3_next * u_2 + 942.94995f;
-  c3 = c3 * u_2 + 840.56836f;
-  c3_next = c3_next * u_2 + 141.26193f;
-  c3 = c3 * u_2 + 17.808332f;
-  c3 = c3_next * u + c3;
-  float c4 = -52991.723f;
-  float c4_next = 253.6538f;
-  c4 = c4 * u_2 + 59001.72f;
-  c4_next = c4_next * u_2 + -8212.372f;
-  c4 = c4 * u_2 + -16858.545f;
-  c4_next = c4_next * u_2 + -10429.194f;
-  c4 = c4 * u_2 + -4240.9854f;
-  c4 = c4_next * u + c4;
-  float c5 = 380987.9f;
-  float c5_next = 120932.125f;
-  c5 = c5 * u_2 + -537223.7f;
-  c5_next = c5_next * u_2 + -129791.37f;
-  c5 = c5 * u_2 + 184698.72f;
-  c5_next = c5_next * u_2 + 58063.062f;
-  c5 = c5 * u + c5_next;
-  float c6 = -5573018.5f;
-  float c6_next = 741023.5f;
-  c6 = c6 * u_2 + 2106539.8f;
-  c6_next = c6_next * u_2 + 826215.1f;
-  c6 = c6 * u_2 + 822486.94f;
-  c6 = c6_next * u + c6;
-  float c7 = 55958140.0f;
-  c7 = c7 * u + 9928237.0f;
-  c7 = c7 * u + -27824708.0f;
-  c7 = c7 * u + -8688203.0f;
-  const float c8 = -73709056.0f;
-  const float w = specular - 0.04000008f;
-  float sum = c8;
-  sum = sum * w + c7;
-  sum = sum * w + c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
-  sum = sum * w + c3;
-  sum = sum * w + c2;
-  sum = sum * w + c1;
-  sum = sum * w + c0;
-  return sum;
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.49229676f;
+  float c0 = -0.023266261f;
+  c0 = c0 * u + 0.025235664f;
+  c0 = c0 * u + 1.0370313f;
+  c0 = c0 * u + 0.50168544f;
+  return c0;
 }
 
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -174,28 +106,47 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.24854049f;
+    const float u = alpha - 0.49229676f;
     const float u_2 = u * u;
-    float c0 = 0.07008482f;
-    float c0_next = 0.037792392f;
-    c0 = c0 * u_2 + 0.17413263f;
-    c0_next = c0_next * u_2 + 0.07117269f;
-    c0 = c0 * u_2 + 0.41404626f;
-    c0 = c0_next * u + c0;
-    float c1 = -28.299969f;
-    float c1_next = -0.046243798f;
-    c1 = c1 * u_2 + 4.750556f;
-    c1_next = c1_next * u_2 + 1.3505507f;
-    c1 = c1 * u_2 + 11.103686f;
-    c1 = c1_next * u + c1;
-    float c2 = 33.907547f;
-    c2 = c2 * u + -40.75277f;
-    c2 = c2 * u + -19.188524f;
-    c2 = c2 * u + 16.84511f;
-    float c3 = 16.975416f;
-    c3 = c3 * u + -115.11394f;
-    const float c4 = -151.48871f;
+    float c0 = -1.3797666f;
+    float c0_next = -0.7207769f;
+    c0 = c0 * u_2 + 0.43148205f;
+    c0_next = c0_next * u_2 + 0.20109664f;
+    c0 = c0 * u_2 + -0.06905518f;
+    c0_next = c0_next * u_2 + 0.0018350639f;
+    c0 = c0 * u_2 + 0.052547146f;
+    c0_next = c0_next * u_2 + 0.39766178f;
+    c0 = c0 * u + c0_next;
+    float c1 = -32.454807f;
+    float c1_next = 11.008739f;
+    c1 = c1 * u_2 + 18.891554f;
+    c1_next = c1_next * u_2 + -1.752419f;
+    c1 = c1 * u_2 + -3.399937f;
+    c1_next = c1_next * u_2 + 0.14405957f;
+    c1 = c1 * u_2 + 1.1392785f;
+    c1_next = c1_next * u_2 + 10.786999f;
+    c1 = c1 * u + c1_next;
+    float c2 = 1346.896f;
+    float c2_next = 271.99542f;
+    c2 = c2 * u_2 + -232.52437f;
+    c2_next = c2_next * u_2 + -19.363693f;
+    c2 = c2 * u_2 + -4.1280217f;
+    c2_next = c2_next * u_2 + -15.017667f;
+    c2 = c2 * u_2 + 18.214174f;
+    c2 = c2_next * u + c2;
+    float c3 = -4043.045f;
+    float c3_next = -571.57196f;
+    c3 = c3 * u_2 + 1029.6454f;
+    c3_next = c3_next * u_2 + 170.51016f;
+    c3 = c3 * u_2 + 20.53696f;
+    c3_next = c3_next * u_2 + -176.53555f;
+    c3 = c3 * u + c3_next;
+    float c4 = -135381.02f;
+    float c4_next = -28945.357f;
+    c4 = c4 * u_2 + 22598.066f;
+    c4_next = c4_next * u_2 + 3121.8225f;
+    c4 = c4 * u_2 + 1295.5762f;
+    c4 = c4_next * u + c4;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
@@ -211,6 +162,22 @@ inline float target_specular(const Terms& terms, std::size_t i, float specular) 
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
   sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.98485595f;
+  float c0 = -13.768891f;
+  c0 = c0 * u + -0.75231564f;
+  c0 = c0 * u + 0.411274f;
+  float c1 = -20.34249f;
+  c1 = c1 * u + 10.948648f;
+  const float c2 = 20.117023f;
+  const float w = specular - 0.04000008f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -280,13 +247,29 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
                                  kDomainMax.f0, 12.5f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return std::sqrt(alpha); }
-  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -297,6 +280,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.97459143f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.9697119f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -404,8 +401,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -415,13 +417,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -433,15 +524,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -449,16 +547,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -529,19 +630,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.08f}, {0.10199767f, 0.8669386f}, {4.8e-05f, 7.3e-05f}},
-      {{0.1275f, 0.074999996f}, {0.357394f, 0.8100164f}, {1.5e-05f, 7.3e-05f}},
-      {{0.24499999f, 0.07f}, {0.49698123f, 0.7549012f}, {1.1e-05f, 7.3e-05f}},
-      {{0.36249998f, 0.065f}, {0.60522074f, 0.7019877f}, {8.8e-06f, 7.3e-05f}},
-      {{0.48f, 0.06f}, {0.6981819f, 0.6502143f}, {7.8e-06f, 7.3e-05f}},
-      {{0.59749997f, 0.055f}, {0.78088623f, 0.5986553f}, {7.1e-06f, 7.3e-05f}},
-      {{0.715f, 0.049999997f}, {0.85538805f, 0.54680026f}, {6.6e-06f, 7.3e-05f}},
-      {{0.8325f, 0.044999998f}, {0.9242773f, 0.49447158f}, {6.2e-06f, 7.3e-05f}},
-      {{0.95f, 0.04f}, {0.989397f, 0.44169432f}, {5.9e-06f, 7.3e-05f}},
-      {{0.005f, 0.04f}, {0.10245263f, 0.40665638f}, {4.8e-05f, 7.3e-05f}},
-      {{1.425f, 0.02f}, {0.9921365f, 0.21458665f}, {5.9e-06f, 7.3e-05f}},
-      {{0.48f, 0.0f}, {0.6928074f, 0.0023205082f}, {7.8e-06f, 7.3e-05f}},
-      {{0.48f, 0.16f}, {0.6968069f, 1.7727821f}, {7.8e-06f, 0.00015f}},
+      {{0.01f, 0.08f}, {0.100044325f, 0.8241394f}, {1.8e-06f, 6.6e-05f}},
+      {{0.13375f, 0.074999996f}, {0.36630297f, 0.7696916f}, {1e-06f, 6.6e-05f}},
+      {{0.2575f, 0.07f}, {0.5097904f, 0.71870583f}, {9.8e-07f, 6.6e-05f}},
+      {{0.38125f, 0.065f}, {0.62198836f, 0.66873175f}, {9.9e-07f, 6.6e-05f}},
+      {{0.505f, 0.06f}, {0.7175396f, 0.620314f}, {1e-06f, 6.6e-05f}},
+      {{0.62875f, 0.055f}, {0.8022484f, 0.5719952f}, {1.1e-06f, 6.6e-05f}},
+      {{0.7525f, 0.049999997f}, {0.87910354f, 0.5230501f}, {1.1e-06f, 6.6e-05f}},
+      {{0.87625f, 0.044999998f}, {0.94987386f, 0.47426686f}, {1.1e-06f, 6.6e-05f}},
+      {{1.0f, 0.04f}, {1.0f, 0.3967222f}, {1.1e-06f, 6.6e-05f}},
+      {{0.005f, 0.04f}, {0.100044325f, 0.37935737f}, {1.8e-06f, 6.6e-05f}},
+      {{1.5f, 0.02f}, {1.0f, 0.19195747f}, {1.1e-06f, 6.6e-05f}},
+      {{0.505f, 0.0f}, {0.7175396f, 0.0097551f}, {1e-06f, 6.6e-05f}},
+      {{0.505f, 0.16f}, {0.7175396f, 1.7026287f}, {1e-06f, 0.00014f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to vtk/metal: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_vtk_metal.csv, sha256 458368903ef25cd9b20d6b6217ab565057d27a397da3f4474a851ef34b906418;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; VTK 9.7.2 PBR.
-// Fit: parametric, seed 1, 408 rows trained, 102 held out.
-// Error on the rows held out: alpha rms 0.00025, 99 % 0.00044, max 7e-04;
-// base_color rms 5.1e-05, 99 % 0.00014, max 0.00014.
-// Lowered from the fit. Target alpha: degree 6, proven within 3.8e-07 (sampled 3.2e-08), rising with alpha.
-// Target specular: degree 8, proven within 6.8e-05 (sampled 6.1e-05), rising with specular.
-// Covers alpha 0.01 to 1, f0 0 to 0.85.
+// Table mitsuba_ggx_to_vtk_metal.csv, sha256 74c8f255ce90e561b206a82d968a37566b53f90a862a3967fd3c4a404d3e09d1;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; VTK 9.7.2 PBR.
+// Fit: series, seed 1, 550 rows trained, 138 held out.
+// Error on the rows held out: alpha rms 0.00021, 99 % 0.00082, max 9e-04;
+// base_color rms 9.1e-05, 99 % 0.00027, max 3e-04.
+// Lowered from the fit. Target alpha: degree 8, proven within 4.2e-07 (sampled 3.4e-08), rising with alpha.
+// Target specular: degree 7, proven within 3.8e-05 (sampled 3.4e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 10, 3 in specular, proven within 7.8e-05 (sampled 6.6e-05).
+// All together within 0.00011 in alpha, 3.8e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_VTK_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_VTK_METAL_HPP
 
@@ -37,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "base_color";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00025f;
-inline constexpr float kSpecularRmsError = 5.1e-05f;
+inline constexpr float kAlphaRmsError = 0.00021f;
+inline constexpr float kSpecularRmsError = 9.1e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.029f;
+inline constexpr float kImageRmsError = 0.045f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -56,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. base_color is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 0.85f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,35 +77,124 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
+inline float target_alpha(float alpha, float) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = -1.5714284f;
-  float c0_next = -0.048104625f;
-  c0 = c0 * u_2 + 0.9620614f;
-  c0_next = c0_next * u_2 + -0.16835569f;
-  c0 = c0 * u_2 + -0.32823434f;
-  c0_next = c0_next * u_2 + 0.9935865f;
-  c0 = c0 * u_2 + 0.52570194f;
+  float c0 = 3.3653262f;
+  float c0_next = 3.437395f;
+  c0 = c0 * u_2 + -2.849165f;
+  c0_next = c0_next * u_2 + -1.582658f;
+  c0 = c0 * u_2 + 1.0888605f;
+  c0_next = c0_next * u_2 + 0.0387491f;
+  c0 = c0 * u_2 + -0.33829114f;
+  c0_next = c0_next * u_2 + 0.97865134f;
+  c0 = c0 * u_2 + 0.52444154f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.50500107f;
+    const float u_2 = u * u;
+    float c0 = 0.017428754f;
+    float c0_next = -0.00067206105f;
+    c0 = c0 * u_2 + -0.013275604f;
+    c0_next = c0_next * u_2 + 0.0019056485f;
+    c0 = c0 * u_2 + 0.0048866044f;
+    c0_next = c0_next * u_2 + -0.0019052398f;
+    c0 = c0 * u_2 + -0.00078025827f;
+    c0_next = c0_next * u_2 + 0.00032223025f;
+    c0 = c0 * u + c0_next;
+    float c1 = 6.7565355f;
+    float c1_next = -0.7296742f;
+    c1 = c1 * u_2 + -5.097437f;
+    c1_next = c1_next * u_2 + 1.6981903f;
+    c1 = c1 * u_2 + 1.4438238f;
+    c1_next = c1_next * u_2 + -1.3332968f;
+    c1 = c1 * u_2 + -0.27582374f;
+    c1_next = c1_next * u_2 + 1.1757703f;
+    c1 = c1 * u + c1_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c1 = -8.789308f;
-  float c1_next = 10.817753f;
-  c1 = c1 * u_2 + 0.1580817f;
-  c1_next = c1_next * u_2 + -5.7701583f;
-  c1 = c1 * u_2 + 2.4957767f;
-  c1_next = c1_next * u_2 + 0.9523397f;
-  c1 = c1 * u_2 + -1.3397362f;
-  c1_next = c1_next * u_2 + -0.14558196f;
-  c1 = c1 * u_2 + 1.1608989f;
-  c1 = c1_next * u + c1;
-  return c1;
+  float c0 = -114.27947f;
+  float c0_next = 233.08443f;
+  c0 = c0 * u_2 + 182.42982f;
+  c0_next = c0_next * u_2 + -29.903957f;
+  c0 = c0 * u_2 + -23.616766f;
+  c0_next = c0_next * u_2 + 2.9292862f;
+  c0 = c0 * u_2 + -0.9749615f;
+  c0_next = c0_next * u_2 + 0.23340476f;
+  c0 = c0 * u_2 + 0.7448995f;
+  c0_next = c0_next * u_2 + 1.0426761f;
+  c0 = c0 * u_2 + 0.47446522f;
+  c0 = c0_next * u + c0;
+  float c1 = -3554.128f;
+  float c1_next = -838.8325f;
+  c1 = c1 * u_2 + 926.1081f;
+  c1_next = c1_next * u_2 + 260.90945f;
+  c1 = c1 * u_2 + -42.98977f;
+  c1_next = c1_next * u_2 + -8.05878f;
+  c1 = c1 * u_2 + 3.5308278f;
+  c1_next = c1_next * u_2 + 0.8319943f;
+  c1 = c1 * u_2 + -1.4398118f;
+  c1_next = c1_next * u_2 + -0.6337775f;
+  c1 = c1 * u + c1_next;
+  float c2 = -12918.197f;
+  float c2_next = -6193.1772f;
+  c2 = c2 * u_2 + -1037.0325f;
+  c2_next = c2_next * u_2 + -399.57718f;
+  c2 = c2 * u_2 + -95.1014f;
+  c2_next = c2_next * u_2 + 9.820336f;
+  c2 = c2 * u_2 + -3.1072588f;
+  c2_next = c2_next * u_2 + -0.08177419f;
+  c2 = c2 * u_2 + 1.0506097f;
+  c2 = c2_next * u + c2;
+  float c3 = 16116.8545f;
+  float c3_next = 9230.422f;
+  c3 = c3 * u_2 + 595.0923f;
+  c3_next = c3_next * u_2 + -419.65637f;
+  c3 = c3 * u_2 + -6.25005f;
+  c3_next = c3_next * u_2 + 14.696486f;
+  c3 = c3 * u_2 + -1.0880498f;
+  c3 = c3_next * u + c3;
+  const float w = specular - 0.9204334f;
+  float sum = c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -172,14 +263,53 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.1764705f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return std::sqrt(alpha); }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.84086657f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -190,20 +320,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, clamped to 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float clamped, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(clamped) & 0x7fffffffu));
+  return float_from_bits((bits(clamped) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -212,16 +369,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const ClampedWidth clamped = clamped_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(clamped.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), clamped.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), clamped.nan));
-    store(block.outside + i, clamped.outside);
+    const ClampedWidth clamped = clamped_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(clamped.own));
+    store(block.scale + i, with_nan(1.0f, clamped.nan));
+    store(block.outside + i, clamped.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -231,18 +409,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, clamped_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -313,19 +646,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.85f}, {0.0997084f, 0.8520821f}, {2.4e-06f, 6.8e-05f}},
-      {{0.13375f, 0.796875f}, {0.36702496f, 0.84186435f}, {1.2e-06f, 6.8e-05f}},
-      {{0.2575f, 0.74375004f}, {0.51529366f, 0.82882434f}, {1.1e-06f, 6.8e-05f}},
-      {{0.38125f, 0.690625f}, {0.63107705f, 0.7993296f}, {1.1e-06f, 6.8e-05f}},
-      {{0.505f, 0.63750005f}, {0.7250523f, 0.74005216f}, {1.1e-06f, 6.8e-05f}},
-      {{0.62875f, 0.584375f}, {0.80220336f, 0.6571823f}, {1.1e-06f, 6.8e-05f}},
-      {{0.7525f, 0.53125f}, {0.86727095f, 0.56407994f}, {1.2e-06f, 6.8e-05f}},
-      {{0.87625f, 0.478125f}, {0.9244123f, 0.471136f}, {1.2e-06f, 6.8e-05f}},
-      {{1.0f, 0.425f}, {0.9746254f, 0.38413003f}, {1.2e-06f, 6.8e-05f}},
-      {{0.005f, 0.425f}, {0.0997084f, 0.42604104f}, {2.4e-06f, 6.8e-05f}},
-      {{1.5f, 0.2125f}, {0.9746254f, 0.19206502f}, {1.2e-06f, 6.8e-05f}},
-      {{0.505f, 0.0f}, {0.7250523f, 0.0f}, {1.1e-06f, 6.8e-05f}},
-      {{0.505f, 1.7f}, {0.7250523f, 1.9734724f}, {1.1e-06f, 0.00014f}},
+      {{0.01f, 1.0f}, {0.09998651f, 1.0f}, {0.00054f, 3.8e-05f}},
+      {{0.13375f, 0.9375f}, {0.3661099f, 1.0f}, {0.00015f, 3.8e-05f}},
+      {{0.2575f, 0.875f}, {0.5132893f, 1.0f}, {0.00011f, 3.8e-05f}},
+      {{0.38125f, 0.8125f}, {0.63116395f, 0.96506846f}, {8.6e-05f, 3.8e-05f}},
+      {{0.505f, 0.75f}, {0.7241826f, 0.8821168f}, {7.5e-05f, 3.8e-05f}},
+      {{0.62875f, 0.6875f}, {0.8004014f, 0.77311224f}, {6.8e-05f, 3.8e-05f}},
+      {{0.7525f, 0.625f}, {0.86528945f, 0.65608406f}, {6.3e-05f, 3.8e-05f}},
+      {{0.87625f, 0.5625f}, {0.9218139f, 0.54245317f}, {6e-05f, 3.8e-05f}},
+      {{1.0f, 0.5f}, {0.9717349f, 0.43816397f}, {5.7e-05f, 3.8e-05f}},
+      {{0.005f, 0.5f}, {0.1000586f, 0.5019891f}, {0.00054f, 3.8e-05f}},
+      {{1.5f, 0.25f}, {0.9717349f, 0.21901467f}, {5.7e-05f, 3.8e-05f}},
+      {{0.505f, 0.0f}, {0.7241826f, 0.00028885822f}, {7.5e-05f, 3.8e-05f}},
+      {{0.505f, 2.0f}, {0.65585047f, 2.0f}, {8.3e-05f, 7.6e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

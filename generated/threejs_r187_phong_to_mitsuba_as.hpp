@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // threejs-r187/phong to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table threejs_r187_phong_to_mitsuba_as.csv, sha256 ebd3187901c5d5e500198c8a4254d861d8efcb01bdbecf4b10f81b7d771bb166;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by three.js r0.187.0 (HeadlessChrome/156.0.8078.79); remapc 0.1.0.
-// Fit: mlp, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 1.3e-05, 99 % 4.8e-05, max 5e-05;
-// f0 rms 8.5e-06, 99 % 2.6e-05, max 6.9e-05.
-// Lowered from the fit. Target alpha: degree 6 on 4 pieces, 13 in specular, proven within 9.5e-06 (sampled 7.3e-06), rising with alpha.
-// Target specular: degree 13, 4 in specular, proven within 4.8e-05 (sampled 4.4e-05), rising with specular.
+// Table threejs_r187_phong_to_mitsuba_as.csv, sha256 cd0924b76089c25d0f5f86e64c5d4cd74039d8928027b474d656b05f64e53f89;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by three.js r0.187.0 (HeadlessChrome/156.0.8078.79); remapc 0.1.0.
+// Fit: series, seed 1, 480 rows trained, 120 held out.
+// Error on the rows held out: alpha rms 0.00011, 99 % 0.00032, max 0.00045;
+// f0 rms 4.1e-05, 99 % 0.00015, max 0.00015.
+// Lowered from the fit. Target alpha: degree 14 in alpha / (alpha + 1), 7 in specular, proven within 1e-05 (sampled 8.4e-06), rising with alpha.
+// Target specular: degree 7, proven within 1.2e-05 (sampled 5e-06), rising with specular.
 // Covers alpha 0.01 to 0.99, specular 0 to 1.
 #ifndef REMAP_GENERATED_THREEJS_R187_PHONG_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_THREEJS_R187_PHONG_TO_MITSUBA_AS_HPP
@@ -37,11 +37,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.3e-05f;
-inline constexpr float kSpecularRmsError = 8.5e-06f;
+inline constexpr float kAlphaRmsError = 0.00011f;
+inline constexpr float kSpecularRmsError = 4.1e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.052f;
+inline constexpr float kImageRmsError = 0.058f;
 
 struct Input {
   float exponent;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0
@@ -75,87 +75,80 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, clamped to [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[4][50] = {
-    {0.13110523f, 0.23733294f, -0.014144514f, -0.008885089f, -0.000411347f, 0.00089903065f, 0.0025723663f, 8.372267e-06f, -0.00010542539f, -0.0001380314f, -6.9441216e-05f, 0.00044687645f, 0.00021323466f, 1.0616866e-05f, 5.8108566e-05f, 0.00014414237f, 6.699893e-06f, -0.00052443036f, 0.0009922958f, -0.000424954f, -4.8958387e-05f, -0.0001448194f, -0.0012045831f, -0.0015434627f, 0.0005646208f, 0.0047224863f, 0.00035801783f, -0.0013027524f, -0.0034972262f, 0.005843753f, 0.0027651475f, -0.008032213f, -0.020194f, 0.0014333191f, 0.008164694f, -0.0004985797f, -0.00038480182f, 0.022456558f, 0.042449575f, -0.049427263f, 0.047495916f, 0.16508013f, 0.1100774f, -0.2575551f, -0.46828705f, -0.069581956f, 0.23326035f, 0.115723155f, -0.012259635f, 0.26871455f},
-    {0.34782642f, 0.19495003f, -0.017134981f, 0.006792357f, -0.0038590583f, -0.0035793143f, 0.0050071916f, -0.00013444504f, -0.0002684798f, -0.0002685462f, 0.00017762682f, 0.00047914215f, 0.00041498145f, 0.00036341854f, 8.712609e-05f, 0.00021976062f, 0.0003827703f, -0.00012676069f, 0.00017716258f, 0.0001567296f, -0.000844884f, -0.001266287f, -0.0031818282f, -0.0018108389f, 0.0017649973f, 0.008373437f, 0.003305009f, -0.008580502f, 0.021443559f, 0.035675064f, -0.01396036f, -0.09221784f, -0.10943512f, 0.07891757f, -0.122580774f, -0.21894889f, 0.08370212f, 0.46194375f, 0.64046884f, -0.44153914f, 0.8302885f, 1.404735f, 0.118537195f, -2.3430293f, -3.4942634f, 0.34721306f, -0.3077823f, -1.1978084f, 2.2054653f, 4.166735f},
-    {0.52905494f, 0.16915527f, -0.011660332f, -0.00041249505f, 0.0004886099f, 0.0006862933f, -0.0019825622f, -0.00039940156f, -0.0003349916f, -0.00037007293f, -2.6718684e-05f, 0.00059859804f, 0.0011523803f, 0.0009481252f, -0.0005377419f, -0.00012571423f, 0.0017643027f, -0.0015136796f, -0.0022406701f, 0.0023609884f, 0.0006938408f, -0.0047027664f, -0.010682857f, -0.005813557f, 0.016520316f, 0.030026415f, 0.015585385f, -0.05741161f, 0.19265796f, 0.20167561f, -0.22411658f, -0.52250946f, -0.42352983f, 0.7341541f, -1.4740549f, -1.9682751f, 1.1151503f, 3.4945006f, 3.8280597f, -3.6347086f, 6.953406f, 10.029053f, -1.5063552f, -15.303393f, -19.872915f, 5.454307f, -7.8842363f, -13.955098f, 19.281395f, 29.98512f},
-    {0.6862909f, 0.14523174f, -0.011570244f, 0.000754952f, -0.00061728334f, -0.0010848927f, 0.0002241997f, -0.00091369526f, -0.0006514011f, -0.00015973611f, 4.8101247e-06f, 5.0991242e-05f, 0.002648664f, 0.0021714487f, -7.6330114e-05f, -0.00062498933f, -0.00056669663f, -0.002579836f, -0.0020071424f, -0.0024832208f, 0.0012609162f, 0.0016595874f, -0.021645186f, 0.004175045f, 0.0570926f, -0.028866569f, -0.12696798f, -0.04460488f, 0.56039286f, 0.13383268f, -1.0240391f, 0.08268914f, 2.0117927f, 1.4898852f, -5.6952767f, -3.9070673f, 6.24935f, 2.037645f, -10.377727f, -10.90662f, 29.273846f, 29.61261f, -11.504781f, -27.589285f, 3.488584f, 21.829208f, -42.6632f, -55.60283f, 51.75344f, 34.95897f},
-};
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float x = alpha * 4.0816236f - 0.04081609f;
-  const std::int32_t cell = cell_of(x, 3);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25369447f;
   const float u_2 = u * u;
-  float c0 = row[6];
-  float c0_next = row[5];
-  c0 = c0 * u_2 + row[4];
-  c0_next = c0_next * u_2 + row[3];
-  c0 = c0 * u_2 + row[2];
-  c0_next = c0_next * u_2 + row[1];
-  c0 = c0 * u_2 + row[0];
+  float c0 = -14744902.0f;
+  float c0_next = -4735222.0f;
+  c0 = c0 * u_2 + 1725348.6f;
+  c0_next = c0_next * u_2 + 597806.1f;
+  c0 = c0 * u_2 + -66204.125f;
+  c0_next = c0_next * u_2 + -20232.05f;
+  c0 = c0 * u_2 + 3247.985f;
+  c0_next = c0_next * u_2 + 118.34682f;
+  c0 = c0 * u_2 + -294.97305f;
+  c0_next = c0_next * u_2 + -23.802622f;
+  c0 = c0 * u_2 + 13.823459f;
+  c0_next = c0_next * u_2 + 2.8261461f;
+  c0 = c0 * u_2 + 0.98116547f;
+  c0_next = c0_next * u_2 + 1.4698834f;
+  c0 = c0 * u_2 + 0.31643614f;
   c0 = c0_next * u + c0;
-  float c1 = row[11];
-  float c1_next = row[10];
-  c1 = c1 * u_2 + row[9];
-  c1_next = c1_next * u_2 + row[8];
-  c1 = c1 * u_2 + row[7];
+  float c1 = 33.854294f;
+  float c1_next = 10.345899f;
+  c1 = c1 * u_2 + -3.0739849f;
+  c1_next = c1_next * u_2 + -1.4956107f;
+  c1 = c1 * u_2 + -0.12977125f;
+  c1_next = c1_next * u_2 + -0.030433927f;
+  c1 = c1 * u_2 + -0.02598438f;
+  c1_next = c1_next * u_2 + -0.0039956113f;
+  c1 = c1 * u_2 + 2.818468e-05f;
   c1 = c1_next * u + c1;
-  float c2 = row[16];
-  float c2_next = row[15];
-  c2 = c2 * u_2 + row[14];
-  c2_next = c2_next * u_2 + row[13];
-  c2 = c2 * u_2 + row[12];
-  c2 = c2_next * u + c2;
-  float c3 = row[21];
-  float c3_next = row[20];
-  c3 = c3 * u_2 + row[19];
-  c3_next = c3_next * u_2 + row[18];
-  c3 = c3 * u_2 + row[17];
-  c3 = c3_next * u + c3;
-  float c4 = row[24];
-  c4 = c4 * u + row[23];
-  c4 = c4 * u + row[22];
-  float c5 = row[27];
-  c5 = c5 * u + row[26];
-  c5 = c5 * u + row[25];
-  float c6 = row[30];
-  c6 = c6 * u + row[29];
-  c6 = c6 * u + row[28];
-  float c7 = row[33];
-  c7 = c7 * u + row[32];
-  c7 = c7 * u + row[31];
-  float c8 = row[36];
-  c8 = c8 * u + row[35];
-  c8 = c8 * u + row[34];
-  float c9 = row[39];
-  c9 = c9 * u + row[38];
-  c9 = c9 * u + row[37];
-  float c10 = row[42];
-  c10 = c10 * u + row[41];
-  c10 = c10 * u + row[40];
-  float c11 = row[45];
-  c11 = c11 * u + row[44];
-  c11 = c11 * u + row[43];
-  float c12 = row[47];
-  c12 = c12 * u + row[46];
-  float c13 = row[49];
-  c13 = c13 * u + row[48];
+  float c2 = 40.704796f;
+  float c2_next = 10.397993f;
+  c2 = c2 * u_2 + -5.2173095f;
+  c2_next = c2_next * u_2 + -0.79356164f;
+  c2 = c2 * u_2 + 0.34185037f;
+  c2_next = c2_next * u_2 + 0.10970004f;
+  c2 = c2 * u_2 + 0.024284557f;
+  c2_next = c2_next * u_2 + 0.0026396788f;
+  c2 = c2 * u + c2_next;
+  float c3 = -86.15146f;
+  float c3_next = -27.194973f;
+  c3 = c3 * u_2 + 14.085974f;
+  c3_next = c3_next * u_2 + 5.7932696f;
+  c3 = c3 * u_2 + 0.4648239f;
+  c3_next = c3_next * u_2 + 0.11196934f;
+  c3 = c3 * u_2 + -0.024781855f;
+  c3_next = c3_next * u_2 + -0.011986686f;
+  c3 = c3 * u + c3_next;
+  float c4 = 15.638949f;
+  float c4_next = -3.604065f;
+  c4 = c4 * u_2 + -3.1036313f;
+  c4_next = c4_next * u_2 + -0.93200094f;
+  c4 = c4 * u_2 + -0.30144814f;
+  c4_next = c4_next * u_2 + -0.03724641f;
+  c4 = c4 * u + c4_next;
+  float c5 = -45.451878f;
+  float c5_next = -23.613049f;
+  c5 = c5 * u_2 + -5.4686017f;
+  c5_next = c5_next * u_2 + -1.4624001f;
+  c5 = c5 * u_2 + 0.34095356f;
+  c5_next = c5_next * u_2 + 0.12533852f;
+  c5 = c5 * u + c5_next;
+  float c6 = 36.41807f;
+  float c6_next = 19.26746f;
+  c6 = c6 * u_2 + 6.6191187f;
+  c6_next = c6_next * u_2 + 1.7412755f;
+  c6 = c6 * u_2 + 0.18141693f;
+  c6 = c6_next * u + c6;
+  float c7 = -5.581634f;
+  c7 = c7 * u + -4.051341f;
+  c7 = c7 * u + -2.691792f;
+  c7 = c7 * u + -0.47042793f;
   const float w = specular - 0.500001f;
-  float sum = c13;
-  sum = sum * w + c12;
-  sum = sum * w + c11;
-  sum = sum * w + c10;
-  sum = sum * w + c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
+  float sum = c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
@@ -169,7 +162,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
 };
 
 template <class Count>
@@ -186,55 +179,32 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.5000011f;
     const float u_2 = u * u;
-    float c0 = 325.2793f;
-    float c0_next = 48.762505f;
-    c0 = c0 * u_2 + -315.2286f;
-    c0_next = c0_next * u_2 + -22.332697f;
-    c0 = c0 * u_2 + 121.590164f;
-    c0_next = c0_next * u_2 + -1.071142f;
-    c0 = c0 * u_2 + -23.938553f;
-    c0_next = c0_next * u_2 + 2.8179293f;
-    c0 = c0 * u_2 + 2.368608f;
-    c0_next = c0_next * u_2 + -0.92758054f;
-    c0 = c0 * u_2 + 0.101759136f;
-    c0_next = c0_next * u_2 + 0.12697928f;
-    c0 = c0 * u_2 + -0.16436745f;
-    c0_next = c0_next * u_2 + 0.20328051f;
+    float c0 = -0.009513018f;
+    float c0_next = 0.009794185f;
+    c0 = c0 * u_2 + 0.0051832027f;
+    c0_next = c0_next * u_2 + -0.006507875f;
+    c0 = c0 * u_2 + 8.12171e-06f;
+    c0_next = c0_next * u_2 + 0.0018469923f;
+    c0 = c0 * u_2 + -0.0003347444f;
+    c0_next = c0_next * u_2 + -0.00048691512f;
     c0 = c0 * u + c0_next;
-    float c1 = -110.90862f;
-    float c1_next = 22.631392f;
-    c1 = c1 * u_2 + 82.958565f;
-    c1_next = c1_next * u_2 + -19.351856f;
-    c1 = c1 * u_2 + -23.95509f;
-    c1_next = c1_next * u_2 + 7.6015043f;
-    c1 = c1 * u_2 + 2.9668434f;
-    c1_next = c1_next * u_2 + -1.9413525f;
-    c1 = c1 * u_2 + 0.2598978f;
-    c1_next = c1_next * u_2 + 0.25285807f;
-    c1 = c1 * u_2 + -0.32783478f;
-    c1_next = c1_next * u_2 + 0.40614274f;
+    float c1 = -2.702591f;
+    float c1_next = 1.7419076f;
+    c1 = c1 * u_2 + 1.1739658f;
+    c1_next = c1_next * u_2 + -1.2106416f;
+    c1 = c1 * u_2 + 0.13798839f;
+    c1_next = c1_next * u_2 + 0.24385695f;
+    c1 = c1 * u_2 + -0.26078978f;
+    c1_next = c1_next * u_2 + 0.3635764f;
     c1 = c1 * u + c1_next;
-    float c2 = 0.00042795116f;
-    c2 = c2 * u + -3.6478235e-05f;
-    float c3 = 0.00043236458f;
-    c3 = c3 * u + -3.6459674e-05f;
-    float c4 = -0.0023693657f;
-    c4 = c4 * u + 0.0002507931f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -553,19 +523,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.0406081f, 1.0f}, {0.7557356f, 0.29699293f}, {1.1e-05f, 4.9e-05f}},
-      {{2499.7856f, 0.9375f}, {0.028252654f, 0.49750713f}, {1e-05f, 4.9e-05f}},
-      {{4999.5303f, 0.875f}, {0.019992918f, 0.4646946f}, {1e-05f, 4.9e-05f}},
-      {{7499.2754f, 0.8125f}, {0.016332924f, 0.4316654f}, {1e-05f, 4.9e-05f}},
-      {{9999.0205f, 0.75f}, {0.014149964f, 0.39857507f}, {1e-05f, 4.9e-05f}},
-      {{12498.766f, 0.6875f}, {0.012658012f, 0.36545306f}, {1e-05f, 4.9e-05f}},
-      {{14998.51f, 0.625f}, {0.0115541f, 0.3323107f}, {1e-05f, 4.9e-05f}},
-      {{17498.256f, 0.5625f}, {0.01069398f, 0.2991546f}, {1e-05f, 4.9e-05f}},
-      {{19998.0f, 0.5f}, {0.009999688f, 0.2659886f}, {1e-05f, 4.9e-05f}},
-      {{0.02030405f, 0.5f}, {0.7560386f, 0.14852637f}, {1.1e-05f, 4.9e-05f}},
-      {{29997.0f, 0.25f}, {0.010007728f, 0.1332728f}, {1e-05f, 4.8e-05f}},
-      {{9999.0205f, 0.0f}, {0.014169005f, 0.0006123793f}, {1e-05f, 4.8e-05f}},
-      {{9999.0205f, 2.0f}, {0.014130416f, 1.0625646f}, {1e-05f, 9.7e-05f}},
+      {{0.0406081f, 1.0f}, {0.7703313f, 0.27935588f}, {1.1e-05f, 1.2e-05f}},
+      {{2499.7856f, 0.9375f}, {0.028263226f, 0.44253126f}, {1.1e-05f, 1.2e-05f}},
+      {{4999.5303f, 0.875f}, {0.019997276f, 0.41338435f}, {1.1e-05f, 1.2e-05f}},
+      {{7499.2754f, 0.8125f}, {0.0163308f, 0.3839897f}, {1.1e-05f, 1.2e-05f}},
+      {{9999.0205f, 0.75f}, {0.014141774f, 0.35451663f}, {1.1e-05f, 1.2e-05f}},
+      {{12498.766f, 0.6875f}, {0.012646353f, 0.3250065f}, {1.1e-05f, 1.2e-05f}},
+      {{14998.51f, 0.625f}, {0.011543123f, 0.29547527f}, {1.1e-05f, 1.2e-05f}},
+      {{17498.256f, 0.5625f}, {0.010687224f, 0.2659305f}, {1.1e-05f, 1.2e-05f}},
+      {{19998.0f, 0.5f}, {0.009998105f, 0.23637643f}, {1.1e-05f, 1.2e-05f}},
+      {{0.02030405f, 0.5f}, {0.77101016f, 0.13949338f}, {1.1e-05f, 1.2e-05f}},
+      {{29997.0f, 0.25f}, {0.009995247f, 0.11808483f}, {1.1e-05f, 1.2e-05f}},
+      {{9999.0205f, 0.0f}, {0.014127969f, 0.0f}, {1.1e-05f, 1.2e-05f}},
+      {{9999.0205f, 2.0f}, {0.014142309f, 0.9455144f}, {1.1e-05f, 2.4e-05f}},
   }};
   std::array<float, kGolden.size()> exponent{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

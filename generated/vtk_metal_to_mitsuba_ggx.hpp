@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // vtk/metal to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table vtk_metal_to_mitsuba_ggx.csv, sha256 58d7acf066683132323055f8b40220c5e243e9663f7ce5869325a2953e9741c2;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by VTK 9.7.2 PBR; remapc 0.1.0.
-// Fit: parametric, seed 1, 403 rows trained, 101 held out.
-// Error on the rows held out: alpha rms 0.00014, 99 % 0.00041, max 0.00062;
-// f0 rms 0.00014, 99 % 0.00047, max 0.00053.
-// Lowered from the fit. Target alpha: degree 6, proven within 3.5e-07 (sampled 1.9e-08), rising with alpha.
-// Target specular: degree 8 in alpha / (alpha + 1), proven within 7.1e-05 (sampled 6.4e-05), rising with specular.
-// Covers alpha 0.01 to 0.931724138, base_color 0 to 0.9.
+// Table vtk_metal_to_mitsuba_ggx.csv, sha256 a21ffd1ef3cecc536bb263f5c1251cc8ac48686dd59b03d54a05d07de0127712;
+// objective natural-2 (lights 65, weighting relative), 512 pixels squared, by VTK 9.7.2 PBR; remapc 0.1.0.
+// Fit: series, seed 1, 504 rows trained, 126 held out.
+// Error on the rows held out: alpha rms 9.5e-05, 99 % 0.00038, max 6e-04;
+// f0 rms 9.3e-05, 99 % 0.00036, max 0.00042.
+// Lowered from the fit. Target alpha: degree 7, 2 in specular, proven within 8.6e-06 (sampled 7.6e-06), rising with alpha.
+// Target specular: degree 5, proven within 2.9e-05 (sampled 2.1e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, proven within 6.2e-05 (sampled 5.8e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 2, 2 in specular, proven within 2.1e-07 (sampled 8.2e-09), rising with alpha.
+// All together within 0.00013 in alpha, 6.8e-05 in specular.
+// Covers alpha 0.01 to 1, base_color 0 to 1.
 #ifndef REMAP_GENERATED_VTK_METAL_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_VTK_METAL_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00014f;
-inline constexpr float kSpecularRmsError = 0.00014f;
+inline constexpr float kAlphaRmsError = 9.5e-05f;
+inline constexpr float kSpecularRmsError = 9.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.028f;
+inline constexpr float kImageRmsError = 0.034f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
 // of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.9652586f, 0.9f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,36 +77,111 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.47086304f;
+inline float target_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.48328975f;
   const float u_2 = u * u;
-  float c0 = 1.3875395f;
-  float c0_next = -0.1540671f;
-  c0 = c0 * u_2 + -0.6957783f;
-  c0_next = c0_next * u_2 + 0.3175905f;
-  c0 = c0 * u_2 + 0.25970015f;
-  c0_next = c0_next * u_2 + 0.9763014f;
-  c0 = c0 * u_2 + 0.45079446f;
-  c0 = c0_next * u + c0;
-  return c0;
+  float c0 = -2.2408319f;
+  float c0_next = 1.127968f;
+  c0 = c0 * u_2 + 0.92560875f;
+  c0_next = c0_next * u_2 + -0.6052743f;
+  c0 = c0 * u_2 + 0.16936387f;
+  c0_next = c0_next * u_2 + 0.27926075f;
+  c0 = c0 * u_2 + 0.9941996f;
+  c0_next = c0_next * u_2 + 0.4636875f;
+  c0 = c0 * u + c0_next;
+  float c1 = -0.005580332f;
+  float c1_next = 0.0031184817f;
+  c1 = c1 * u_2 + 0.015884334f;
+  c1_next = c1_next * u_2 + 0.006181524f;
+  c1 = c1 * u_2 + -0.0013164706f;
+  c1_next = c1_next * u_2 + -0.00062612037f;
+  c1 = c1 * u + c1_next;
+  float c2 = -0.01450255f;
+  float c2_next = -0.035274923f;
+  c2 = c2 * u_2 + -0.013176729f;
+  c2_next = c2_next * u_2 + 0.0033246262f;
+  c2 = c2 * u_2 + 0.0015240614f;
+  c2 = c2_next * u + c2;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float t = alpha / (alpha + 1.0f);
-  const float u = t - 0.24611461f;
-  const float u_2 = u * u;
-  float c1 = -2378.6326f;
-  float c1_next = 369.04517f;
-  c1 = c1 * u_2 + 395.75125f;
-  c1_next = c1_next * u_2 + -31.760117f;
-  c1 = c1 * u_2 + 0.24944499f;
-  c1_next = c1_next * u_2 + 11.656146f;
-  c1 = c1 * u_2 + 1.9448292f;
-  c1_next = c1_next * u_2 + -0.4697f;
-  c1 = c1 * u_2 + 0.8766273f;
-  c1 = c1_next * u + c1;
-  return c1;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.48328975f;
+    const float u_2 = u * u;
+    float c0 = 0.012859162f;
+    float c0_next = -0.0030649605f;
+    c0 = c0 * u_2 + -0.005525729f;
+    c0_next = c0_next * u_2 + 0.0018375821f;
+    c0 = c0 * u_2 + 0.0006787798f;
+    c0_next = c0_next * u_2 + -0.0002901979f;
+    c0 = c0 * u + c0_next;
+    float c1 = 0.92196554f;
+    float c1_next = -0.25252095f;
+    c1 = c1 * u_2 + -0.0449626f;
+    c1_next = c1_next * u_2 + 1.0531762f;
+    c1 = c1 * u_2 + 0.113901265f;
+    c1_next = c1_next * u_2 + 0.8438904f;
+    c1 = c1 * u + c1_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.97554475f;
+  float c0 = -0.0012447325f;
+  c0 = c0 * u + 0.00018106433f;
+  float c1 = -1.0519305f;
+  c1 = c1 * u + 1.1059201f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.8975864f;
+  float c0 = -0.1044317f;
+  c0 = c0 * u + 0.66584575f;
+  c0 = c0 * u + 0.9192776f;
+  float c1 = 0.04724793f;
+  c1 = c1 * u + -0.6732116f;
+  const float c2 = 0.42486358f;
+  const float w = specular - 0.9482301f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -172,14 +250,53 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.base_color,
-                                 kDomainMax.base_color, 1.1111112f};
+                                 kDomainMax.base_color, 1.0f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.9565775f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.95108944f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.7951724f), clamped_above(specular, 0.89645994f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -190,20 +307,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, clamped to 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float clamped, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(clamped) & 0x7fffffffu));
+  return float_from_bits((bits(clamped) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -212,16 +356,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const ClampedWidth clamped = clamped_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(clamped.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), clamped.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), clamped.nan));
-    store(block.outside + i, clamped.outside);
+    const ClampedWidth clamped = clamped_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(clamped.own));
+    store(block.scale + i, with_nan(1.0f, clamped.nan));
+    store(block.outside + i, clamped.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -231,18 +396,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, clamped_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -313,19 +633,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 0.9f}, {0.010034978f, 0.8974473f}, {8.4e-07f, 7.1e-05f}},
-      {{0.20815733f, 0.84375f}, {0.043471556f, 0.82884926f}, {8.5e-07f, 7.1e-05f}},
-      {{0.31631464f, 0.78749996f}, {0.0998226f, 0.75573695f}, {8.8e-07f, 7.1e-05f}},
-      {{0.42447197f, 0.73125f}, {0.17732923f, 0.6789825f}, {9.2e-07f, 7.1e-05f}},
-      {{0.5326293f, 0.67499995f}, {0.27431762f, 0.60034364f}, {9.6e-07f, 7.1e-05f}},
-      {{0.64078665f, 0.61875f}, {0.39283133f, 0.5324726f}, {1.1e-06f, 7.1e-05f}},
-      {{0.7489439f, 0.5625f}, {0.5410063f, 0.48687413f}, {1.1e-06f, 7.1e-05f}},
-      {{0.85710126f, 0.50624996f}, {0.729101f, 0.46895525f}, {1.2e-06f, 7.1e-05f}},
-      {{0.9652586f, 0.45f}, {0.9656834f, 0.4797563f}, {1.3e-06f, 7.1e-05f}},
-      {{0.05f, 0.45f}, {0.010034978f, 0.44872364f}, {8.4e-07f, 7.1e-05f}},
-      {{1.4478879f, 0.225f}, {0.9656834f, 0.23987815f}, {1.3e-06f, 7.1e-05f}},
-      {{0.5326293f, 0.0f}, {0.27431762f, 0.0f}, {9.6e-07f, 7.1e-05f}},
-      {{0.5326293f, 1.8f}, {0.27431762f, 1.6009164f}, {9.6e-07f, 0.00015f}},
+      {{0.1f, 1.0f}, {0.009990232f, 0.99600405f}, {0.00013f, 6.8e-05f}},
+      {{0.2125f, 0.9375f}, {0.045127567f, 0.91468585f}, {0.00014f, 6.8e-05f}},
+      {{0.325f, 0.875f}, {0.10522229f, 0.8234963f}, {0.00014f, 6.8e-05f}},
+      {{0.4375f, 0.8125f}, {0.18782413f, 0.72912616f}, {0.00014f, 6.8e-05f}},
+      {{0.55f, 0.75f}, {0.29127774f, 0.642814f}, {0.00014f, 6.8e-05f}},
+      {{0.6625f, 0.6875f}, {0.42003524f, 0.5778284f}, {0.00014f, 6.8e-05f}},
+      {{0.775f, 0.625f}, {0.58431053f, 0.5445911f}, {0.00014f, 6.8e-05f}},
+      {{0.8875f, 0.5625f}, {0.7945145f, 0.5484198f}, {0.00014f, 6.8e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.5402758f}, {0.00014f, 6.8e-05f}},
+      {{0.05f, 0.5f}, {0.009990086f, 0.4979552f}, {0.00013f, 6.8e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.27020583f}, {0.00014f, 6.8e-05f}},
+      {{0.55f, 0.0f}, {0.2916049f, 0.0f}, {0.00014f, 6.8e-05f}},
+      {{0.55f, 2.0f}, {0.2913382f, 1.7143974f}, {0.00014f, 0.00014f}},
   }};
   std::array<float, kGolden.size()> roughness{}, base_color{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -13,14 +13,17 @@
 namespace remap {
 namespace {
 
-// The joint of the wide regime is one more width, with a row for each specular. Nine rows determine a bright
-// series of degree 2.
-constexpr std::size_t kFewestWide = 8, kFewestBright = 9, kFewestBrightWidths = 2;
+// The joint of the wide regime is one more width, with a row for each specular. Five rows determine a bright
+// series of degree 1.
+constexpr std::size_t kFewestWide = 8, kFewestBright = 5, kFewestBrightWidths = 2;
 // Widths beyond the joint at every specular to which the mapping is continued. One would do; the second keeps
 // a curve from turning back.
 constexpr std::size_t kContinuedWidths = 2;
 constexpr int kContinuedSpeculars = 5;  // rows of a column
-constexpr int kSpeculars = 33;          // at which a joint is looked for
+// Share of its own range by which a wide column is continued: its series has degree 2, and must not bend to
+// rows that nobody measured.
+constexpr double kContinuedWide = 0.25;
+constexpr int kSpeculars = 33;  // at which a joint is looked for
 constexpr int kHalvings = 40;
 // Pictures are affine in specular, nearly so after the match.
 constexpr int kWideSpeculars = 2;
@@ -60,7 +63,8 @@ void continue_in_specular(const Column& column, RowStatus regime, std::vector<Ta
   if (!(run > 0.0)) return;
   const double slope = (last.specular2 - before.specular2) / run;
   // Few rows, so that they do not outweigh those that were measured.
-  const double room = column.back().specular1 - last.specular1;
+  double room = column.back().specular1 - last.specular1;
+  if (regime == RowStatus::kWide) room = std::min(room, kContinuedWide * last.specular1);
   for (int i = 1; i <= kContinuedSpeculars && room > 0.0; ++i) {
     TableRow row = last;
     row.specular1 = last.specular1 + room * i / kContinuedSpeculars;

@@ -1,5 +1,7 @@
 #include "table/material_table.hpp"
 
+#include "core/nearest_name.hpp"
+
 namespace remap {
 namespace {
 
@@ -7,12 +9,6 @@ std::vector<std::string> split_names(const std::string& text) {
   std::vector<std::string> names;
   for (const CsvCell& cell : split_csv_line(text, ',')) names.emplace_back(cell.text);
   return names;
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
 }
 
 std::size_t place_of(const Csv& csv, const std::string& column) {
@@ -63,7 +59,7 @@ MaterialTable parse_material_table(std::string_view text, const std::string& nam
 }
 
 std::string material_table_text(const MaterialTable& table) {
-  const std::string sources = joined(table.source_columns), targets = joined(table.target_columns);
+  const std::string sources = joined(table.source_columns, ","), targets = joined(table.target_columns, ",");
   Comments comments = table.comments;
   comments.emplace_back(kSourceColumnsComment, sources);
   comments.emplace_back(kTargetColumnsComment, targets);

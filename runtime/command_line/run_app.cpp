@@ -124,13 +124,26 @@ std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) 
   return what + see_help(command);
 }
 
+// `PROGRAM help COMMAND` and `PROGRAM version` as the options of that name, which CLI11 takes in reverse.
+std::vector<std::string> words_of(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  } else if (words.size() == 1 && words.front() == "version") {
+    words.front() = "--version";
+  }
+  std::ranges::reverse(words);
+  return words;
+}
+
 int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   lay_out_help(app);
   try {
     if (argc == 2 && argv[1] == std::string_view("--help-table"))
       std::cout << help_table(app).dump(1) << '\n';
     else
-      app.parse(argc, argv);
+      app.parse(words_of(argc, argv));
   } catch (const CLI::Success& answer) {
     app.exit(answer);
   } catch (const CLI::ParseError& error) {

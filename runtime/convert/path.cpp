@@ -18,12 +18,6 @@ double middle_alpha(const ConverterInfo& info) {
   return 0.5 * (to_alpha(convention, info.roughness.min) + to_alpha(convention, info.roughness.max));
 }
 
-std::string joined(const std::vector<std::string>& names, const char* separator) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
-  return text;
-}
-
 // Sorted, each name once.
 std::vector<std::string> unique_names(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());

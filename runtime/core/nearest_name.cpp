@@ -1,7 +1,6 @@
 #include "core/nearest_name.hpp"
 
 #include <algorithm>
-#include <vector>
 
 namespace remap {
 namespace {
@@ -46,13 +45,32 @@ std::string closest_name(std::string_view name, std::span<const std::string> can
   return *std::min_element(candidates.begin(), candidates.end(), nearer);
 }
 
+// Of a name that holds the other: as near as one with so many wrong letters.
+constexpr std::size_t kPartDistance = 3;
+
+std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates,
+                                       std::size_t count) {
+  const auto rank = [name](const std::string& candidate) {
+    const bool is_part =
+        candidate.find(name) != std::string::npos || name.find(candidate) != std::string::npos;
+    return is_part ? std::min(edit_distance(name, candidate), kPartDistance) : edit_distance(name, candidate);
+  };
+  std::ranges::stable_sort(candidates, {}, rank);
+  candidates.resize(std::min(candidates.size(), count));
+  return candidates;
+}
+
+std::string joined(std::span<const std::string> names, std::string_view between) {
+  std::string text;
+  for (const std::string& name : names) (text += text.empty() ? "" : between) += name;
+  return text;
+}
+
 std::string suggestion(std::string_view name, std::span<const std::string> candidates) {
   if (const std::string nearest = nearest_name(name, candidates); !nearest.empty())
     return " (did you mean " + nearest + "?)";
   if (candidates.empty()) return "";
-  std::string text = " (choose ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) text += (i == 0 ? "" : ", ") + candidates[i];
-  return text + ")";
+  return " (choose " + joined(candidates, ", ") + ")";
 }
 
 }  // namespace remap

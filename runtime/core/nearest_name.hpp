@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace remap {
 
@@ -14,6 +15,14 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
 // The candidate with the smallest such distance, however large; the first of equals. `candidates` must not be
 // empty.
 std::string closest_name(std::string_view name, std::span<const std::string> candidates);
+
+// Up to `count` candidates, the nearest first by that distance; those that hold `name` or are held in it are
+// at most three away.
+std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates,
+                                       std::size_t count);
+
+// `names` in a line, with `between` between two.
+std::string joined(std::span<const std::string> names, std::string_view between);
 
 // The end of a message: ` (did you mean X?)` for a near name, else ` (choose A, B, C)`; empty without
 // candidates.

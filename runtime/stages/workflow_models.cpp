@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "remap/workflow.hpp"
 
 namespace remap {
@@ -31,7 +34,75 @@ std::vector<WorkflowModel> make_models() {
   };
 }
 
+// What engines and tools document of their default material.
+constexpr std::string_view kLayered = "index 1.5, the diffuse lobe has what the specular lobe leaves";
+constexpr std::string_view kPlainMetal = "base color (1 - metallic), F0 0.04";
+constexpr std::string_view kUnityLit = "Lit and Standard: base color 0.96 (1 - metallic), F0 0.04";
+constexpr std::string_view kUnitySpecular = "specular setup: diffuse counts 1 - max(specular), smoothness";
+constexpr std::string_view kPrincipled = "the Principled BSDF of Blender 5";
+constexpr std::string_view kUnrealLit =
+    "default lit: base color (1 - metallic), F0 0.04 at a Specular of 0.5";
+constexpr std::array<ModelAlias, 44> kAliases = {{
+    {"ambientcg", "metallic", kPlainMetal},
+    {"arnold", "gltf", kLayered},
+    {"babylon", "gltf", kLayered},
+    {"blender", "cycles-5/principled", kPrincipled},
+    {"cycles/principled", "cycles-5/principled", kPrincipled},
+    {"filament", "metallic", kPlainMetal},
+    {"glb", "gltf", kLayered},
+    {"gltf-2-0", "gltf", kLayered},
+    {"gltf2", "gltf", kLayered},
+    {"godot", "metallic", "StandardMaterial3D: base color (1 - metallic), F0 0.04 at a specular of 0.5"},
+    {"khr-materials-pbrspecularglossiness", "gltf-specgloss", "the extension of glTF 2.0"},
+    {"marmoset", "metallic", kPlainMetal},
+    {"megascans", "metallic", kPlainMetal},
+    {"metal-rough", "metallic", kPlainMetal},
+    {"metallic-roughness", "metallic", kPlainMetal},
+    {"metalness", "metallic", kPlainMetal},
+    {"metalrough", "metallic", kPlainMetal},
+    {"openpbr", "gltf", kLayered},
+    {"pbr", "metallic", kPlainMetal},
+    {"playcanvas", "metallic", kPlainMetal},
+    {"polyhaven", "metallic", kPlainMetal},
+    {"preview-surface", "usd-preview-surface", "UsdPreviewSurface with metallic"},
+    {"principled", "cycles-5/principled", kPrincipled},
+    {"principled-bsdf", "cycles-5/principled", kPrincipled},
+    {"quixel", "metallic", kPlainMetal},
+    {"spec-gloss", "gltf-specgloss", "diffuse counts 1 - max(specular), alpha = (1 - glossiness)^2"},
+    {"specgloss", "gltf-specgloss", "diffuse counts 1 - max(specular), alpha = (1 - glossiness)^2"},
+    {"specular-glossiness", "gltf-specgloss", "diffuse counts 1 - max(specular), alpha = (1 - glossiness)^2"},
+    {"standard-surface", "gltf", kLayered},
+    {"substance", "metallic", kPlainMetal},
+    {"three", "threejs/standard", "MeshStandardMaterial"},
+    {"three-js", "threejs/standard", "MeshStandardMaterial"},
+    {"threejs", "threejs/standard", "MeshStandardMaterial"},
+    {"ue4", "metallic", kUnrealLit},
+    {"ue5", "metallic", kUnrealLit},
+    {"unity", "gltf", kUnityLit},
+    {"unity-hdrp", "gltf", kUnityLit},
+    {"unity-specular", "gltf-specgloss", kUnitySpecular},
+    {"unity-urp", "gltf", kUnityLit},
+    {"unreal", "metallic", kUnrealLit},
+    {"unreal-engine", "metallic", kUnrealLit},
+    {"usd", "usd-preview-surface", "UsdPreviewSurface with metallic"},
+    {"usdpreviewsurface", "usd-preview-surface", "UsdPreviewSurface with metallic"},
+    {"usdz", "usd-preview-surface", "UsdPreviewSurface with metallic"},
+}};
+
 }  // namespace
+
+std::span<const ModelAlias> model_aliases() { return kAliases; }
+
+const ModelAlias* find_alias(std::string_view name) {
+  const auto is_typed = [name](const ModelAlias& alias) {
+    return std::ranges::equal(name, alias.name, [](char typed, char known) {
+      if (typed >= 'A' && typed <= 'Z') typed = static_cast<char>(typed - 'A' + 'a');
+      return (typed == '_' || typed == '.' || typed == ' ' ? '-' : typed) == known;
+    });
+  };
+  const auto* found = std::ranges::find_if(kAliases, is_typed);
+  return found == kAliases.end() ? nullptr : found;
+}
 
 const std::vector<WorkflowModel>& workflow_models() {
   static const std::vector<WorkflowModel> models = make_models();
@@ -55,16 +126,23 @@ WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, Roughnes
   return model;
 }
 
-bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf) {
-  const WorkflowModel* known = find_workflow_model(name);
-  const WorkflowModel written =
-      known != nullptr ? *known : workflow_over(name, WorkflowKind::kSpecular, kRoughness);
+bool is_same_material(const WorkflowEnd& a, const WorkflowEnd& b) {
   const auto dielectric_f0 = [](const WorkflowEnd& of) {
     const auto* metallic = std::get_if<MetallicWorkflow>(&of);
     return metallic != nullptr ? metallic->dielectric_f0 : 0.0;
   };
-  return written.brdf == brdf && kind_of(written.end) == kind_of(end) &&
-         diffuse_of(written.end) == diffuse_of(end) && dielectric_f0(written.end) == dielectric_f0(end);
+  return kind_of(a) == kind_of(b) && diffuse_of(a) == diffuse_of(b) && dielectric_f0(a) == dielectric_f0(b);
+}
+
+bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf) {
+  const WorkflowModel* known = find_workflow_model(name);
+  const WorkflowModel written =
+      known != nullptr ? *known : workflow_over(name, WorkflowKind::kSpecular, kRoughness);
+  WorkflowEnd held = written.end;
+  // An open convention was that of the other end.
+  if (known != nullptr && !known->conventions_known)
+    std::visit([&](auto& workflow) { workflow.diffuse = diffuse_of(end); }, held);
+  return written.brdf == brdf && is_same_material(held, end);
 }
 
 }  // namespace remap

@@ -220,6 +220,9 @@ std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
   const auto* source = std::get_if<MetallicWorkflow>(&stages.source);
   const auto* target = std::get_if<MetallicWorkflow>(&stages.target);
   StageList list;
+  if (stages.brdf == nullptr && is_same_material(stages.source, stages.target))
+    return std::make_unique<Converter>(std::move(info), parameters_of(stages.source),
+                                       parameters_of(stages.target), std::move(list));
   if (source != nullptr)
     list.push_back(specular_stage(*source, between, width, set, info.id));
   else if (diffuse_of(stages.source) != between)

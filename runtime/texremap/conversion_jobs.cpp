@@ -188,11 +188,11 @@ void FolderJobs::add_tile(const FoundSet& set, int tile) {
                     defaults_,
                     options_.output / set.folder,
                     options_.diagnose / set.folder,
-                    {set.name + "_", tile == 0 ? "" : "." + number},
+                    {set.name, tile == 0 ? "" : "." + number},
                     {}};
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, job)) return;
-  if (choice_.layout != Layout::kAsInputs) carry(set, tile, job.request);
+  if (!choice_.layout.keeps_names) carry(set, tile, job.request);
   if (options_.copy_others) copy_others(set, tile, job);
   jobs_.jobs.push_back(std::move(job));
 }
@@ -232,20 +232,20 @@ std::map<fs::path, fs::path> FolderJobs::outputs(const FoundSet& set) const {
   const std::string end =
       (tiles_of(set).front() == 0 ? "" : ".<UDIM>") +
       (choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension);
-  const auto own_name = [&](const std::string& name) { return set.name + "_" + name + end; };
+  const ResultNames names{set.name, end};
   std::map<fs::path, fs::path> sources;
   for (const Parameter parameter : choice_.parameters) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const fs::path& source = (found.empty() ? first : set.maps[found.front().map]).path;
-    fs::path path = set.folder / own_name(file_name(parameter, choice_));
-    if (choice_.layout == Layout::kAsInputs && !found.empty()) {
+    fs::path path = set.folder / file_name(parameter, choice_, names);
+    if (choice_.layout.keeps_names && !found.empty()) {
       path = source;
       if (!choice_.extension.empty()) path.replace_extension(choice_.extension);
     }
     sources.emplace(options_.output / path, source);
   }
   for (const TargetChannel& diagnosis : choice_.diagnoses)
-    sources.emplace(options_.diagnose / set.folder / own_name(diagnosis_name(diagnosis)), first.path);
+    sources.emplace(options_.diagnose / set.folder / diagnosis_name(diagnosis, names), first.path);
   return sources;
 }
 

@@ -183,13 +183,12 @@ namespace {
 void require_encoding(const ConvertOptions& options, const TargetChoice& choice) {
   const auto& asked = options.output_encoding;
   if (!asked) return;
-  const bool is_glossiness = *asked == RoughnessConvention::kGlossiness;
-  const bool is_orm = choice.layout == Layout::kOrm || choice.layout == Layout::kArm;
-  if ((is_glossiness && is_orm) || (!is_glossiness && choice.layout == Layout::kSpecGloss))
+  const std::optional<RoughnessConvention> held = choice.layout.width();
+  constexpr auto kGlossiness = RoughnessConvention::kGlossiness;
+  if (held && (*asked == kGlossiness) != (*held == kGlossiness))
     throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(convention_name(*asked)) +
-                                       " cannot be used with --layout " +
-                                       std::string(name_of(kLayouts, choice.layout)) + ", which holds " +
-                                       (is_orm ? "roughness" : "glossiness"));
+                                       " cannot be used with --layout " + choice.layout.name +
+                                       ", which holds " + std::string(convention_name(*held)));
   if (options.only == Parameter::kSpecular)
     throw Error(ErrorKind::kUsage,
                 "--output-encoding: applies to nothing, because --only specular writes no roughness");
@@ -200,12 +199,13 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
 RoughnessConvention written_width(const ConvertOptions& options, const TargetChoice& choice,
                                   const WidthSource& source, RoughnessConvention usual) {
   constexpr auto kGlossiness = RoughnessConvention::kGlossiness, kRoughness = RoughnessConvention::kRoughness;
-  if (choice.layout == Layout::kSpecGloss) return kGlossiness;
   const auto& asked = options.output_encoding;
   const RoughnessConvention wanted = asked.value_or(usual);
-  if (choice.layout == Layout::kSeparate) return wanted;
-  const bool keeps_name = choice.layout == Layout::kAsInputs && !source.file.empty();
-  if (!keeps_name) return choice.layout != Layout::kAsInputs && wanted == kGlossiness ? kRoughness : wanted;
+  if (const auto held = choice.layout.width()) {
+    if (*held == kGlossiness) return kGlossiness;
+    return wanted == kGlossiness ? kRoughness : wanted;
+  }
+  if (!choice.layout.keeps_names || source.file.empty()) return wanted;
   const bool is_glossy = source.convention == kGlossiness;
   if (asked && is_glossy != (*asked == kGlossiness))
     throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(convention_name(*asked)) +
@@ -220,20 +220,23 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   TargetChoice choice;
   choice.folder = options.output;
   const bool is_other_kind = workflow.is_material() && kind_of(*workflow.source) != kind_of(*workflow.target);
-  choice.layout = options.layout.value_or(is_other_kind || !workflow.constants.empty() ? Layout::kSeparate
-                                                                                       : Layout::kAsInputs);
+  choice.layout = options.layout                                 ? *options.layout
+                  : is_other_kind || !workflow.constants.empty() ? separate()
+                                                                 : as_inputs();
   choice.extension = options.format;
   choice.type = options.type;
   choice.diagnosis_folder = options.diagnose;
   if (!options.diagnose.empty()) {
     choice.diagnoses = {MaskChannel{}};
-    if (workflow.is_to_metallic())
+    if (workflow.finds_metallic())
       for (const Parameter measure : {Parameter::kResidual, Parameter::kMetallicWidth, Parameter::kDoubts})
         choice.diagnoses.push_back(ConvertedChannel{measure});
   }
   choice.parameters = workflow.targets();
   choice.colors_stay_grey = !workflow.is_material();
   if (options.only) choice.parameters = {*options.only};
+  if (workflow.changes_nothing && options.bad_texels == BadTexels::kKeep)
+    choice.unchanged = choice.parameters;
   choice.color_transfers = color_spaces("--output-color-space", options.output_color_spaces,
                                         written_colors(choice.parameters), "is a result");
   choice.force = options.force;

@@ -38,6 +38,7 @@ void print_notes(const ConvertOptions& options, const ChosenConverter& chosen) {
   const auto note = [](const std::string& text) {
     if (!text.empty()) print_message(kProgram, "note: " + text);
   };
+  for (const std::string& meaning : chosen.workflow.notes) note(meaning);
   if (chosen.workflow.is_closest) note(closest_text(chosen.workflow.target_brdf, chosen.path.expected_error));
   note(closeness_text(chosen.path, chosen.closeness));
 }
@@ -222,6 +223,7 @@ void add_convert_command(Command& app) {
       "convert", "Convert the maps of a material: roughness and specular, or a whole workflow");
   ConvertOptions& options = set_work<ConvertOptions>(*command, [command](ConvertOptions given) {
     given.given = command->given();
+    apply_preset(given);
     convert(given);
   });
   add_convert_options(*command, options);

@@ -27,6 +27,22 @@ Reader<std::vector<float>> factors() {
   return {[](const std::string& option, const std::string& word) { return parse_factors(option, word); }, {}};
 }
 
+Reader<Layout> layout() {
+  return {[](const std::string& option, const std::string& word) { return layout_from(option, word); }, {}};
+}
+
+Reader<const Preset*> preset() {
+  std::vector<std::string> known;
+  for (const Preset& preset : presets())
+    if (!preset.model.empty()) known.emplace_back(preset.name);
+  return {[known](const std::string& option, const std::string& word) -> const Preset* {
+            for (const Preset& preset : presets())
+              if (!preset.model.empty() && preset.name == word) return &preset;
+            fail_unknown(option, "preset", word, known);
+          },
+          known};
+}
+
 Reader<InstructionSet> instructions() {
   return {[](const std::string& option, const std::string& word) {
             return instruction_set_from_name(option, word);
@@ -79,12 +95,27 @@ Reader<std::vector<ColorSpaceWord>> color_spaces() {
   return list_of(Reader<ColorSpaceWord>{color_space_word, {}});
 }
 
+}  // namespace
+
+Reader<ModelName> model_name() {
+  return {[](const std::string&, const std::string& word) -> ModelName {
+            if (const ModelAlias* alias = find_alias(word)) return {std::string(alias->model), alias};
+            std::string small = word;
+            for (char& letter : small)
+              if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+            return {find_workflow_model(small) != nullptr ? small : word, nullptr};
+          },
+          {}};
+}
+
+namespace {
+
 void add_source_options(Command& command, ConvertOptions& options) {
   command.option_group("Source and target");
   command.add_option("DIR", options.folder, "Folder of texture sets, found by the names of their maps");
-  command.add_option("--from MODEL", options.from, "Source model, e.g. mitsuba/ward");
+  command.add_option("--from MODEL", options.from, model_name(), "Source model, e.g. mitsuba/ward or unity");
   command.add_option(
-      "--to MODEL", options.to,
+      "--to MODEL", options.to, model_name(),
       "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models");
   command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter");
   command
@@ -147,8 +178,15 @@ void add_output_options(Command& command, ConvertOptions& options) {
                   "Folder for the results, which keep the names of the inputs")
       ->tag(kNeedsFiles);
   command
-      .add_option("--layout NAME", options.layout, one_of(kLayouts, "layout"),
-                  "Files to write (default: as-inputs; separate between workflows)")
+      .add_option("--layout NAME", options.layout, layout(),
+                  "Files to write: as-inputs, separate, orm, arm, specgloss, a preset's, or in words, as "
+                  "'Mask=metallic,occlusion,0,smoothness; Albedo=base_color' (default: as-inputs; separate "
+                  "between workflows)")
+      ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_option("--preset NAME", options.preset, preset(),
+                  "Write what a tool takes: --to, --layout, --format and --type at once, where these are not "
+                  "given")
       ->tag(kChangesResults | kNeedsFiles);
   command.add_option("--format EXT", options.format, "File extension of the results: exr, tif, png, ...")
       ->tag(kChangesResults | kNeedsFiles);
@@ -268,6 +306,15 @@ void add_rare_options(Command& command, ConvertOptions& options) {
 }
 
 }  // namespace
+
+void apply_preset(ConvertOptions& options) {
+  if (options.preset == nullptr) return;
+  const Preset& preset = *options.preset;
+  if (options.to.empty()) options.to = model_name().read("--preset", std::string(preset.model));
+  if (!options.layout) options.layout = layout_from("--preset", std::string(preset.name));
+  if (options.format.empty()) options.format = preset.format;
+  if (!options.type) options.type = preset.type;
+}
 
 bool ConvertOptions::is_given(std::string_view name) const {
   return std::any_of(given.begin(), given.end(),

@@ -43,11 +43,19 @@ struct ColorSpaceWord {
 struct FromMaps {};
 using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
 
+// A model as `--from` and `--to` name it.
+struct ModelName {
+  std::string name;                   // as converters and workflows have it; of an alias, what it stands for
+  const ModelAlias* alias = nullptr;  // that was typed
+  bool empty() const noexcept { return name.empty(); }
+};
+Reader<ModelName> model_name();
+
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
   std::filesystem::path folder;  // of texture sets; empty where the options name one set
-  std::string from, to;
+  ModelName from, to;
   std::vector<std::string> via;
   std::string fit;
   UsedConverters converters;
@@ -68,6 +76,7 @@ struct ConvertOptions {
 
   std::filesystem::path output;
   std::optional<Layout> layout;
+  const Preset* preset = nullptr;
   std::string format;
   std::optional<PixelType> type;
   std::optional<RoughnessConvention> output_encoding;
@@ -92,6 +101,9 @@ struct ConvertOptions {
 };
 
 void add_convert_options(Command& command, ConvertOptions& options);
+
+// What `--preset` stands for, in place of the options that were not given.
+void apply_preset(ConvertOptions& options);
 
 // Throws kUsage if an option with `tag` was given: `--only` and the reason.
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);

@@ -26,8 +26,10 @@ std::string material_text(const ChosenConverter& chosen) {
     return model_of(end) + " (" + std::string(kind_name(end)) + ": " + conventions_text(end) + ")";
   };
   std::string text = end_text(*workflow.source) + " to " + end_text(*workflow.target);
-  if (workflow.is_to_metallic()) text += " by projection";
-  if (chosen.brdf == nullptr)
+  if (workflow.finds_metallic()) text += " by projection";
+  if (workflow.changes_nothing)
+    text += ", unchanged";
+  else if (chosen.brdf == nullptr)
     for (const std::string& step : chosen.info().steps) text += " by " + step;  // a warp
   else
     text += ", " + models_text(chosen.path) + " (expected error " +
@@ -88,7 +90,7 @@ std::string converter_ids(const ChosenConverter& chosen) {
   if (!chosen.workflow.is_material()) return ids;
   return ids + (ids.empty() ? "" : " ") + chosen.info().id + " (" +
          conventions_text(*chosen.workflow.source) + "; " + conventions_text(*chosen.workflow.target) +
-         (chosen.workflow.is_to_metallic() ? "; projection)" : ")");
+         (chosen.workflow.finds_metallic() ? "; projection)" : ")");
 }
 
 JobReport& JobReport::operator+=(const JobReport& other) {
@@ -192,6 +194,7 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
     if (count > 0) print_message(program, place + std::to_string(count) + what);
   };
   const std::string by = outcome.list.is_tree ? "" : " by " + converter_text(outcome.chosen);
+  if (counts.texel_count == 0) print_message(program, place + "copied: " + files_text(report));
   line(counts.texel_count, " texels in " + seconds_text(report.seconds) + by + ": " + files_text(report));
   print_confidence(program, place, outcome.chosen, report);
   line(counts.out_of_domain_count, " texels outside " + outside_text(outcome.chosen) +

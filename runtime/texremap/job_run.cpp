@@ -197,7 +197,7 @@ std::unique_ptr<Converter> JobRunner::survey(TextureSet& set, JobReport& report)
   const WorkflowChoice& workflow = chosen_.workflow;
   if (!workflow.is_material()) return nullptr;
   const MaterialSample sample = sample_materials(set);
-  report.warnings = doubts_about(sample, set);
+  for (std::string& doubt : doubts_about(sample, set)) report.warnings.push_back(std::move(doubt));
   if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
   WorkflowStages stages = stages_of(chosen_);
   const RoughnessConvention width = set.convention.value_or(chosen_.info().source.roughness);
@@ -216,11 +216,19 @@ std::unique_ptr<Converter> JobRunner::survey(TextureSet& set, JobReport& report)
 void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets,
                             JobReport& report) const {
   for (const std::string& remark : remarks(set)) report.warnings.push_back(remark);
-  if (choice_.layout == Layout::kOrm || choice_.layout == Layout::kArm) {
+  // Of packed files; the first file with a constant is the one that lacks a map.
+  const auto has_constant = [](const TargetMap& target) {
+    const auto is_constant = [](const TargetChannel& channel) {
+      return std::holds_alternative<float>(channel);
+    };
+    return std::ranges::any_of(target.parts.front().channels, is_constant);
+  };
+  const auto packed = std::ranges::find_if(targets, has_constant);
+  if (packed != targets.end() && choice_.layout.file_with(Parameter::kMetallic) != nullptr) {
     const auto note = [&](const std::string& name, const std::string& value) {
       const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
-      if (std::none_of(set.carried.begin(), set.carried.end(), has_name))
-        report.warnings.push_back(targets.front().writer->path().string() + ": no " + name + " map; " + name +
+      if (choice_.layout.has_place_for(name) && std::ranges::none_of(set.carried, has_name))
+        report.warnings.push_back(packed->writer->path().string() + ": no " + name + " map; " + name +
                                   " is set to " + value);
     };
     note("occlusion", "1");
@@ -293,9 +301,16 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   choice.copies = job.copies;
   const RoughnessConvention width = written_width(options_, choice, width_source(set), usual_width(set));
   choice.width_name = width == RoughnessConvention::kGlossiness ? "glossiness" : "roughness";
+  if (width != set.convention.value_or(chosen_.info().source.roughness))
+    std::erase(choice.unchanged, Parameter::kRoughness);
   const TargetPlan plan = plan_targets(set, choice);
   for (const PlannedMap& map : plan.maps) report.results.push_back(result_of(map));
-  for (const PlannedCopy& copy : plan.copies) report.copies.push_back(copy.path);
+  for (const PlannedCopy& copy : plan.copies)
+    if (copy.parts.empty())
+      report.copies.push_back(copy.path);
+    else
+      report.results.push_back(result_of({copy.path, copy.parts}));
+  report.warnings = plan.left_out;
   const bool needs_hash = options_.resume || !options_.dry_run;
   const std::string inputs = needs_hash ? inputs_hash(report.inputs, job) : "";
   if (options_.resume) {

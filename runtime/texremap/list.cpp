@@ -137,6 +137,10 @@ Json workflow_json(const WorkflowModel& model) {
                {"reason", model.reason}};
   if (const auto* metallic = std::get_if<MetallicWorkflow>(&model.end))
     json["dielectric_f0"] = metallic->dielectric_f0;
+  json["aliases"] = Json::list();
+  for (const ModelAlias& alias : model_aliases())
+    if (alias.model == model_of(model.end))
+      json["aliases"].push_back({{"name", alias.name}, {"meaning", alias.meaning}});
   return json;
 }
 
@@ -150,6 +154,12 @@ void print_workflow(const WorkflowModel& model) {
   std::cout << (model.conventions_known ? "" : " (assumed)") << '\n'
             << "  over     " << model.brdf << '\n'
             << "  because  " << model.reason << '\n';
+  const char* title = "  also     ";
+  for (const ModelAlias& alias : model_aliases()) {
+    if (alias.model != model_of(model.end)) continue;
+    std::cout << title << alias.name << ": " << alias.meaning << '\n';
+    title = "           ";
+  }
 }
 
 void list_workflows(const ListOptions& options) {

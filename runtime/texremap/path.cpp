@@ -110,7 +110,7 @@ std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
     stages.push_back("to diffuse and specular by equation (2), exact");
   if (choice.source_brdf != choice.target_brdf)
     stages.push_back("roughness and specular from " + choice.source_brdf + " to " + choice.target_brdf);
-  if (choice.is_to_metallic()) stages.push_back("to base color and metallic by projection");
+  if (choice.finds_metallic()) stages.push_back("to base color and metallic by projection");
   stages.push_back(end_text(*choice.target, choice.target_brdf));
   return stages;
 }
@@ -135,9 +135,11 @@ void explain(const ConvertOptions& options) {
     Json result = plan ? plan_json(*plan) : Json{{"path", Json::list()}, {"expected_error", 0.0}};
     result["closest_of"] = choice.is_closest ? Json(choice.renderer) : Json();
     if (choice.is_material()) result["stages"] = stages;
+    result["notes"] = choice.notes;
     std::cout << result.dump(2) << '\n';
     return;
   }
+  for (const std::string& note : choice.notes) std::cout << note << '\n';
   if (choice.is_closest)
     std::cout << closest_text(choice.target_brdf, plan ? plan->paths.front().expected_error : 0.0) << '\n';
   for (const std::string& stage : stages) std::cout << stage << '\n';
@@ -149,10 +151,11 @@ void explain(const ConvertOptions& options) {
 void add_path_command(Command& app) {
   Command* command = app.add_subcommand("path", "Explain which converters lead from one model to another");
   ConvertOptions& options = set_work<ConvertOptions>(*command, explain);
-  command->add_option("--from MODEL", options.from, "Source model, e.g. mitsuba/ward")->required();
+  command->add_option("--from MODEL", options.from, model_name(), "Source model, e.g. mitsuba/ward or unity")
+      ->required();
   command
       ->add_option(
-          "--to MODEL", options.to,
+          "--to MODEL", options.to, model_name(),
           "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models")
       ->required();
   command

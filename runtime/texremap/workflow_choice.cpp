@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/nearest_name.hpp"
 #include "remap/error.hpp"
 #include "remap/path.hpp"
 
@@ -25,6 +26,21 @@ struct NamedEnd {
   }
 };
 
+constexpr std::size_t kNamesShown = 5;
+
+// Refuses a name that is neither a model, a renderer nor a workflow, with the nearest of all names.
+void require_known(const std::string& option, const std::string& name, const ConverterGraph& graph) {
+  if (graph.has_model(name) || !graph.models_of(name).empty() || find_workflow_model(name) != nullptr) return;
+  std::vector<std::string> known = graph.models();
+  for (const std::string& model : graph.models())
+    if (std::ranges::find(known, renderer_of(model)) == known.end()) known.push_back(renderer_of(model));
+  for (const WorkflowModel& model : workflow_models()) known.push_back(model_of(model.end));
+  for (const ModelAlias& alias : model_aliases()) known.emplace_back(alias.name);
+  throw Error(ErrorKind::kUsage, option + ": unknown model '" + name +
+                                     "' (nearest: " + joined(nearest_names(name, known, kNamesShown), ", ") +
+                                     "; all: texremap list --models and --workflows)");
+}
+
 NamedEnd named_end(const std::string& option, const std::string& name, std::optional<WorkflowKind> kind,
                    const ConverterGraph& graph) {
   NamedEnd end{option, name, find_workflow_model(name), kind, &graph};
@@ -38,19 +54,19 @@ NamedEnd named_end(const std::string& option, const std::string& name, std::opti
 // The model that `--to` names: of a renderer the closest one to the source. A workflow around the source's
 // own model of that renderer needs no other model.
 std::string target_named(const ConvertOptions& options, const NamedEnd& from) {
-  const bool is_model =
-      options.to.find('/') != std::string::npos || find_workflow_model(options.to) != nullptr;
-  if (!options.fit.empty() || options.from.empty() || is_model) return options.to;
+  const std::string& to = options.to.name;
+  const bool is_model = to.find('/') != std::string::npos || find_workflow_model(to) != nullptr;
+  if (!options.fit.empty() || options.from.empty() || is_model) return to;
   const ConverterGraph& graph = *from.graph;
   const std::string source = from.workflow().brdf;
-  if (graph.has_model(options.to) || graph.models_of(options.to).empty()) return options.to;
-  if (renderer_of(source) == options.to) {
+  if (graph.has_model(to) || graph.models_of(to).empty()) return to;
+  if (renderer_of(source) == to) {
     if (from.has_workflow() || options.to_workflow) return source;
     throw Error(ErrorKind::kUsage,
-                "--to: " + source + " is a model of " + options.to + " already (choose another model)");
+                "--to: " + source + " is a model of " + to + " already (choose another model)");
   }
-  const std::vector<ConverterPath> paths = graph.paths_to_renderer({source, options.to, options.via});
-  if (paths.empty()) return graph.models_of(options.to).front();  // refused by the search for a path
+  const std::vector<ConverterPath> paths = graph.paths_to_renderer({source, to, options.via});
+  if (paths.empty()) return graph.models_of(to).front();  // refused by the search for a path
   return target_model(closest_path(paths));
 }
 
@@ -117,6 +133,9 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
     refuse(options, kNeedsWorkflow | kNeedsMetallic,
            " requires a workflow (set --from-workflow or --to-workflow, or choose a model of texremap list "
            "--workflows)");
+  if (choice.changes_nothing)
+    refuse(options, kNeedsMetallic,
+           ": applies to nothing, because both ends are one material (remove this option)");
   if (!choice.is_to_metallic())
     refuse(options, kNeedsMetallic, " requires a metallic target (set --to or --to-workflow)");
 }
@@ -138,14 +157,22 @@ bool WorkflowChoice::has_source(Parameter parameter) const {
 
 WorkflowChoice workflow_choice(const ConvertOptions& options) {
   const ConverterGraph graph = options.converters.graph();
-  const NamedEnd from = named_end("--from", options.from, options.from_workflow, graph);
+  if (options.fit.empty()) {
+    if (!options.from.empty()) require_known("--from", options.from.name, graph);
+    if (!options.to.empty()) require_known("--to", options.to.name, graph);
+  }
+  const NamedEnd from = named_end("--from", options.from.name, options.from_workflow, graph);
   const std::string target_name = target_named(options, from);
   const NamedEnd to = named_end("--to", target_name, options.to_workflow, graph);
   WorkflowChoice choice;
-  choice.source_brdf = options.from;
+  choice.source_brdf = options.from.name;
   choice.target_brdf = target_name;
-  choice.is_closest = target_name != options.to;
+  choice.is_closest = target_name != options.to.name;
   choice.renderer = renderer_of(target_name);
+  for (const ModelName* name : {&options.from, &options.to})
+    if (name->alias != nullptr)
+      choice.notes.push_back(std::string(name->alias->name) + " means " + name->name + ": " +
+                             std::string(name->alias->meaning));
   if (from.has_workflow() || to.has_workflow()) {
     if (options.from.empty() || options.to.empty())
       throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") + " is required");
@@ -157,9 +184,10 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
     choose_diffuse(options, source, target, choice);
     choose_f0(options, choice);
     choice.prior = options.prior;
-    if (choice.source == choice.target)
-      throw Error(ErrorKind::kUsage, "--to: " + options.to + " is the same material as --from " +
-                                         options.from + " (choose another model)");
+    choice.changes_nothing = choice.source_brdf == choice.target_brdf && options.via.empty() &&
+                             is_same_material(*choice.source, *choice.target);
+    if (choice.changes_nothing)
+      choice.notes.push_back("both ends are one material: files and encodings change, no value does");
   }
   require_workflow(options, choice);
   return choice;
@@ -193,7 +221,8 @@ void require_models_of_fit(const std::string& file, const ModelPair& asked, cons
 
 WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
   refuse_with_warp(options, kNotWithWarp, options.fit);
-  require_models_of_fit(options.fit, {options.from, options.to}, {fit.source_model, fit.template_model});
+  require_models_of_fit(options.fit, {options.from.name, options.to.name},
+                        {fit.source_model, fit.template_model});
   // The warp was made from maps of roughness.
   const RoughnessConvention width =
       options.reads_glossiness() ? RoughnessConvention::kGlossiness

@@ -24,12 +24,16 @@ struct WorkflowChoice {
   double prior = kCleanPrior;                     // of the projection, towards a metallic of 0 and 1
   bool estimates_f0 = false;                      // use the F0 estimated from the maps
   bool f0_given = false;
+  bool changes_nothing = false;          // both ends are one material: files and encodings alone change
+  std::vector<std::string> notes;        // what the names mean that were given for models
   std::vector<std::string> assumptions;  // one message per assumption
 
   bool is_material() const noexcept { return source.has_value(); }
   bool is_to_metallic() const noexcept {
     return is_material() && kind_of(*target) == WorkflowKind::kMetallic;
   }
+  // Whether metallic is made from other values.
+  bool finds_metallic() const noexcept { return is_to_metallic() && !changes_nothing; }
   // The parameters of the source and of the target, in the order of Parameter.
   std::vector<Parameter> sources() const;
   std::vector<Parameter> targets() const;

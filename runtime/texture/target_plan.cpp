@@ -93,12 +93,23 @@ ImageChanges changes_of(const TargetChoice& choice) {
 
 const std::vector<std::string> kGrey = {"Y"}, kColor = {"R", "G", "B"}, kColorAndAlpha = {"R", "G", "B", "A"};
 
+// The name of a result: `pattern` with the name of the set for `*`, or after it.
+std::string named(const std::string& pattern, const ResultNames& names) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string::npos)
+    return (names.set.empty() ? pattern : names.set + "_" + pattern) + names.after;
+  if (!names.set.empty()) return pattern.substr(0, star) + names.set + pattern.substr(star + 1) + names.after;
+  std::string before = pattern.substr(0, star), rest = pattern.substr(star + 1);
+  if (rest.starts_with('_')) rest.erase(0, 1);
+  return before + rest + names.after;
+}
+
 std::string own_name(const std::string& name, bool is_grey, const TextureSet& set,
                      const TargetChoice& choice) {
   std::string extension = choice.extension.empty() ? set.maps[set.first_map()].path().extension().string()
                                                    : "." + choice.extension;
   if (is_grey && extension == ".hdr") extension = ".exr";  // Radiance files have three channels
-  return choice.names.before + name + choice.names.after + extension;
+  return name + extension;
 }
 
 // The first color that is converted into one of the channels.
@@ -155,7 +166,8 @@ PlannedMap color_map(const TextureSet& set, Parameter parameter, const TargetCho
     channels.push_back(*set.coverage);
     names.push_back("A");
   }
-  PlannedMap planned = new_map(file_name(parameter, choice), names, std::move(channels), set, choice);
+  PlannedMap planned =
+      new_map(file_name(parameter, choice, choice.names), names, std::move(channels), set, choice);
   if (const SetParameter* model = model_of(set, parameter))
     planned.parts.front().model = model->channels.front().map;
   return planned;
@@ -166,29 +178,52 @@ TargetChannel carried_channel(const SetParameter& parameter) {
   return parameter.constants.front();
 }
 
-// A channel of a packed map: the converted metallic, a carried parameter, or the constant `otherwise`.
-TargetChannel packed_channel(const TextureSet& set, const std::string& name, float otherwise,
-                             const TargetChoice& choice) {
-  if (name == parameter_name(Parameter::kMetallic) && is_wanted(choice, Parameter::kMetallic))
-    return ConvertedChannel{Parameter::kMetallic};
-  for (const CarriedParameter& carried : set.carried)
-    if (carried.name == name) return carried_channel(carried.parameter);
-  return otherwise;
+// The channels of a map that is one parameter, or a constant in its place.
+std::vector<TargetChannel> channels_of(const LayoutContent& content, const TextureSet& set,
+                                       const TargetChoice& choice) {
+  if (const auto* number = std::get_if<float>(&content)) return {*number};
+  const auto carried = [&](const std::string& name, float otherwise) -> std::vector<TargetChannel> {
+    for (const CarriedParameter& parameter : set.carried)
+      if (parameter.name == name) return {carried_channel(parameter.parameter)};
+    return {otherwise};
+  };
+  if (const auto* other = std::get_if<LayoutCarried>(&content)) return carried(other->name, other->otherwise);
+  const Parameter parameter = std::get<LayoutParameter>(content).parameter;
+  if (parameter == Parameter::kMetallic && !is_wanted(choice, parameter))
+    return carried(std::string(parameter_name(parameter)), 0.0f);
+  if (!is_color(parameter)) return {ConvertedChannel{parameter}};
+  std::vector<TargetChannel> channels = color_channels(set, parameter, choice);
+  channels.resize(3, channels.front());  // grey in every color
+  return channels;
 }
 
-// Layouts other than kAsInputs hold named channels only, so an unnamed channel is an error and is not
-// dropped.
-void require_nothing_lost(const TextureSet& set) {
+// Whether a file of the layout has something of the material; else nobody needs it.
+bool holds_something(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
+  return std::ranges::any_of(file.content, [&](const LayoutContent& content) {
+    if (const auto* own = std::get_if<LayoutParameter>(&content)) return is_wanted(choice, own->parameter);
+    const auto* other = std::get_if<LayoutCarried>(&content);
+    return other != nullptr && std::ranges::any_of(set.carried, [&](const CarriedParameter& carried) {
+             return carried.name == other->name;
+           });
+  });
+}
+
+// Channels without a meaning have no place in layouts that name their files.
+std::vector<std::string> left_out(const TextureSet& set) {
+  std::vector<std::string> messages;
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
     const ImageLayout& layout = set.maps[map].layout();
-    for (std::size_t c = 0; c < layout.channels.size(); ++c) {
-      if (set.holds({map, c}) || set.coverage == ChannelPlace{map, c}) continue;
-      throw Error(ErrorKind::kUsage,
-                  set.maps[map].path().string() + ": channel " + layout.channels[c].name +
-                      " would be lost (name it with --occlusion or --metallic FILE:CHANNEL, "
-                      "or use --layout as-inputs)");
-    }
+    std::vector<std::string> names;
+    for (std::size_t c = 0; c < layout.channels.size(); ++c)
+      if (!set.holds({map, c}) && set.coverage != ChannelPlace{map, c})
+        names.push_back(layout.channels[c].name);
+    if (names.empty()) continue;
+    const bool is_one = names.size() == 1;
+    messages.push_back(set.maps[map].path().string() + (is_one ? ": channel " : ": channels ") +
+                       joined(names, ", ") + (is_one ? " has no role and is" : " have no role and are") +
+                       " left out (--layout as-inputs keeps " + (is_one ? "it)" : "them)"));
   }
+  return messages;
 }
 
 // The maps of the set that are parts of the file of `first`, in the order of the file.
@@ -210,13 +245,14 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
   std::error_code ignored;
   if (!fs::is_regular_file(source, ignored))
     throw Error(ErrorKind::kInput, source.string() + ": cannot be copied: not a readable file");
-  plan.copies.push_back({source, path});
+  plan.copies.push_back({source, path, {}});
 }
 
 // A file that holds one parameter.
 PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   if (is_color(parameter)) return color_map(set, parameter, choice);
-  return new_map(file_name(parameter, choice), kGrey, {ConvertedChannel{parameter}}, set, choice);
+  return new_map(file_name(parameter, choice, choice.names), kGrey, {ConvertedChannel{parameter}}, set,
+                 choice);
 }
 
 // The color of a file with one grey channel and nothing else, if the result must have three channels.
@@ -271,79 +307,115 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
 }
 
 PlannedMap carried_map(const TextureSet& set, const CarriedParameter& carried, const TargetChoice& choice) {
-  PlannedMap map = new_map(carried.name, kGrey, {carried_channel(carried.parameter)}, set, choice);
+  PlannedMap map =
+      new_map(named(carried.name, choice.names), kGrey, {carried_channel(carried.parameter)}, set, choice);
   if (carried.parameter.is_map()) map.parts.front().model = carried.parameter.channels.front().map;
   return map;
 }
 
-std::vector<PlannedMap> separate_maps(const TextureSet& set, const TargetChoice& choice) {
+// Refuses a layout with a place for a parameter that the conversion does not make.
+void require_held(const TargetChoice& choice) {
+  const auto lacks = [&](Parameter held, Parameter other) {
+    return choice.layout.file_with(held) != nullptr && is_wanted(choice, other);
+  };
+  const std::string start = "--layout: " + choice.layout.name + " cannot hold ";
+  if (lacks(Parameter::kSpecular, Parameter::kMetallic))
+    throw Error(ErrorKind::kUsage, start + "metallic (use separate or orm)");
+  if (lacks(Parameter::kMetallic, Parameter::kDiffuse))
+    throw Error(ErrorKind::kUsage, start + "diffuse and specular (use separate or specgloss)");
+  for (const Parameter parameter : {Parameter::kRoughness, Parameter::kSpecular})
+    if (choice.layout.file_with(parameter) != nullptr && !is_wanted(choice, parameter))
+      throw Error(ErrorKind::kUsage, "--only cannot be used with --layout " + choice.layout.name +
+                                         " (a channel would be empty)");
+}
+
+// The file of a layout.
+PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
+  if (file.content.size() == 1)
+    if (const auto* own = std::get_if<LayoutParameter>(&file.content.front()))
+      return own_map(set, own->parameter, choice);
+  std::vector<TargetChannel> channels;
+  for (const LayoutContent& content : file.content)
+    std::ranges::copy(channels_of(content, set, choice), std::back_inserter(channels));
+  const std::vector<std::string>& names = channels.size() == 1   ? kGrey
+                                          : channels.size() == 3 ? kColor
+                                                                 : kColorAndAlpha;
+  return new_map(named(file.name, choice.names), names, std::move(channels), set, choice);
+}
+
+// The files of the layout, then one for each parameter that has no place in them.
+std::vector<PlannedMap> layout_maps(const TextureSet& set, const TargetChoice& choice) {
+  require_held(choice);
   std::vector<PlannedMap> all;
-  for (const Parameter parameter : choice.parameters) all.push_back(own_map(set, parameter, choice));
-  for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
-  return all;
-}
-
-std::vector<PlannedMap> specgloss_maps(const TextureSet& set, const TargetChoice& choice) {
-  std::vector<TargetChannel> channels = color_channels(set, Parameter::kSpecular, choice);
-  channels.resize(3, channels.front());  // grey in every color
-  channels.push_back(ConvertedChannel{Parameter::kRoughness});
-  std::vector<PlannedMap> all = {
-      new_map(file_name(Parameter::kSpecular, choice), kColorAndAlpha, channels, set, choice)};
-  if (is_wanted(choice, Parameter::kDiffuse)) all.push_back(color_map(set, Parameter::kDiffuse, choice));
-  for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
-  return all;
-}
-
-std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& choice) {
-  const std::string layout(name_of(kLayouts, choice.layout));
-  const bool is_specgloss = choice.layout == Layout::kSpecGloss;
-  const bool is_metallic = is_wanted(choice, Parameter::kMetallic);
-  if (is_specgloss ? is_metallic : is_wanted(choice, Parameter::kDiffuse))
-    throw Error(ErrorKind::kUsage, "--layout: " + layout + " cannot hold " +
-                                       (is_specgloss ? "metallic (use separate or orm)"
-                                                     : "diffuse and specular (use separate or specgloss)"));
-  if (!is_wanted(choice, Parameter::kRoughness) || (is_specgloss && !is_wanted(choice, Parameter::kSpecular)))
-    throw Error(ErrorKind::kUsage,
-                "--only cannot be used with --layout " + layout + " (a channel would be empty)");
-  if (is_specgloss) return specgloss_maps(set, choice);
-  std::vector<PlannedMap> all = {
-      new_map(file_name(Parameter::kRoughness, choice), kColor,
-              {packed_channel(set, "occlusion", 1.0f, choice), ConvertedChannel{Parameter::kRoughness},
-               packed_channel(set, "metallic", 0.0f, choice)},
-              set, choice)};
+  for (const LayoutFile& file : choice.layout.files)
+    if (holds_something(file, set, choice)) all.push_back(layout_map(file, set, choice));
   for (const Parameter parameter : choice.parameters)
-    if (is_color(parameter)) all.push_back(color_map(set, parameter, choice));
+    if (choice.layout.file_with(parameter) == nullptr) all.push_back(own_map(set, parameter, choice));
+  for (const CarriedParameter& carried : set.carried)
+    if (!choice.layout.has_place_for(carried.name)) all.push_back(carried_map(set, carried, choice));
   return all;
 }
 
 }  // namespace
 
-std::string file_name(Parameter parameter, const TargetChoice& choice) {
+std::string file_name(Parameter parameter, const TargetChoice& choice, const ResultNames& names) {
+  if (const LayoutFile* file = choice.layout.file_with(parameter)) return named(file->name, names);
   const bool is_width = parameter == Parameter::kRoughness;
-  if (choice.layout == Layout::kSpecGloss && (is_width || parameter == Parameter::kSpecular))
-    return "specular_glossiness";
-  if ((choice.layout == Layout::kOrm || choice.layout == Layout::kArm) &&
-      (is_width || parameter == Parameter::kMetallic))
-    return std::string(name_of(kLayouts, choice.layout));
-  return is_width ? choice.width_name : std::string(parameter_name(parameter));
+  return named(is_width ? choice.width_name : std::string(parameter_name(parameter)), names);
 }
 
-std::string diagnosis_name(const TargetChannel& diagnosis) {
+std::string diagnosis_name(const TargetChannel& diagnosis, const ResultNames& names) {
   const auto* measure = std::get_if<ConvertedChannel>(&diagnosis);
-  return measure == nullptr ? "mask" : std::string(parameter_name(measure->parameter));
+  return named(measure == nullptr ? "mask" : std::string(parameter_name(measure->parameter)), names);
 }
+
+namespace {
+
+// The place whose stored values a channel repeats.
+std::optional<ChannelPlace> repeated_place(const TextureSet& set, const TargetChannel& channel,
+                                           const TargetChoice& choice) {
+  if (const auto* place = std::get_if<ChannelPlace>(&channel)) return *place;
+  const auto* made = std::get_if<ConvertedChannel>(&channel);
+  if (made == nullptr || std::ranges::find(choice.unchanged, made->parameter) == choice.unchanged.end())
+    return std::nullopt;
+  const SetParameter* own = set.map_of(made->parameter);
+  if (own == nullptr || made->index >= own->channels.size() || !own->factors.empty() ||
+      choice.color_transfers.contains(made->parameter))
+    return std::nullopt;
+  return own->channels[made->index];
+}
+
+// The file that a result would repeat, channel by channel, in the same type and format.
+std::optional<fs::path> repeated_file(const TextureSet& set, const PlannedMap& planned,
+                                      const TargetChoice& choice) {
+  if (planned.parts.size() != 1) return std::nullopt;
+  const std::vector<TargetChannel>& channels = planned.parts.front().channels;
+  const std::optional<ChannelPlace> first = repeated_place(set, channels.front(), choice);
+  if (!first) return std::nullopt;
+  const ImageReader& map = set.maps[first->map];
+  if (channels.size() != map.layout().channels.size() || parts_of_file(set, first->map).size() != 1 ||
+      planned.path.extension() != map.path().extension())
+    return std::nullopt;
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    if (repeated_place(set, channels[c], choice) != ChannelPlace{first->map, c} ||
+        (choice.type && map.layout().channels[c].type != *choice.type))
+      return std::nullopt;
+  return map.path();
+}
+
+}  // namespace
 
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
   if (!choice.extension.empty()) require_known_extension(choice.extension);
   TargetPlan plan;
-  if (choice.layout == Layout::kAsInputs) {
+  if (choice.layout.keeps_names) {
     plan = maps_as_inputs(set, choice);
   } else {
-    require_nothing_lost(set);
-    plan.maps = choice.layout == Layout::kSeparate ? separate_maps(set, choice) : packed_maps(set, choice);
+    plan.maps = layout_maps(set, choice);
+    plan.left_out = left_out(set);
   }
   for (const TargetChannel& diagnosis : choice.diagnoses) {
-    plan.maps.push_back(new_map(diagnosis_name(diagnosis), kGrey, {diagnosis}, set, choice));
+    plan.maps.push_back(new_map(diagnosis_name(diagnosis, choice.names), kGrey, {diagnosis}, set, choice));
     fs::path& path = plan.maps.back().path;
     path = choice.diagnosis_folder / path.filename();
   }
@@ -351,11 +423,15 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
     for (TargetPart& part : map.parts)
       if (const auto color = color_of(part.channels))
         part.changes.colors = color_storage(set, *color, choice);
+  std::erase_if(plan.maps, [&](const PlannedMap& map) {
+    const std::optional<fs::path> file = repeated_file(set, map, choice);
+    if (file) plan.copies.push_back({*file, map.path, map.parts});
+    return file.has_value();
+  });
   for (const CopiedFile& file : choice.copies) {
-    const bool keeps_name = file.name.empty() || choice.layout == Layout::kAsInputs;
-    const std::string name =
-        keeps_name ? file.source.filename().string()
-                   : choice.names.before + file.name + choice.names.after + file.source.extension().string();
+    const bool keeps_name = file.name.empty() || choice.layout.keeps_names;
+    const std::string name = keeps_name ? file.source.filename().string()
+                                        : named(file.name, choice.names) + file.source.extension().string();
     add_copy(file.source, choice.folder / name, plan);
   }
   require_safe(plan, set, choice);

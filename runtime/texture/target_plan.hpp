@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "remap/model.hpp"
+#include "texture/layout.hpp"
 #include "texture/texture_pass.hpp"
 
 namespace remap {
@@ -26,30 +27,20 @@ struct CopiedFile {
 struct PlannedCopy {
   std::filesystem::path source;
   std::filesystem::path path;
+  std::vector<TargetPart>
+      parts;  // of a result that repeats the source; empty for files that are not converted
 };
 
 struct TargetPlan {
   std::vector<PlannedMap> maps;
   std::vector<PlannedCopy> copies;
+  std::vector<std::string>
+      left_out;  // a message for each channel of the inputs without a place in the layout
 };
 
-// The arrangement of the results in files.
-enum class Layout {
-  kAsInputs,   // each map with a converted channel keeps its name
-  kSeparate,   // one file each for roughness, colors and carried parameters
-  kOrm,        // orm: occlusion, roughness, metallic; and one file per color
-  kArm,        // like kOrm, named arm
-  kSpecGloss,  // specular_glossiness: specular, with glossiness in alpha; and diffuse
-};
-inline constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
-                                                     {Layout::kSeparate, "separate"},
-                                                     {Layout::kOrm, "orm"},
-                                                     {Layout::kArm, "arm"},
-                                                     {Layout::kSpecGloss, "specgloss"}}};
-
-// Text before and after the names of results without an input: `wood_` specular `.1001`.
+// Text before and after the names of results without an input: `wood` specular `.1001`.
 struct ResultNames {
-  std::string before;
+  std::string set;
   std::string after;
 };
 
@@ -64,29 +55,31 @@ struct TargetChoice {
   std::string extension;          // of all files; empty for those of the inputs
   std::optional<PixelType> type;  // of all files
   ResultNames names;
-  Layout layout = Layout::kAsInputs;
+  Layout layout = as_inputs();
+  // Whose stored values stay as they are. A result that would repeat a file is a copy of it.
+  std::vector<Parameter> unchanged;
   std::vector<CopiedFile> copies;
   bool force = false;  // may overwrite existing files
   Metadata metadata;
 };
 
 // The name of the file that holds a parameter in layouts that name their files, or without an input of the
-// same name; without ResultNames and extension.
-std::string file_name(Parameter parameter, const TargetChoice& choice);
-// The name of the map of a diagnosis, without ResultNames and extension: `mask`, `residual`.
-std::string diagnosis_name(const TargetChannel& diagnosis);
+// same name; without extension.
+std::string file_name(Parameter parameter, const TargetChoice& choice, const ResultNames& names);
+// The name of the map of a diagnosis, without extension: `wood_mask`, `wood_residual`.
+std::string diagnosis_name(const TargetChannel& diagnosis, const ResultNames& names);
 
 // Plans the files of a conversion.
 //
-// kAsInputs: each map with a converted channel becomes a file of its name in which only converted channels
+// As inputs: each map with a converted channel becomes a file of its name in which only converted channels
 // change; a grey color becomes three channels if the result is not grey. A constant becomes a separate map
 // (`roughness`, `specular`), and files of carried parameters are copied. A parameter that is not in the set
-// has no place: kUsage. The other layouts name their files. Carried parameters without a channel in the
-// layout have a separate file, and coverage becomes the alpha of diffuse or base color.
+// has no place: kUsage. The other layouts name their files. What has no channel in the layout has a separate
+// file, coverage becomes the alpha of diffuse or base color, and channels without a meaning are left out.
 //
 // Throws kUsage if two results have the same name, a result is an input, a channel has two meanings, the
-// layout would lose a channel or has no place for a constant, and for an unknown extension; kInput if a file
-// to copy does not exist; kOutput if a result exists and `force` is not set, or if the folder is a file.
+// layout has no place for a constant, and for an unknown extension; kInput if a file to copy does not exist;
+// kOutput if a result exists and `force` is not set, or if the folder is a file.
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice);
 
 // Opens the planned files. Throws kOutput if a folder cannot be created or a file cannot be opened.

@@ -99,3 +99,109 @@ TEST_CASE("texremap layouts: missing maps give a warning") {
   CHECK(channel(session, "out/orm.png", 0) == std::vector<float>(kSize * kSize, 1.0f));
   CHECK(channel(session, "out/orm.png", 2) == std::vector<float>(kSize * kSize, 0.0f));
 }
+
+namespace {
+
+// A metallic set in the arrangement of a tool: the files of `preset`, from values of a formula.
+float metallic_value(int x, int y) { return noise(x, y, 0); }
+float width_value(int x, int y) { return noise(x, y, 1); }
+float occlusion_value(int x, int y) { return noise(x, y, 2); }
+float base_value(int x, int y, int c) { return noise(x, y, 3 + c); }
+
+void write_orm_set(const Session& session) {
+  const OIIO::TypeDesc type = OIIO::TypeUInt8;
+  std::filesystem::create_directory(session.path("in"));
+  session.make("in/wood_occlusionRoughnessMetallic.png", test_spec(kSize, kSize, {"R", "G", "B"}, type),
+               [](int x, int y, int c) {
+                 return c == 0 ? occlusion_value(x, y) : c == 1 ? width_value(x, y) : metallic_value(x, y);
+               });
+  session.make("in/wood_baseColor.png", test_spec(kSize, kSize, {"R", "G", "B"}, type), base_value);
+}
+
+std::vector<float> complement(std::vector<float> values) {
+  for (float& value : values) value = as_stored(1.0f - value, OIIO::TypeUInt8);
+  return values;
+}
+
+struct Expected {
+  std::string file;
+  int channel = 0;
+};
+// Where a preset has the values of the set.
+struct Arrangement {
+  std::string preset;
+  Expected roughness;
+  bool is_smooth = false;
+  Expected metallic, occlusion;
+  std::string base_color;
+};
+const std::vector<Arrangement> kArrangements = {
+    {"gltf",
+     {"wood_occlusionRoughnessMetallic", 1},
+     false,
+     {"wood_occlusionRoughnessMetallic", 2},
+     {"wood_occlusionRoughnessMetallic", 0},
+     "wood_baseColor"},
+    {"unity",
+     {"wood_MetallicSmoothness", 3},
+     true,
+     {"wood_MetallicSmoothness", 0},
+     {"wood_Occlusion", 0},
+     "wood_BaseMap"},
+    {"unity-hdrp", {"wood_MaskMap", 3}, true, {"wood_MaskMap", 0}, {"wood_MaskMap", 1}, "wood_BaseMap"},
+    {"unreal", {"T_wood_ORM", 1}, false, {"T_wood_ORM", 2}, {"T_wood_ORM", 0}, "T_wood_BC"},
+    {"godot", {"wood_orm", 1}, false, {"wood_orm", 2}, {"wood_orm", 0}, "wood_albedo"},
+    {"usd", {"wood_roughness", 0}, false, {"wood_metallic", 0}, {"wood_occlusion", 0}, "wood_base_color"},
+    {"marmoset",
+     {"wood_roughness", 0},
+     false,
+     {"wood_metallic", 0},
+     {"wood_occlusion", 0},
+     "wood_base_color"}};
+
+}  // namespace
+
+TEST_CASE("texremap presets: the same material is arranged anew, and no stored value changes") {
+  const Session session;
+  write_orm_set(session);
+  for (const Arrangement& to : kArrangements) {
+    INFO(to.preset);
+    const std::string out = "out_" + to.preset, back = "back_" + to.preset;
+    require_success(session.texremap("convert in --from gltf --preset " + to.preset + " -o " + out));
+    const auto held = [&](const Expected& place) {
+      return channel(session, out + "/" + place.file + ".png", place.channel);
+    };
+    const std::vector<float> width = held(to.roughness);
+    CHECK((to.is_smooth ? complement(width) : width) ==
+          channel(session, "in/wood_occlusionRoughnessMetallic.png", 1));
+    CHECK(held(to.metallic) == channel(session, "in/wood_occlusionRoughnessMetallic.png", 2));
+    CHECK(held(to.occlusion) == channel(session, "in/wood_occlusionRoughnessMetallic.png", 0));
+    // A file that stays as it is is copied byte for byte.
+    CHECK(session.content(out + "/" + to.base_color + ".png") == session.content("in/wood_baseColor.png"));
+    // Its names are found again.
+    require_success(session.texremap("convert " + out + " --from gltf --preset gltf -o " + back));
+    const std::string set = back + (to.preset == "unreal" ? "/T_wood" : "/wood");
+    CHECK(session.content(set + "_baseColor.png") == session.content("in/wood_baseColor.png"));
+    for (int c = 0; c < 3; ++c)
+      CHECK(channel(session, set + "_occlusionRoughnessMetallic.png", c) ==
+            channel(session, "in/wood_occlusionRoughnessMetallic.png", c));
+  }
+}
+
+TEST_CASE("texremap layouts: in words, with a constant, and a channel without a role that is named") {
+  const Session session;
+  write_orm_set(session);
+  session.make("in/stone_MaskMap.png", test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
+  session.make("in/stone_BaseMap.png", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  const ProcessResult result = require_success(session.texremap(
+      Words("convert in --from unity --to gltf -o out --layout") +
+      Words(std::vector<std::string>{"Packed=smoothness,1,metallic,occlusion; *_c=base_color"})));
+  CHECK_THAT(result.errors, Contains("stone_MaskMap.png: channel B has no role and is left out"));
+  CHECK(channel(session, "out/wood_Packed.png", 0) ==
+        complement(channel(session, "in/wood_occlusionRoughnessMetallic.png", 1)));
+  CHECK(channel(session, "out/wood_Packed.png", 1) == std::vector<float>(kSize * kSize, 1.0f));
+  CHECK(channel(session, "out/wood_Packed.png", 3) ==
+        channel(session, "in/wood_occlusionRoughnessMetallic.png", 0));
+  CHECK(channel(session, "out/stone_Packed.png", 0) == channel(session, "in/stone_MaskMap.png", 3));
+  CHECK(session.content("out/stone_c.png") == session.content("in/stone_BaseMap.png"));
+}

@@ -8,6 +8,7 @@
 #include "core/number_text.hpp"
 #include "remap/path.hpp"
 #include "remap/shipped_converters.hpp"
+#include "remap/workflow.hpp"
 #include "support/skip.hpp"
 
 using namespace remap;
@@ -153,4 +154,39 @@ TEST_CASE("texremap convert: from one real renderer to another, through the hub"
     CHECK(r.at(x, 5, 0) == Approx(source).margin(source < 0.45f ? 0.005 : 0.02));
     CHECK(s.at(x, 5, 0) == Approx(0.5).margin(source < 0.4f ? 0.02 : 0.1));
   }
+}
+
+TEST_CASE("texremap: names that people use stand for models, in every command") {
+  const Session session;
+  for (const ModelAlias& alias : model_aliases()) {
+    INFO(alias.name);
+    REQUIRE(find_workflow_model(alias.model) != nullptr);
+    CHECK(find_workflow_model(alias.name) == nullptr);
+    CHECK(find_alias(alias.name) == &alias);
+  }
+  CHECK(find_alias("Unity")->model == "gltf");
+  CHECK(find_alias("THREE.JS")->model == "threejs/standard");
+  CHECK(find_alias("Spec_Gloss")->model == "gltf-specgloss");
+  CHECK(find_alias("unit") == nullptr);
+
+  const auto path = [&](const std::string& from, const std::string& to) {
+    return require_success(session.texremap(path_words(from, to))).output;
+  };
+  const std::string plain = path("gltf", "cycles-5/principled");
+  CHECK(path("GLTF", "cycles-5/principled") == plain);
+  const std::string named = path("unity", "Blender");
+  CHECK_THAT(named, Contains("unity means gltf: ") && Contains("blender means cycles-5/principled: "));
+  CHECK(named.ends_with(plain));
+  const std::string values = " --roughness 0.5 --base-color 0.8,0.4,0.2 --metallic 1 --json";
+  const Json a =
+      Json::parse(require_success(session.texremap("convert --from unity --to threejs" + values)).output);
+  const Json b = Json::parse(
+      require_success(session.texremap("convert --from gltf --to threejs/standard" + values)).output);
+  CHECK(a["values"] == b["values"]);
+  CHECK_THAT(require_success(session.texremap("list --workflows")).output,
+             Contains("  also     arnold: ") && Contains("metal-rough: "));
+  CHECK(require_success(session.texremap("help convert")).output ==
+        require_success(session.texremap("convert --help")).output);
+  CHECK(require_success(session.texremap("version")).output ==
+        require_success(session.texremap("--version")).output);
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -208,14 +209,28 @@ const std::vector<WorkflowModel>& workflow_models();
 // Null for an unknown name.
 const WorkflowModel* find_workflow_model(std::string_view name);
 
+// A name that people use for a workflow model.
+struct ModelAlias {
+  std::string_view name;     // lower case, words joined by '-'
+  std::string_view model;    // of workflow_models()
+  std::string_view meaning;  // of materials of that name, after its documentation or source code
+};
+std::span<const ModelAlias> model_aliases();
+// Null for none. Case does not count, and '_', '.' and ' ' stand for '-'.
+const ModelAlias* find_alias(std::string_view name);
+
 // A BRDF model of the graph, such as `mitsuba/ward`, as a specular or a metallic workflow with the common
 // conventions.
 WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessConvention width);
 
 // Whether maps of the model `name` hold materials of `end` over `brdf`. For example `specular` and
 // mitsuba/ggx are both layers over mitsuba/ggx with plain diffuse. The encoding of the roughness is not
-// compared.
+// compared, nor a convention that the model leaves open.
 bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf);
+
+// Whether both describe the same material by the same numbers over one BRDF. Their names and the encodings of
+// the roughness are not compared.
+bool is_same_material(const WorkflowEnd& a, const WorkflowEnd& b);
 
 // Converters of whole materials between workflows.
 
@@ -232,8 +247,9 @@ struct WorkflowStages {
 };
 
 // The stages: equation (2) if the source is metallic, then those of `brdf` for width and specular, then the
-// projection if the target is metallic. The diffuse lobe keeps its reflectance where `brdf` changes specular,
-// so scaled diffuse is scaled to the new specular. Throws kInput as require_valid() does.
+// projection if the target is metallic; none for one material at both ends. The diffuse lobe keeps its
+// reflectance where `brdf` changes specular, so scaled diffuse is scaled to the new specular. Throws kInput
+// as require_valid() does.
 std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
                                                    InstructionSet set = best_instruction_set());
 

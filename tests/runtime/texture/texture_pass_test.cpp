@@ -148,7 +148,7 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands", "[
   stages.target = *workflow_end("metallic");
   const auto converter = make_workflow_converter(stages);
   TargetChoice choice;
-  choice.layout = Layout::kSeparate;
+  choice.layout = separate();
   choice.parameters = {Parameter::kRoughness, Parameter::kBaseColor, Parameter::kMetallic};
   choice.diagnoses = {ConvertedChannel{Parameter::kDoubts}};
   choice.force = true;

@@ -1,0 +1,169 @@
+#include "texture/layout.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
+#include "remap/error.hpp"
+
+namespace remap {
+namespace {
+
+constexpr auto kRoughness = RoughnessConvention::kRoughness, kGlossiness = RoughnessConvention::kGlossiness;
+constexpr auto kEightBits = PixelType::kUint8;
+
+constexpr std::array<Preset, 14> kPresets = {{
+    {"as-inputs", "", "", "", {}, ""},
+    {"separate", "", "", "", {}, ""},
+    {"orm", "", "orm=occlusion,roughness,metallic", "", {}, ""},
+    {"arm", "", "arm=occlusion,roughness,metallic", "", {}, ""},
+    {"specgloss", "", "specular_glossiness=specular,glossiness", "", {}, ""},
+    {"gltf", "gltf", "baseColor=base_color; occlusionRoughnessMetallic=occlusion,roughness,metallic", "png",
+     kEightBits, "glTF 2.0, 3.9.2 and 5.22: roughness in G, metallic in B, occlusion in R; PNG or JPEG"},
+    {"unity", "unity",
+     "BaseMap=base_color; MetallicSmoothness=metallic,metallic,metallic,smoothness; Occlusion=occlusion",
+     "png", kEightBits, "Unity manual, Lit shader of URP: metallic in R, smoothness in A, occlusion in G"},
+    {"unity-hdrp", "unity-hdrp", "BaseMap=base_color; MaskMap=metallic,occlusion,0,smoothness", "png",
+     kEightBits, "Unity HDRP manual, mask map: metallic, occlusion, detail mask, smoothness"},
+    {"unreal", "unreal", "T_*_BC=base_color; T_*_ORM=occlusion,roughness,metallic", "png", kEightBits,
+     "Unreal Engine documentation, packed masks and asset naming conventions: T_ and suffixes"},
+    {"godot", "godot", "albedo=base_color; orm=occlusion,roughness,metallic", "png", kEightBits,
+     "Godot documentation, ORMMaterial3D: occlusion, roughness, metallic"},
+    {"threejs", "three", "baseColor=base_color; orm=occlusion,roughness,metallic", "png", kEightBits,
+     "three.js documentation, MeshStandardMaterial: aoMap in R, roughnessMap in G, metalnessMap in B"},
+    {"blender", "blender", "", "png", kEightBits,
+     "Blender manual, Principled BSDF: one image for each input"},
+    {"usd", "usd", "", "png", kEightBits,
+     "UsdPreviewSurface and USDZ specifications: PNG, a texture an input"},
+    {"marmoset", "marmoset", "", "png", kEightBits, "Marmoset Toolbag manual: a map for each input"},
+}};
+
+// The words of a layout, with what they mean.
+LayoutContent content_of(const std::string& option, const std::string& file, const std::string& word) {
+  static const std::vector<std::pair<std::string, LayoutContent>> kWords = {
+      {"roughness", LayoutParameter{Parameter::kRoughness, kRoughness}},
+      {"glossiness", LayoutParameter{Parameter::kRoughness, kGlossiness}},
+      {"smoothness", LayoutParameter{Parameter::kRoughness, kGlossiness}},
+      {"metallic", LayoutParameter{Parameter::kMetallic, {}}},
+      {"specular", LayoutParameter{Parameter::kSpecular, {}}},
+      {"diffuse", LayoutParameter{Parameter::kDiffuse, {}}},
+      {"base_color", LayoutParameter{Parameter::kBaseColor, {}}},
+      {"occlusion", LayoutCarried{"occlusion", 1.0f}}};
+  std::vector<std::string> known;
+  for (const auto& [name, content] : kWords) {
+    if (name == word) return content;
+    known.push_back(name);
+  }
+  const auto number = parse_number(word);
+  if (number && *number >= 0.0 && *number <= 1.0) return static_cast<float>(*number);
+  throw Error(ErrorKind::kUsage, option + ": " + file + ": unknown content '" + word + "' (choose " +
+                                     joined(known, ", ") + ", or a number from 0 to 1)");
+}
+
+std::string trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string_view::npos) return "";
+  return std::string(text.substr(begin, text.find_last_not_of(' ') - begin + 1));
+}
+
+std::vector<std::string> split(std::string_view text, char between) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(between, begin), text.size());
+    words.push_back(trimmed(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return words;
+}
+
+std::size_t channels_of(const LayoutContent& content) {
+  const auto* own = std::get_if<LayoutParameter>(&content);
+  return own != nullptr && is_color(own->parameter) ? 3 : 1;
+}
+
+LayoutFile file_from(const std::string& option, const std::string& text) {
+  const std::size_t sign = text.find('=');
+  LayoutFile file;
+  file.name = trimmed(std::string_view(text).substr(0, sign));
+  if (sign == std::string::npos || file.name.empty() || file.name.find('/') != std::string::npos)
+    throw Error(ErrorKind::kUsage, option + ": '" + text +
+                                       "' is no file of a layout (write NAME=CONTENT,..., as orm="
+                                       "occlusion,roughness,metallic)");
+  std::size_t channels = 0;
+  for (const std::string& word : split(std::string_view(text).substr(sign + 1), ',')) {
+    file.content.push_back(content_of(option, file.name, word));
+    channels += channels_of(file.content.back());
+  }
+  if (channels != 1 && channels != 3 && channels != 4)
+    throw Error(ErrorKind::kUsage, option + ": " + file.name + " has " + std::to_string(channels) +
+                                       " channels (use 1, 3 or 4; a color has three)");
+  return file;
+}
+
+Layout layout_in(const std::string& option, const std::string& name, std::string_view text) {
+  Layout layout;
+  layout.name = name;
+  layout.keeps_names = name == "as-inputs";
+  if (!text.empty())
+    for (const std::string& file : split(text, ';'))
+      if (!file.empty()) layout.files.push_back(file_from(option, file));
+  for (const LayoutFile& file : layout.files)
+    for (const LayoutContent& content : file.content)
+      if (const auto* own = std::get_if<LayoutParameter>(&content); own != nullptr && own->width) {
+        if (const auto other = layout.width(); other != own->width)
+          throw Error(ErrorKind::kUsage, option + ": holds both roughness and glossiness (choose one)");
+      }
+  return layout;
+}
+
+}  // namespace
+
+std::optional<RoughnessConvention> Layout::width() const {
+  for (const LayoutFile& file : files)
+    for (const LayoutContent& content : file.content)
+      if (const auto* own = std::get_if<LayoutParameter>(&content); own != nullptr && own->width)
+        return own->width;
+  return std::nullopt;
+}
+
+const LayoutFile* Layout::file_with(Parameter parameter) const {
+  const auto found = std::ranges::find_if(files, [parameter](const LayoutFile& file) {
+    return std::ranges::any_of(file.content, [parameter](const LayoutContent& content) {
+      const auto* own = std::get_if<LayoutParameter>(&content);
+      return own != nullptr && own->parameter == parameter;
+    });
+  });
+  return found == files.end() ? nullptr : &*found;
+}
+
+bool Layout::has_place_for(std::string_view carried) const {
+  for (const LayoutFile& file : files)
+    for (const LayoutContent& content : file.content) {
+      const auto* other = std::get_if<LayoutCarried>(&content);
+      const auto* own = std::get_if<LayoutParameter>(&content);
+      if (other != nullptr && other->name == carried) return true;
+      if (own != nullptr && parameter_name(own->parameter) == carried) return true;
+    }
+  return false;
+}
+
+Layout as_inputs() { return {"as-inputs", true, {}}; }
+
+Layout separate() { return {"separate", false, {}}; }
+
+std::span<const Preset> presets() { return kPresets; }
+
+Layout layout_from(const std::string& option, const std::string& text) {
+  if (text.find('=') != std::string::npos) return layout_in(option, text, text);
+  std::vector<std::string> known;
+  for (const Preset& preset : kPresets) {
+    if (preset.name == text) return layout_in(option, text, preset.layout);
+    known.emplace_back(preset.name);
+  }
+  throw Error(ErrorKind::kUsage,
+              option + ": unknown layout '" + text + "'" + suggestion(text, known) +
+                  (nearest_name(text, known).empty() ? ", or write FILE=CONTENT,..." : ""));
+}
+
+}  // namespace remap

@@ -1,0 +1,72 @@
+// The arrangement of results in files.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "remap/converter.hpp"
+#include "remap/model.hpp"
+#include "remap/pixels.hpp"
+
+namespace remap {
+
+// A parameter that a conversion makes or takes along, in one channel or, of a color, in three.
+struct LayoutParameter {
+  Parameter parameter = Parameter::kRoughness;
+  std::optional<RoughnessConvention> width;  // of kRoughness: roughness or glossiness
+};
+// A parameter that is never converted (`occlusion`).
+struct LayoutCarried {
+  std::string name;
+  float otherwise = 1.0f;  // stored where the set does not have it
+};
+// Roughness, metallic, ..., occlusion, or a stored value from 0 to 1.
+using LayoutContent = std::variant<LayoutParameter, LayoutCarried, float>;
+
+struct LayoutFile {
+  std::string name;  // without extension; `*` stands for the name of the set, which comes first without it
+  std::vector<LayoutContent> content;  // of 1, 3 or 4 channels
+};
+
+struct Layout {
+  std::string name;
+  bool keeps_names = false;       // each map with a converted channel keeps its name
+  std::vector<LayoutFile> files;  // other results have a file each, named as the parameter
+
+  // What the roughness in its files is; none where it has a file of its own.
+  std::optional<RoughnessConvention> width() const;
+  // The file with `parameter`; null for none.
+  const LayoutFile* file_with(Parameter parameter) const;
+  // Whether a file has a channel for a parameter that is carried, such as `occlusion` or `metallic`.
+  bool has_place_for(std::string_view carried) const;
+  bool operator==(const Layout& other) const { return name == other.name; }
+};
+
+// Each map with a converted channel keeps its name.
+Layout as_inputs();
+// One file each for roughness, colors and carried parameters.
+Layout separate();
+
+// What an engine or tool takes.
+struct Preset {
+  std::string_view name;
+  std::string_view model;   // of `--to`; empty where `layout` is all that the name means
+  std::string_view layout;  // as layout_from() reads it; empty: separate
+  std::string_view format;  // extension; empty: that of the inputs
+  std::optional<PixelType> type;
+  std::string_view source;  // where the names and channels are documented
+};
+// `unity`, `unreal`, ... and the plain layouts `as-inputs`, `separate`, `orm`, `arm`, `specgloss`.
+std::span<const Preset> presets();
+
+// A layout by the name of a preset, or in words: `MaskMap=metallic,occlusion,0,smoothness; Albedo=base_color`
+// lists files and, by channel, what they hold: roughness, glossiness or smoothness, metallic, occlusion,
+// specular, diffuse or base_color (three channels each), or a number from 0 to 1. Throws kUsage, naming
+// `option`, for unknown words and other numbers of channels than 1, 3 and 4.
+Layout layout_from(const std::string& option, const std::string& text);
+
+}  // namespace remap
