@@ -121,10 +121,9 @@ Regression fit_series_kind(const std::vector<TableRow>& rows, const Domain& doma
   std::set<double> widths;
   for (const TableRow& row : rows) widths.insert(row.alpha1);
   const TexelSeries box{domain.alpha, domain.specular, {}};
-  const std::vector<int> of_alpha =
-      alpha_needs_specular(rows) ? std::vector{1, 2, 4, kAnyDegree} : std::vector{0};
   Series series;
-  series.alpha = best_series(rows, widths.size(), &TableRow::alpha2, box, series_shapes(of_alpha), seed);
+  series.alpha =
+      best_series(rows, widths.size(), &TableRow::alpha2, box, series_shapes({0, 1, 2, 4, kAnyDegree}), seed);
   series.specular =
       best_series(rows, widths.size(), &TableRow::specular2, box, series_shapes({1, 2, 4, kAnyDegree}), seed);
   const auto again = [series](const std::vector<TableRow>& some) {
