@@ -4,14 +4,14 @@
 // mitsuba/as to threejs-r187/phong: which parameters of the second give the same picture as those of the first.
 // Table mitsuba_as_to_threejs_r187_phong.csv, sha256 c2c3a6370db7b009840504d1693195dea8ad5264c4d27da4c385336bc1c14f1c;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; three.js r0.187.0 (HeadlessChrome/156.0.8078.79).
-// Fit: mlp, seed 1, 592 rows trained, 148 held out.
-// Error on the rows held out: alpha rms 6e-04, 99 % 0.0041, max 0.0047;
-// specular rms 8.8e-05, 99 % 0.00056, max 0.00079.
-// Lowered from the fit. Target alpha: degree 15, proven within 8.7e-06 (sampled 7.1e-06), rising with alpha.
-// Target specular: degree 12, 7 in specular, proven within 1e-04 (sampled 9.5e-05), rising with specular.
-// Where alpha is at its limit, target specular: degree 3, 2 in specular, proven within 8.1e-05 (sampled 7.3e-05), rising with specular.
-// Where specular is at its limit, target alpha: degree 15 in alpha / (alpha + 1), 10 in specular, proven within 9.9e-05 (sampled 7.3e-05), rising with alpha.
-// All together within 3e-04 in alpha, 0.00011 in specular.
+// Fit: series, seed 1, 592 rows trained, 148 held out.
+// Error on the rows held out: alpha rms 0.00028, 99 % 0.0011, max 0.0011;
+// specular rms 7.2e-05, 99 % 0.00034, max 0.00039.
+// Lowered from the fit. Target alpha: degree 11 in alpha / (alpha + 1), 4 in specular, proven within 9.9e-06 (sampled 8.1e-06), rising with alpha.
+// Target specular: degree 11 in alpha / (alpha + 1), proven within 8.5e-05 (sampled 7.4e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 3, 2 in specular, proven within 6.5e-05 (sampled 5.8e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 10, 9 in specular, proven within 7.6e-05 (sampled 6.6e-05), rising with alpha.
+// All together within 0.00027 in alpha, 9.1e-05 in specular.
 // Covers alpha 0.01 to 0.99, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_THREEJS_R187_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_THREEJS_R187_PHONG_HPP
@@ -39,8 +39,8 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 6e-04f;
-inline constexpr float kSpecularRmsError = 8.8e-05f;
+inline constexpr float kAlphaRmsError = 0.00028f;
+inline constexpr float kSpecularRmsError = 7.2e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.36f;
@@ -77,33 +77,70 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float) noexcept {
-  const float u = alpha - 0.3931646f;
+inline float target_alpha(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.22426422f;
   const float u_2 = u * u;
-  float c0 = 131587.89f;
-  float c0_next = -21322.242f;
-  c0 = c0 * u_2 + -82455.05f;
-  c0_next = c0_next * u_2 + 11065.215f;
-  c0 = c0 * u_2 + 20817.104f;
-  c0_next = c0_next * u_2 + -2388.4707f;
-  c0 = c0 * u_2 + -2665.6074f;
-  c0_next = c0_next * u_2 + 302.1476f;
-  c0 = c0 * u_2 + 172.5084f;
-  c0_next = c0_next * u_2 + -27.358128f;
-  c0 = c0 * u_2 + -3.1127663f;
-  c0_next = c0_next * u_2 + 1.691779f;
-  c0 = c0 * u_2 + -0.07409119f;
-  c0_next = c0_next * u_2 + 0.44736502f;
-  c0 = c0 * u_2 + 1.278077f;
-  c0_next = c0_next * u_2 + 0.43381304f;
+  float c0 = 94682.055f;
+  float c0_next = 3128.1294f;
+  c0 = c0 * u_2 + -16938.494f;
+  c0_next = c0_next * u_2 + -1866.9464f;
+  c0 = c0 * u_2 + 1111.7661f;
+  c0_next = c0_next * u_2 + 313.6948f;
+  c0 = c0 * u_2 + 11.654165f;
+  c0_next = c0_next * u_2 + -0.11257283f;
+  c0 = c0 * u_2 + 6.676177f;
+  c0_next = c0_next * u_2 + 3.969143f;
+  c0 = c0 * u_2 + 1.9535797f;
+  c0_next = c0_next * u_2 + 0.30600482f;
   c0 = c0 * u + c0_next;
-  return c0;
+  float c1 = 182.44025f;
+  float c1_next = 56.40082f;
+  c1 = c1 * u_2 + -4.2292233f;
+  c1_next = c1_next * u_2 + -4.438723f;
+  c1 = c1 * u_2 + -0.6967246f;
+  c1_next = c1_next * u_2 + -0.016512008f;
+  c1 = c1 * u_2 + -0.0050113704f;
+  c1_next = c1_next * u_2 + -0.002169958f;
+  c1 = c1 * u_2 + -0.00015454114f;
+  c1 = c1_next * u + c1;
+  float c2 = -659.69995f;
+  float c2_next = -179.19989f;
+  c2 = c2 * u_2 + 21.09792f;
+  c2_next = c2_next * u_2 + 13.237448f;
+  c2 = c2 * u_2 + 1.638229f;
+  c2_next = c2_next * u_2 + 0.0059863348f;
+  c2 = c2 * u_2 + 0.012699147f;
+  c2_next = c2_next * u_2 + 0.0059303534f;
+  c2 = c2 * u_2 + 0.00040690228f;
+  c2 = c2_next * u + c2;
+  float c3 = 10.2176695f;
+  float c3_next = 4.516782f;
+  c3 = c3 * u_2 + 1.0691966f;
+  c3_next = c3_next * u_2 + 0.2584801f;
+  c3 = c3 * u_2 + 0.041302733f;
+  c3_next = c3_next * u_2 + 0.0025452995f;
+  c3 = c3 * u + c3_next;
+  float c4 = -25.511747f;
+  float c4_next = -10.292219f;
+  c4 = c4 * u_2 + -2.114446f;
+  c4_next = c4_next * u_2 + -0.5282975f;
+  c4 = c4 * u_2 + -0.0905192f;
+  c4_next = c4_next * u_2 + -0.0056380033f;
+  c4 = c4 * u + c4_next;
+  const float w = specular - 0.500001f;
+  float sum = c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
   float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
   float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
@@ -120,93 +157,57 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.3931646f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.22426422f;
     const float u_2 = u * u;
-    float c0 = 7169.434f;
-    float c0_next = -13.41712f;
-    c0 = c0 * u_2 + -4083.2305f;
-    c0_next = c0_next * u_2 + 142.13268f;
-    c0 = c0 * u_2 + 965.28845f;
-    c0_next = c0_next * u_2 + -82.44243f;
-    c0 = c0 * u_2 + -123.0677f;
-    c0_next = c0_next * u_2 + 21.921955f;
-    c0 = c0 * u_2 + 8.8441f;
-    c0_next = c0_next * u_2 + -3.8033445f;
-    c0 = c0 * u_2 + 0.5244059f;
-    c0_next = c0_next * u_2 + 1.2513052f;
-    c0 = c0 * u_2 + 1.3089855f;
-    c0 = c0_next * u + c0;
-    float c1 = 15388.768f;
-    float c1_next = -992.9868f;
-    c1 = c1 * u_2 + -8612.281f;
-    c1_next = c1_next * u_2 + 720.99695f;
-    c1 = c1 * u_2 + 1991.7421f;
-    c1_next = c1_next * u_2 + -236.89622f;
-    c1 = c1 * u_2 + -248.62953f;
-    c1_next = c1_next * u_2 + 48.960014f;
-    c1 = c1 * u_2 + 17.630507f;
-    c1_next = c1_next * u_2 + -7.7131324f;
-    c1 = c1 * u_2 + 1.0579137f;
-    c1_next = c1_next * u_2 + 2.4984734f;
-    c1 = c1 * u_2 + 2.616106f;
-    c1 = c1_next * u + c1;
-    float c2 = 0.017043732f;
-    float c2_next = 0.0052362303f;
-    c2 = c2 * u_2 + 0.016904633f;
-    c2_next = c2_next * u_2 + 0.0023106178f;
-    c2 = c2 * u_2 + -0.00040116103f;
-    c2 = c2_next * u + c2;
-    float c3 = -0.178978f;
-    c3 = c3 * u + 0.045391135f;
-    c3 = c3 * u + 0.01658647f;
-    c3 = c3 * u + -0.009750048f;
-    float c4 = -0.07168684f;
-    c4 = c4 * u + -0.25076485f;
-    c4 = c4 * u + -0.03168302f;
-    c4 = c4 * u + 0.0047526993f;
-    float c5 = 0.7735292f;
-    c5 = c5 * u + -0.18856263f;
-    c5 = c5 * u + -0.07728494f;
-    c5 = c5 * u + 0.07216085f;
-    float c6 = 0.8050649f;
-    c6 = c6 * u + 0.12203602f;
-    c6 = c6 * u + -0.013939235f;
-    const float c7 = -0.15249173f;
+    float c0 = 127743.45f;
+    float c0_next = 76975.45f;
+    c0 = c0 * u_2 + -6788.7534f;
+    c0_next = c0_next * u_2 + -9221.244f;
+    c0 = c0 * u_2 + -137.07698f;
+    c0_next = c0_next * u_2 + 391.78885f;
+    c0 = c0 * u_2 + 10.791626f;
+    c0_next = c0_next * u_2 + -7.224164f;
+    c0 = c0 * u_2 + -0.19353443f;
+    c0_next = c0_next * u_2 + 0.052030504f;
+    c0 = c0 * u_2 + 0.0043388996f;
+    c0_next = c0_next * u_2 + 0.0007928926f;
+    c0 = c0 * u + c0_next;
+    float c1 = 1960153.9f;
+    float c1_next = 60747.605f;
+    c1 = c1 * u_2 + -330154.38f;
+    c1_next = c1_next * u_2 + -30633.654f;
+    c1 = c1 * u_2 + 19773.695f;
+    c1_next = c1_next * u_2 + 3733.082f;
+    c1 = c1 * u_2 + -402.72086f;
+    c1_next = c1_next * u_2 + -193.87538f;
+    c1 = c1 * u_2 + 4.190606f;
+    c1_next = c1_next * u_2 + 14.301681f;
+    c1 = c1 * u_2 + 3.3052852f;
+    c1_next = c1_next * u_2 + 2.377352f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
 // Target specular where target alpha is at its limit.
 inline float wide_specular(float alpha, float specular) noexcept {
-  const float u = alpha - 0.8817042f;
-  float c0 = 1.0131618f;
-  c0 = c0 * u + 0.5539593f;
-  c0 = c0 * u + -2.1592445f;
-  c0 = c0 * u + 1.5573606f;
-  float c1 = 1.2582698f;
-  c1 = c1 * u + -4.290495f;
-  c1 = c1 * u + 3.1115425f;
-  const float c2 = -0.00035941257f;
+  const float u = alpha - 0.88146067f;
+  float c0 = 0.6671437f;
+  c0 = c0 * u + 0.43988603f;
+  c0 = c0 * u + -2.14835f;
+  c0 = c0 * u + 1.55783f;
+  float c1 = 0.8827962f;
+  c1 = c1 * u + -4.2649627f;
+  c1 = c1 * u + 3.111379f;
+  const float c2 = -0.003357305f;
   const float w = specular - 0.500001f;
   float sum = c2;
   sum = sum * w + c1;
@@ -216,114 +217,80 @@ inline float wide_specular(float alpha, float specular) noexcept {
 
 // Target alpha where target specular is at its limit.
 inline float bright_alpha(float alpha, float specular) noexcept {
-  const float t = alpha / (alpha + 1.0f);
-  const float u = t - 0.25369447f;
+  const float u = alpha - 0.5000011f;
   const float u_2 = u * u;
-  float c0 = 987238912.0f;
-  float c0_next = 218094416.0f;
-  c0 = c0 * u_2 + -194827856.0f;
-  c0_next = c0_next * u_2 + -44975048.0f;
-  c0 = c0 * u_2 + 13888156.0f;
-  c0_next = c0_next * u_2 + 3459034.8f;
-  c0 = c0 * u_2 + -376260.16f;
-  c0_next = c0_next * u_2 + -109562.87f;
-  c0 = c0 * u_2 + -1429.7129f;
-  c0_next = c0_next * u_2 + 98.83444f;
-  c0 = c0 * u_2 + 308.1162f;
-  c0_next = c0_next * u_2 + 114.39509f;
-  c0 = c0 * u_2 + -2.2383714f;
-  c0_next = c0_next * u_2 + -3.1977086f;
-  c0 = c0 * u_2 + 1.0848188f;
-  c0_next = c0_next * u_2 + 0.31599006f;
-  c0 = c0 * u + c0_next;
-  float c1 = 207239984.0f;
-  float c1_next = 37244688.0f;
-  c1 = c1 * u_2 + -41091564.0f;
-  c1_next = c1_next * u_2 + -8851466.0f;
-  c1 = c1 * u_2 + 2328963.8f;
-  c1_next = c1_next * u_2 + 658525.4f;
-  c1 = c1 * u_2 + 8440.673f;
-  c1_next = c1_next * u_2 + -8694.222f;
-  c1 = c1 * u_2 + -4604.623f;
-  c1_next = c1_next * u_2 + -1160.3419f;
-  c1 = c1 * u_2 + 93.12316f;
-  c1_next = c1_next * u_2 + 50.187767f;
-  c1 = c1 * u_2 + -2.9854891f;
-  c1_next = c1_next * u_2 + -1.9114316f;
-  c1 = c1 * u_2 + -0.12725584f;
-  c1 = c1_next * u + c1;
-  float c2 = 186804464.0f;
-  float c2_next = 53410180.0f;
-  c2 = c2 * u_2 + -23290756.0f;
-  c2_next = c2_next * u_2 + -7244271.0f;
-  c2 = c2 * u_2 + 783099.5f;
-  c2_next = c2_next * u_2 + 253401.22f;
-  c2 = c2 * u_2 + -15592.978f;
-  c2_next = c2_next * u_2 + 2310.3003f;
-  c2 = c2 * u_2 + 1661.3628f;
-  c2_next = c2_next * u_2 + -207.08655f;
-  c2 = c2 * u_2 + -59.44268f;
-  c2_next = c2_next * u_2 + 10.146086f;
-  c2 = c2 * u_2 + 3.0146852f;
-  c2_next = c2_next * u_2 + 0.1914183f;
-  c2 = c2 * u + c2_next;
-  float c3 = 1221345.2f;
-  float c3_next = 298669.84f;
-  c3 = c3 * u_2 + -6664.8667f;
-  c3_next = c3_next * u_2 + -2710.0913f;
-  c3 = c3 * u_2 + -5053.629f;
-  c3_next = c3_next * u_2 + -1276.8479f;
-  c3 = c3 * u_2 + 402.10715f;
-  c3_next = c3_next * u_2 + 57.207516f;
-  c3 = c3 * u_2 + -32.49337f;
-  c3_next = c3_next * u_2 + -6.1516085f;
-  c3 = c3 * u_2 + -0.30313638f;
+  float c0 = 235.00807f;
+  float c0_next = -19.433384f;
+  c0 = c0 * u_2 + -180.30081f;
+  c0_next = c0_next * u_2 + 22.65437f;
+  c0 = c0 * u_2 + 52.17254f;
+  c0_next = c0_next * u_2 + -10.506921f;
+  c0 = c0 * u_2 + -6.3763833f;
+  c0_next = c0_next * u_2 + 2.7711377f;
+  c0 = c0 * u_2 + 0.036031734f;
+  c0_next = c0_next * u_2 + 0.35976654f;
+  c0 = c0 * u_2 + 0.3863199f;
+  c0 = c0_next * u + c0;
+  float c1 = 236.75882f;
+  float c1_next = -89.79551f;
+  c1 = c1 * u_2 + -176.34645f;
+  c1_next = c1_next * u_2 + 61.821514f;
+  c1 = c1 * u_2 + 45.888218f;
+  c1_next = c1_next * u_2 + -16.614838f;
+  c1 = c1 * u_2 + -4.472188f;
+  c1_next = c1_next * u_2 + 1.2354169f;
+  c1 = c1 * u_2 + -0.693414f;
+  c1_next = c1_next * u_2 + -0.27419165f;
+  c1 = c1 * u + c1_next;
+  float c2 = 266.7423f;
+  float c2_next = 65.17598f;
+  c2 = c2 * u_2 + -160.78215f;
+  c2_next = c2_next * u_2 + -31.57211f;
+  c2 = c2 * u_2 + 32.20966f;
+  c2_next = c2_next * u_2 + 3.2684722f;
+  c2 = c2 * u_2 + -1.1990341f;
+  c2_next = c2_next * u_2 + 1.5444168f;
+  c2 = c2 * u_2 + 0.48423433f;
+  c2 = c2_next * u + c2;
+  float c3 = 100.29155f;
+  float c3_next = -5.2312098f;
+  c3 = c3 * u_2 + -27.849413f;
+  c3_next = c3_next * u_2 + 11.7835865f;
+  c3 = c3 * u_2 + 0.4400727f;
+  c3_next = c3_next * u_2 + -4.5440145f;
+  c3 = c3 * u_2 + -0.960067f;
   c3 = c3_next * u + c3;
-  float c4 = 102743.71f;
-  float c4_next = 74707.68f;
-  c4 = c4 * u_2 + -6269.756f;
-  c4_next = c4_next * u_2 + -9162.856f;
-  c4 = c4 * u_2 + -1862.9924f;
-  c4_next = c4_next * u_2 + -17.303854f;
-  c4 = c4 * u_2 + 129.84343f;
-  c4_next = c4_next * u_2 + 24.72563f;
-  c4 = c4 * u_2 + 0.13961253f;
+  float c4 = -167.85411f;
+  float c4_next = 121.244736f;
+  c4 = c4 * u_2 + 68.94f;
+  c4_next = c4_next * u_2 + -89.04097f;
+  c4 = c4 * u_2 + -13.6712f;
+  c4_next = c4_next * u_2 + 17.25882f;
+  c4 = c4 * u_2 + 1.5185668f;
   c4 = c4_next * u + c4;
-  float c5 = -852782.3f;
-  float c5_next = -295563.38f;
-  c5 = c5 * u_2 + 14817.157f;
-  c5_next = c5_next * u_2 + 21771.17f;
-  c5 = c5 * u_2 + 5048.6924f;
-  c5_next = c5_next * u_2 + 590.56445f;
-  c5 = c5 * u_2 + -156.54109f;
-  c5_next = c5_next * u_2 + -57.833805f;
-  c5 = c5 * u_2 + 1.5907665f;
-  c5 = c5_next * u + c5;
-  float c6 = 121727.72f;
-  float c6_next = 40167.15f;
-  c6 = c6 * u_2 + -1232.1283f;
-  c6_next = c6_next * u_2 + -2133.2627f;
-  c6 = c6 * u_2 + -692.82697f;
-  c6_next = c6_next * u_2 + -92.14447f;
-  c6 = c6 * u_2 + 7.128001f;
+  float c5 = -241.80109f;
+  float c5_next = -160.09222f;
+  c5 = c5 * u_2 + 135.06538f;
+  c5_next = c5_next * u_2 + 67.38171f;
+  c5 = c5 * u_2 + -23.014597f;
+  c5_next = c5_next * u_2 + -3.8180056f;
+  c5 = c5 * u + c5_next;
+  float c6 = 268.46103f;
+  float c6_next = 285.44214f;
+  c6 = c6 * u_2 + -97.205635f;
+  c6_next = c6_next * u_2 + -93.09709f;
+  c6 = c6 * u_2 + 23.234324f;
   c6 = c6_next * u + c6;
-  float c7 = -45921.055f;
-  float c7_next = -16022.938f;
-  c7 = c7 * u_2 + -55.757f;
-  c7_next = c7_next * u_2 + 1768.9229f;
-  c7 = c7 * u_2 + 360.49197f;
-  c7_next = c7_next * u_2 + -102.757484f;
-  c7 = c7 * u + c7_next;
-  float c8 = 296.60544f;
-  c8 = c8 * u + 556.0702f;
-  c8 = c8 * u + 192.92322f;
-  float c9 = -2079.7969f;
-  c9 = c9 * u + -1509.5876f;
-  c9 = c9 * u + 372.89417f;
-  const float c10 = -955.3208f;
-  const float w = specular - 0.64116675f;
-  float sum = c10;
-  sum = sum * w + c9;
+  float c7 = -610.8774f;
+  c7 = c7 * u + -12.603622f;
+  c7 = c7 * u + 241.4355f;
+  c7 = c7 * u + -51.918434f;
+  float c8 = 143.58003f;
+  c8 = c8 * u + -31.544952f;
+  float c9 = -546.7396f;
+  c9 = c9 * u + 151.63483f;
+  const float w = specular - 0.64116764f;
+  float sum = c9;
   sum = sum * w + c8;
   sum = sum * w + c7;
   sum = sum * w + c6;
@@ -438,12 +405,12 @@ struct Mapping {
   static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
   static constexpr float alpha_limit = 0.99750936f, specular_limit = 1.0f;
   static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
-  static constexpr float mapping_to = 0.77632755f;  // the mapping has reached the limit of alpha before
+  static constexpr float mapping_to = 0.7813467f;  // the mapping has reached the limit of alpha before
   static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.77340794f), clamped_above(specular, 0.0f));
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.77292085f), clamped_above(specular, 0.0f));
   }
   static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.28233206f));
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.28233382f));
   }
   template <class Count>
   static void find_wide_terms(Count, Terms&) noexcept {}
@@ -785,19 +752,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {16760.945f, 1.0f}, {960.0f, 0.00011f}},
-      {{0.13250001f, 0.9375f}, {100.64066f, 1.0f}, {0.45f, 0.00011f}},
-      {{0.255f, 0.875f}, {30.993242f, 1.0f}, {0.081f, 0.00011f}},
-      {{0.3775f, 0.8125f}, {18.284775f, 1.0f}, {0.039f, 0.00011f}},
-      {{0.5f, 0.75f}, {13.3383465f, 1.0f}, {0.026f, 0.00011f}},
-      {{0.6225f, 0.6875f}, {9.363902f, 1.0f}, {0.017f, 0.00011f}},
-      {{0.745f, 0.625f}, {5.905287f, 1.0f}, {0.0095f, 0.00011f}},
-      {{0.8675f, 0.5625f}, {3.1008203f, 1.0f}, {0.0049f, 0.00011f}},
-      {{0.99f, 0.5f}, {1.0735391f, 1.0f}, {0.0023f, 0.00011f}},
-      {{0.005f, 0.5f}, {19594.904f, 1.0f}, {1300.0f, 0.00011f}},
-      {{1.485f, 0.25f}, {0.01f, 0.6658314f}, {0.0013f, 0.00011f}},
-      {{0.5f, 0.0f}, {4.037881f, 0.0014047674f}, {0.0063f, 0.00011f}},
-      {{0.5f, 2.0f}, {16.997786f, 2.0f}, {0.036f, 0.00021f}},
+      {{0.01f, 1.0f}, {16760.914f, 1.0f}, {840.0f, 9.2e-05f}},
+      {{0.13250001f, 0.9375f}, {100.64021f, 1.0f}, {0.39f, 9.2e-05f}},
+      {{0.255f, 0.875f}, {30.99329f, 1.0f}, {0.071f, 9.2e-05f}},
+      {{0.3775f, 0.8125f}, {18.28433f, 1.0f}, {0.035f, 9.2e-05f}},
+      {{0.5f, 0.75f}, {13.338212f, 1.0f}, {0.023f, 9.2e-05f}},
+      {{0.6225f, 0.6875f}, {9.363716f, 1.0f}, {0.015f, 9.2e-05f}},
+      {{0.745f, 0.625f}, {5.905271f, 1.0f}, {0.0083f, 9.2e-05f}},
+      {{0.8675f, 0.5625f}, {3.1006153f, 1.0f}, {0.0043f, 9.2e-05f}},
+      {{0.99f, 0.5f}, {1.0733542f, 1.0f}, {0.0021f, 9.2e-05f}},
+      {{0.005f, 0.5f}, {19565.771f, 1.0f}, {1100.0f, 9.2e-05f}},
+      {{1.485f, 0.25f}, {0.01f, 0.66572785f}, {0.0011f, 9.2e-05f}},
+      {{0.5f, 0.0f}, {4.084577f, 0.0012276532f}, {0.0056f, 9.1e-05f}},
+      {{0.5f, 2.0f}, {16.998186f, 2.0f}, {0.031f, 0.00019f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -99,7 +99,7 @@ class FolderJobs {
   bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                    ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
-  void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
+  void place_others(const FoundSet& set, int tile, ConversionJob& job) const;
   std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   void require_no_collisions() const;
   void require_encoding_used() const;
@@ -124,7 +124,7 @@ JobList FolderJobs::list() {
   if (!options_.diagnose.empty()) discovery.excluded.push_back(options_.diagnose);
   Discovery found = find_sets(root_, discovery);
   jobs_.is_tree = true;
-  jobs_.unrecognised_count = found.unrecognised.size();
+  for (const fs::path& image : found.unrecognised) jobs_.unrecognised.push_back(root_ / image);
   for (const WalkProblem& problem : found.problems) fail(problem.message);
   for (FoundSet& set : found.sets) {
     if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
@@ -189,11 +189,12 @@ void FolderJobs::add_tile(const FoundSet& set, int tile) {
                     options_.output / set.folder,
                     options_.diagnose / set.folder,
                     {set.name, tile == 0 ? "" : "." + number},
+                    {},
                     {}};
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, job)) return;
   if (!choice_.layout.keeps_names) carry(set, tile, job.request);
-  if (options_.copy_others) copy_others(set, tile, job);
+  place_others(set, tile, job);
   jobs_.jobs.push_back(std::move(job));
 }
 
@@ -213,16 +214,21 @@ void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request
     }
 }
 
-// Adds the files that the conversion does not read. A map without tiles goes with the first tile of the set.
-void FolderJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) const {
+// Copies the files that the conversion does not read, or notes them. A map without tiles goes with the first
+// tile of the set.
+void FolderJobs::place_others(const FoundSet& set, int tile, ConversionJob& job) const {
   const std::vector<fs::path*> read = files_of(job);
   const bool is_first = tile == tiles_of(set).front();
   for (const FoundMap& map : set.maps) {
     const std::optional<fs::path> file = file_of(map, tile);
     if (!file || (map.tiles.empty() && !is_first)) continue;
     const fs::path source = root_ / *file;
-    if (std::none_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
+    if (std::any_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
+      continue;
+    if (options_.copy_others)
       job.copies.push_back({source, ""});
+    else
+      job.left_behind.push_back(source);
   }
 }
 
@@ -334,7 +340,8 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
 JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
                         const TextureSetRequest& request) {
   if (!options.folder.empty()) return FolderJobs(options, workflow, request).list();
-  ConversionJob job{"", "", request, options.output, options.diagnose, {}, copied_files(options, workflow)};
+  ConversionJob job{"", "", request, options.output, options.diagnose, {}, copied_files(options, workflow),
+                    {}};
   if (const std::vector<TiledFile> tiled = tiled_files(job); !tiled.empty()) return tile_jobs(job, tiled);
   JobList list;
   list.jobs.push_back(std::move(job));

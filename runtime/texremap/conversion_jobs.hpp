@@ -21,6 +21,7 @@ struct ConversionJob {
   std::filesystem::path folder, diagnosis_folder;  // where the results go
   ResultNames names;                               // of results without an input of the same name
   std::vector<CopiedFile> copies;
+  std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
 };
 
 // A set that is not converted, or a file or folder that cannot be read.
@@ -32,9 +33,9 @@ struct SkippedSet {
 struct JobList {
   std::vector<ConversionJob> jobs;
   std::vector<SkippedSet> left_out;
-  std::size_t unrecognised_count = 0;  // images of a folder whose names no habit matches
-  bool is_tree = false;                // several sets or tiles; a failing one does not stop the others
-  std::string tile_noun = "tile";      // "frame" for sequences
+  std::vector<std::filesystem::path> unrecognised;  // images of a folder whose names no habit matches
+  bool is_tree = false;            // several sets or tiles; a failing one does not stop the others
+  std::string tile_noun = "tile";  // "frame" for sequences
 };
 
 // `request` is what the options say about one set, or about all sets of a folder. Throws kUsage if the folder

@@ -110,6 +110,7 @@ Json job_json(const Outcome& outcome, const JobReport& report) {
   for (const Parameter parameter : named) json[plain_name(parameter)] = file_json(report, parameter);
   json["mask"] = file_json(report, [](const JobReport::Result& result) { return result.mask; });
   json["copies"] = paths_json(report.copies);
+  json["left_behind"] = paths_json(report.left_behind);
   json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);
   json.update(counts_json(counts));
   for (const Parameter parameter : chosen.converter().sources())
@@ -208,7 +209,7 @@ void print_json_end(const Outcome& outcome) {
                   {"planned", states["planned"]},
                   {"failed", outcome.failed_count()},
                   {"left_out", outcome.list.left_out.size()},
-                  {"unrecognised_images", outcome.list.unrecognised_count}};
+                  {"unrecognised_images", paths_json(outcome.list.unrecognised)}};
   summary.update(run_json(outcome));
   print_line({{"summary", summary}});
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "command_line/run_app.hpp"
+#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "texremap/converter_text.hpp"
@@ -74,6 +75,13 @@ std::string files_text(const JobReport& report) {
   return text;
 }
 
+std::string left_behind_text(const JobReport& report) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : report.left_behind) names.push_back(file.filename().string());
+  return "not converted: " + joined(names, ", ") + " (--copy-others copies " +
+         (names.size() == 1 ? "it)" : "them)");
+}
+
 }  // namespace
 
 WorkflowStages stages_of(const ChosenConverter& chosen) {
@@ -101,6 +109,7 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   append(tiles, other.tiles);
   append(inputs, other.inputs);
   append(copies, other.copies);
+  append(left_behind, other.left_behind);
   append(warnings, other.warnings);
   results.insert(results.end(), other.results.begin(), other.results.end());
   was_done = was_done && other.was_done;
@@ -187,6 +196,7 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
     print_message(program, place + "would write " + files_text(report) + " from " +
                                counted(report.inputs.size(), "file") +
                                " (first: " + report.inputs.front().string() + ")");
+    if (!report.left_behind.empty()) print_message(program, place + left_behind_text(report));
     return;
   }
   const MapStatistics& counts = report.statistics;
@@ -196,6 +206,7 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
   const std::string by = outcome.list.is_tree ? "" : " by " + converter_text(outcome.chosen);
   if (counts.texel_count == 0) print_message(program, place + "copied: " + files_text(report));
   line(counts.texel_count, " texels in " + seconds_text(report.seconds) + by + ": " + files_text(report));
+  if (!report.left_behind.empty()) print_message(program, place + left_behind_text(report));
   print_confidence(program, place, outcome.chosen, report);
   line(counts.out_of_domain_count, " texels outside " + outside_text(outcome.chosen) +
                                        ": roughness clamped, specular extrapolated in proportion");
@@ -238,8 +249,19 @@ void print_left_out(const std::string& program, const JobList& list, bool failur
       print_message(program, (entry.is_failure ? "failed: " : "skipped: ") + entry.message);
 }
 
+void print_unrecognised(const std::string& program, const JobList& list) {
+  constexpr std::size_t kShown = 20;
+  const std::size_t count = list.unrecognised.size();
+  for (std::size_t i = 0; i < std::min(count, kShown); ++i)
+    print_message(program, "not recognised: " + list.unrecognised[i].string());
+  if (count == 0) return;
+  print_message(program, counted(count, "image") + " left out, because no habit knows the name" +
+                             (count > kShown ? "; --json lists all" : "") + " (--names FILE teaches one)");
+}
+
 void print_summary(const std::string& program, const Outcome& outcome) {
   if (!outcome.list.is_tree) return;
+  print_unrecognised(program, outcome.list);
   std::size_t texels = 0, done = 0, done_before = 0;
   for (const JobReport& report : outcome.reports) {
     done += !report.failure && !report.was_done;
@@ -253,8 +275,6 @@ void print_summary(const std::string& program, const Outcome& outcome) {
   if (!outcome.dry_run)
     text += "; " + std::to_string(texels) + " texels in " + seconds_text(outcome.seconds) + ", " +
             seconds_text(outcome.used.processor_seconds) + " of processor time";
-  if (outcome.list.unrecognised_count > 0)
-    text += "; unrecognised images skipped: " + std::to_string(outcome.list.unrecognised_count);
   print_message(program, text);
 }
 

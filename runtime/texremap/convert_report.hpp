@@ -60,8 +60,9 @@ struct JobReport {
   std::string name;                // empty for the one set of a command line
   std::vector<std::string> tiles;  // converted tiles; empty where the set has no tiles
   std::vector<std::filesystem::path> inputs;
-  std::vector<Result> results;                // the planned ones in a dry run and after a failure
-  std::vector<std::filesystem::path> copies;  // files that are not converted; also planned ones
+  std::vector<Result> results;                     // the planned ones in a dry run and after a failure
+  std::vector<std::filesystem::path> copies;       // files that are not converted; also planned ones
+  std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   Transfer specular_transfer = Transfer::kLinear;
   ColorNotes colors;                         // of whole numbers, and of what a file or the user says
   std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow

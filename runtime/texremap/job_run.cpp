@@ -288,6 +288,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   const Stopwatch stopwatch;
   TextureSet set = open_texture_set(job.request);
   report.inputs = files_of(set);
+  report.left_behind = job.left_behind;
   if (const SetParameter* specular = set.map_of(Parameter::kSpecular))
     report.specular_transfer = specular->transfer;
   if (!options_.force) require_not_converted(set, chosen_, journals_);

@@ -205,3 +205,20 @@ TEST_CASE("texremap layouts: in words, with a constant, and a channel without a 
   CHECK(channel(session, "out/stone_Packed.png", 0) == channel(session, "in/stone_MaskMap.png", 3));
   CHECK(session.content("out/stone_c.png") == session.content("in/stone_BaseMap.png"));
 }
+
+TEST_CASE("texremap: every file of a folder that takes no part is named") {
+  const Session session;
+  write_orm_set(session);
+  const OIIO::ImageSpec spec = test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8);
+  session.make("in/wood_normal.png", spec, noise);
+  session.make("in/preview of wood.png", spec, noise);
+  const Words words = "convert in --from gltf --to cycles-5/principled -o out";
+  const std::string left = "in/wood: not converted: wood_normal.png (--copy-others copies it)";
+  const std::string unknown = "not recognised: in/preview of wood.png";
+  CHECK_THAT(require_success(session.texremap(words + "--dry-run")).errors,
+             Contains(left) && Contains(unknown));
+  CHECK_THAT(require_success(session.texremap(words)).errors, Contains(left) && Contains(unknown));
+  const ProcessResult all = require_success(session.texremap(words + "--force --copy-others --json"));
+  CHECK_THAT(all.output, Contains("\"left_behind\":[]") &&
+                             Contains("\"unrecognised_images\":[\"in/preview of wood.png\"]"));
+}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include <Eigen/Dense>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::array kDegrees = {1, 2, 3, 4, 6, 8, 10, 12, 16};
 constexpr std::size_t kSeriesFolds = 5;
+constexpr double kEnough = 1e-3;    // a quarter of an 8-bit step (decision 048)
 constexpr double kRowsATerm = 1.5;  // at least
 
 // Weight of the squares of coefficients, relative to one row.
@@ -38,6 +40,17 @@ SeriesShape shape_of(const TexelSeries& series) {
 bool is_determined(const SeriesShape& shape, std::size_t rows, std::size_t widths) {
   return static_cast<std::size_t>(shape.degree) + 1 <= widths &&
          kRowsATerm * static_cast<double>(shape.count()) <= static_cast<double>(rows);
+}
+
+// Of target alpha, root mean square.
+double relative_error(const std::vector<TableRow>& rows, const TexelSeries& alpha) {
+  double sum = 0.0;
+  for (const TableRow& row : rows) {
+    const double error =
+        error_weight(row.alpha2) * (series_value(alpha, row.alpha1, row.specular1) - row.alpha2);
+    sum += error * error;
+  }
+  return std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
 // A fit of one output, which leaves the other one at 0.
@@ -121,9 +134,15 @@ Regression fit_series_kind(const std::vector<TableRow>& rows, const Domain& doma
   std::set<double> widths;
   for (const TableRow& row : rows) widths.insert(row.alpha1);
   const TexelSeries box{domain.alpha, domain.specular, {}};
+  const std::vector<int> any = {1, 2, 4, kAnyDegree};
+  const auto best_alpha = [&](const std::vector<int>& of_alpha) {
+    return best_series(rows, widths.size(), &TableRow::alpha2, box, series_shapes(of_alpha), seed);
+  };
   Series series;
-  series.alpha =
-      best_series(rows, widths.size(), &TableRow::alpha2, box, series_shapes({0, 1, 2, 4, kAnyDegree}), seed);
+  series.alpha = best_alpha(alpha_needs_specular(rows) ? any : std::vector{0});
+  // Alpha may rise and fall with specular, which no straight line shows.
+  if (shape_of(series.alpha).of_specular == 0 && relative_error(rows, series.alpha) > kEnough)
+    series.alpha = best_alpha(any);
   series.specular =
       best_series(rows, widths.size(), &TableRow::specular2, box, series_shapes({1, 2, 4, kAnyDegree}), seed);
   const auto again = [series](const std::vector<TableRow>& some) {

@@ -32,8 +32,9 @@ TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths, d
 
 std::string series_text(const TexelSeries& series);
 
-// Kind `series` over `domain`. Target alpha is fitted from source alpha alone unless alpha_needs_specular().
-// Throws kInput for fewer than 10 rows or a constant input.
+// Kind `series` over `domain`. Target alpha is fitted from source alpha alone unless alpha_needs_specular(),
+// or unless that is off by more than 1e-3 (relative, rms). Throws kInput for fewer than 10 rows or a constant
+// input.
 Regression fit_series_kind(const std::vector<TableRow>& rows, const Domain& domain, std::uint64_t seed);
 
 }  // namespace remap
