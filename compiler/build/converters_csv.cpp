@@ -14,12 +14,35 @@ namespace {
 // One row, by column; missing columns stay empty.
 using Row = std::map<std::string, std::string>;
 
-const std::vector<std::string> kColumns = {
-    "converter",     "kind",           "source",         "target",         "warning",
-    "image_error",   "image_error_99", "ssim",           "ssim_least",     "ssim_least_at_alpha",
-    "alpha_error",   "specular_error", "alpha_bound",    "specular_bound", "round_trip_median",
-    "round_trip_99", "alpha_min",      "alpha_max",      "specular_max",   "dielectric_f0",
-    "diffuse",       "formula",        "template_error", "bytes",          "remarks"};
+const std::vector<std::string> kColumns = {"converter",
+                                           "kind",
+                                           "source",
+                                           "target",
+                                           "warning",
+                                           "image_error",
+                                           "image_error_99",
+                                           "ssim",
+                                           "ssim_least",
+                                           "ssim_least_at_alpha",
+                                           "alpha_error",
+                                           "specular_error",
+                                           "alpha_bound",
+                                           "specular_bound",
+                                           "round_trip_median",
+                                           "round_trip_99",
+                                           "alpha_min",
+                                           "alpha_max",
+                                           "specular_max",
+                                           "dielectric_f0",
+                                           "diffuse",
+                                           "formula",
+                                           "template_error",
+                                           "bytes",
+                                           "mean_excess",
+                                           "largest_excess",
+                                           "excess_at_alpha",
+                                           "excess_at_specular",
+                                           "remarks"};
 
 // Measured fits by source and target.
 using Pairs = std::map<std::pair<std::string, std::string>, const Fit*>;
@@ -136,7 +159,16 @@ std::string converters_csv(const FitFolder& folder) {
   for (const Fit& fit : folder.fits)
     if (is_measured(fit)) pairs[{fit.source.model, fit.target.model}] = &fit;
   std::string text = line(head);
-  for (const Fit* fit : by_trust(folder.fits)) text += line(row_of(*fit, pairs));
+  for (const Fit* fit : by_trust(folder.fits)) {
+    Row row = row_of(*fit, pairs);
+    if (const auto reach = folder.reach.find(fit->id); reach != folder.reach.end()) {
+      row["mean_excess"] = figure(reach->second.mean_excess);
+      row["largest_excess"] = figure(reach->second.largest_excess);
+      row["excess_at_alpha"] = figure(reach->second.alpha);
+      row["excess_at_specular"] = figure(reach->second.specular);
+    }
+    text += line(row);
+  }
   for (const WorkflowFit& fit : folder.workflows) text += line(row_of(fit));
   for (const WarpMapFit& fit : folder.warps) text += line(row_of(fit));
   return text;

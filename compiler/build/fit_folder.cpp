@@ -34,6 +34,7 @@ FitFolder load_fit_folder(const std::filesystem::path& folder) {
   std::sort(loaded.fits.begin(), loaded.fits.end(), by_id);
   std::sort(loaded.warps.begin(), loaded.warps.end(), by_id);
   std::sort(loaded.workflows.begin(), loaded.workflows.end(), by_id);
+  loaded.reach = current_reach(folder);
   return loaded;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "build/reach_record.hpp"
 #include "lower/any_fit.hpp"
 
 namespace remap {
@@ -13,6 +14,7 @@ struct FitFolder {
   std::vector<Fit> fits;  // converters of width and specular
   std::vector<WorkflowFit> workflows;
   std::vector<WarpMapFit> warps;
+  ReachRecords reach;  // of fits that have not changed since
 
   void add(AnyFit fit);
 };

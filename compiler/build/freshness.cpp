@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "build/reach_record.hpp"
 #include "build/report.hpp"
 #include "converter/converter_fields.hpp"
 #include "core/files.hpp"
@@ -11,10 +12,6 @@
 namespace remap {
 
 namespace fs = std::filesystem;
-
-std::string file_sha256(const fs::path& path) {
-  return fs::is_regular_file(path) ? sha256(read_file(path)) : std::string();
-}
 
 ItemPaths paths_of(const BuildFolders& folders, const std::string& id) {
   return {folders.fits / "tables" / (id + ".csv"), folders.fits / (id + ".json"),
@@ -59,7 +56,7 @@ std::string report_hash(const BuildFolders& folders) {
   for (const auto& entry : fs::directory_iterator(folders.fits))
     if (entry.path().extension() == ".json" && entry.path().filename() != kManifestName)
       paths.insert(entry.path());
-  std::string text = kVersion;
+  std::string text = kVersion + (" " + file_sha256(folders.fits / kReachName));
   for (const fs::path& path : paths) text += "\n" + path.filename().string() + " " + file_sha256(path);
   return sha256(text);
 }

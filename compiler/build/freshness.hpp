@@ -24,9 +24,6 @@ ItemPaths paths_of(const BuildFolders& folders, const std::string& id);
 // Whether items of this kind keep a table: of a network, only the fit is kept.
 bool has_table(const ManifestItem& item);
 
-// Returns the SHA-256 of a file; empty for a missing one.
-std::string file_sha256(const std::filesystem::path& path);
-
 // Hashes what an item is made from. `lock` holds the current state of its inputs.
 std::string recipe_hash(const ManifestItem& item, const Lock& lock);
 

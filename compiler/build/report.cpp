@@ -22,7 +22,8 @@ constexpr const char* kFigures = R"(
 *Image error*: the RMS difference between the pictures of the two models at the best parameters, as a share of the source's
 picture. It is a property of the models, so no converter between them can do better. *SSIM*: the mean structural similarity
 of their spheres as a display shows them (1: equal). Outside its domain (CSV: alpha and specular), a converter clamps alpha,
-scales specular in proportion and counts the texels.
+scales specular in proportion and counts the texels. *Excess*: how much nearer the target could come than the converter
+brings it, at the worst of the materials that `remap-study reach` compared (CSV: which).
 )";
 
 constexpr const char* kWorkflowIntroduction = R"(
@@ -74,27 +75,30 @@ std::vector<ModelPair> compared_pairs(const std::vector<Fit>& fits) {
   return pairs;
 }
 
-std::string converters_text(const std::vector<const Fit*>& fits, bool with_similarity) {
+std::string converters_text(const std::vector<const Fit*>& fits, const ReachRecords& reach,
+                            bool with_similarity) {
   std::string text;
   for (const Fit* fit : fits) {
     text += (text.empty() ? "" : ", ") + link(percent_text(image_error(*fit)), fit->id);
     if (with_similarity && is_measured(*fit)) text += ", " + fixed(*mean_ssim(*fit), 3);
+    const auto record = reach.find(fit->id);
+    if (with_similarity && record != reach.end()) text += ", " + percent_text(record->second.largest_excess);
     if (!trust_warning(*fit).empty()) text += kMark;
   }
   return text;
 }
 
-std::string pair_lines(const std::vector<Fit>& fits) {
+std::string pair_lines(const std::vector<Fit>& fits, const ReachRecords& reach) {
   std::string small, others;
   for (const ModelPair& pair : compared_pairs(fits)) {
     const std::string names = pair.first + ", " + pair.second;
     if (is_small(pair))
-      small += (small.empty() ? "" : "; ") + names + " (" + converters_text(pair.there, false) +
-               (pair.there.empty() || pair.back.empty() ? "" : ", ") + converters_text(pair.back, false) +
-               ")";
+      small += (small.empty() ? "" : "; ") + names + " (" + converters_text(pair.there, reach, false) +
+               (pair.there.empty() || pair.back.empty() ? "" : ", ") +
+               converters_text(pair.back, reach, false) + ")";
     else
-      others += "| " + names + " | " + converters_text(pair.there, true) + " | " +
-                converters_text(pair.back, true) + " |\n";
+      others += "| " + names + " | " + converters_text(pair.there, reach, true) + " | " +
+                converters_text(pair.back, reach, true) + " |\n";
   }
   std::string text;
   if (!small.empty())
@@ -102,7 +106,7 @@ std::string pair_lines(const std::vector<Fit>& fits) {
   if (!others.empty())
     text +=
         "\n## Other pairs of models\n\n"
-        "| A, B | A to B: image error, SSIM | B to A: image error, SSIM |\n|---|---|---|\n" +
+        "| A, B | A to B: image error, SSIM, excess | B to A: image error, SSIM, excess |\n|---|---|---|\n" +
         others;
   return text;
 }
@@ -139,6 +143,21 @@ std::string small_errors_text(const std::vector<Fit>& fits) {
          error_text(bound) + " in alpha (proven) or better.\n";
 }
 
+// The measured fits that end before the whole range, by what they cover.
+std::string ranges_text(const std::vector<Fit>& fits) {
+  constexpr double kWhole = 0.985;  // some exponents end at alpha 0.99
+  std::map<std::string, std::string> short_ones;
+  for (const Fit& fit : fits)
+    if (is_measured(fit) && (fit.domain.alpha.max < kWhole || fit.domain.specular.max < kWhole)) {
+      std::string& ids = short_ones["alpha to " + number_text(rounded(fit.domain.alpha.max, 3)) +
+                                    ", specular to " + number_text(rounded(fit.domain.specular.max, 3))];
+      ids += (ids.empty() ? "" : ", ") + fit.id;
+    }
+  std::string text = "Measured converters cover alpha 0.01 to 1 and specular 0 to 1";
+  for (const auto& [range, ids] : short_ones) text += "; " + ids + ": " + range;
+  return text + ".\n";
+}
+
 std::string workflow_lines(const std::vector<WorkflowFit>& fits) {
   std::string text = "| converter | dielectric F0 | diffuse | roughness | formula |\n|---|---|---|---|---|\n";
   for (const WorkflowFit& fit : fits) {
@@ -167,7 +186,7 @@ std::string page(const FitFolder& folder) {
       kFiguresName + "](" + kFiguresName +
       "); the card of one: `remapc show ID`.\n`remapc build` writes this page.\n";
   text += mark_text(folder) + kFigures + small_errors_text(folder.fits);
-  text += pair_lines(folder.fits) + uncompared_lines(folder.fits);
+  text += ranges_text(folder.fits) + pair_lines(folder.fits, folder.reach) + uncompared_lines(folder.fits);
   if (!folder.workflows.empty()) text += kWorkflowIntroduction + workflow_lines(folder.workflows);
   if (!folder.warps.empty()) text += kWarpIntroduction + warp_lines(folder.warps);
   return text;

@@ -17,6 +17,7 @@ struct ReachCommand {
   std::vector<std::string> ids;
   std::filesystem::path fit_folder;
   ReachOptions study;
+  bool records = false;
   OutputOptions output;
   RendererOptions renderers;
 };
@@ -44,6 +45,22 @@ std::vector<Fit> chosen_fits(const ReachCommand& command, const std::filesystem:
   return chosen;
 }
 
+void record(const std::filesystem::path& folder, const ReachOptions& options,
+            const std::vector<FitReach>& result) {
+  ReachRecords records = read_reach(folder);
+  for (const FitReach& reach : result) {
+    const std::string& id = options.fits[reach.fit].id;
+    const ReachedMaterial& worst = reach.worst();
+    records[id] = {file_sha256(folder / (id + ".json")),
+                   reach.materials.size(),
+                   reach.mean_excess(),
+                   worst.excess(),
+                   worst.alpha,
+                   worst.specular};
+  }
+  write_reach(folder, records);
+}
+
 void run(const ReachCommand& command) {
   ReachOptions options = command.study;
   const std::filesystem::path folder = fit_folder_of(command.fit_folder);
@@ -55,6 +72,7 @@ void run(const ReachCommand& command) {
   const std::vector<FitReach> result =
       run_study("reach", options, command.output,
                 [&](const ReachOptions& study) { return study_reach(*renderer, study); });
+  if (command.records) record(folder, options, result);
   show_report(command.output, reach_report(options, result));
 }
 
@@ -67,6 +85,9 @@ void add_reach_study(Command& app) {
   ReachCommand& options = set_work<ReachCommand>(*command, run);
   command->add_option("ID", options.ids, "Fits; default: all of the folder between Mitsuba models");
   command->add_option("--fits", options.fit_folder, "Folder of the fits; default: fits, if it exists");
+  command->add_flag(
+      "--record", options.records,
+      "Also write the figures to reach.csv in the folder of fits, from which remapc build reports them");
   command->add_option("--materials", options.study.materials, "Source alphas, and speculars of each")
       ->range(2, 256);
   command->add_option("--resolution", options.study.resolution, "Width and height of the pictures in pixels")

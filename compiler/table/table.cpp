@@ -11,6 +11,7 @@
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "core/read_file.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -222,6 +223,10 @@ std::string table_text(const Table& table) {
     csv.add_row(values, row.error, status_name(row.status));
   }
   return csv.text();
+}
+
+std::string file_sha256(const std::filesystem::path& path) {
+  return std::filesystem::is_regular_file(path) ? sha256(read_file(path)) : std::string();
 }
 
 std::string sha256(std::string_view bytes) {

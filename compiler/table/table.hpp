@@ -124,5 +124,7 @@ TableRecord table_record(const std::filesystem::path& path, std::string_view byt
 
 // Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
+// Of a file; empty for a missing one.
+std::string file_sha256(const std::filesystem::path& path);
 
 }  // namespace remap

@@ -28,7 +28,10 @@ Reader<std::vector<float>> factors() {
 }
 
 Reader<Layout> layout() {
-  return {[](const std::string& option, const std::string& word) { return layout_from(option, word); }, {}};
+  std::vector<std::string> known;
+  for (const Preset& preset : presets()) known.emplace_back(preset.name);
+  return {[](const std::string& option, const std::string& word) { return layout_from(option, word); },
+          known};
 }
 
 Reader<const Preset*> preset() {
@@ -179,9 +182,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
       ->tag(kNeedsFiles);
   command
       .add_option("--layout NAME", options.layout, layout(),
-                  "Files to write: as-inputs, separate, orm, arm, specgloss, a preset's, or in words, as "
-                  "'Mask=metallic,occlusion,0,smoothness; Albedo=base_color' (default: as-inputs; separate "
-                  "between workflows)")
+                  "Files to write, by name or in words, as 'Mask=metallic,occlusion,0,smoothness; "
+                  "Albedo=base_color' (default: as-inputs; separate between workflows)")
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_option("--preset NAME", options.preset, preset(),

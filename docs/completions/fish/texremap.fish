@@ -20,7 +20,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l color-space -x 
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l resample -d 'Enlarge smaller maps of a set to the largest size, bilinearly'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l names -r -F -d 'More file-name habits for the maps in DIR'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -s o -l output -r -F -d 'Folder for the results, which keep the names of the inputs'
-complete -c texremap -n '__fish_seen_subcommand_from convert' -l layout -x -d 'Files to write: as-inputs, separate, orm, arm, specgloss, a preset\'s, or in words, as \'Mask=metallic,occlusion,0,smoothness'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l layout -x -a 'as-inputs separate orm arm specgloss gltf unity unity-hdrp unreal godot threejs blender usd marmoset' -d 'Files to write, by name or in words, as \'Mask=metallic,occlusion,0,smoothness'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l preset -x -a 'gltf unity unity-hdrp unreal godot threejs blender usd marmoset' -d 'Write what a tool takes: --to, --layout, --format and --type at once, where these are not given'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l format -x -d 'File extension of the results: exr, tif, png, ...'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l type -x -a 'uint8 uint16 half float' -d 'Pixel type of the results'

@@ -1,0 +1,28 @@
+// How near the converters of a folder come to the best match, as `remap-study reach` measured it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace remap {
+
+inline constexpr const char* kReachName = "reach.csv";
+
+// Of one fit. Excesses are shares of the source's picture (study/reach.hpp).
+struct ReachRecord {
+  std::string fit;            // SHA-256 of its file
+  std::size_t materials = 0;  // that were compared
+  double mean_excess = 0.0, largest_excess = 0.0;
+  double alpha = 0.0, specular = 0.0;  // of the material with the largest excess
+};
+using ReachRecords = std::map<std::string, ReachRecord>;  // by id
+
+// The records in `folder`; empty without a file. Throws kInput for a file of another form.
+ReachRecords read_reach(const std::filesystem::path& folder);
+// Those of fits that have not changed since.
+ReachRecords current_reach(const std::filesystem::path& folder);
+void write_reach(const std::filesystem::path& folder, const ReachRecords& records);
+
+}  // namespace remap
