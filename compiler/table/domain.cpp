@@ -16,6 +16,9 @@ constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
 // Scattered rows: a column that ends within this share of the highest specular1 counts as reaching it.
 constexpr double kSameReach = 0.9;
+// Widths that were measured apart by less than this share, a few units of the last digit that tables hold, are one.
+constexpr double kSameWidth = 1e-9;
+
 // Maps each alpha1 to its column.
 std::map<double, std::size_t> column_of_alpha(const Table& table) {
   std::map<double, std::size_t> rows_of_alpha;
@@ -63,6 +66,18 @@ std::vector<Column> columns_of(const Table& table) {
   return columns;
 }
 
+// Gives widths that differ by the rounding of the measurement the least of them, so that they are one column.
+void join_widths(std::vector<TableRow>& rows) {
+  std::map<double, double> joined;
+  for (const TableRow& row : rows) joined[row.alpha1] = row.alpha1;
+  double first = 0.0;
+  for (auto& [width, name] : joined) {
+    if (width - first > kSameWidth * width) first = width;
+    name = first;
+  }
+  for (TableRow& row : rows) row.alpha1 = joined.at(row.alpha1);
+}
+
 }  // namespace
 
 Domain table_domain(const Table& table) {
@@ -93,6 +108,7 @@ Table swapped(const Table& table) {
     std::swap(row.alpha1, row.alpha2);
     std::swap(row.specular1, row.specular2);
   }
+  join_widths(result.rows);
   return result;
 }
 

@@ -15,7 +15,8 @@ std::string range_text(const Range& range);
 
 // Exchanges source and target of the table's usable rows (Sztrajman et al. 2019, section 5). Comments are
 // kept, since they record how the table was made; `roles: swapped` is added, and what is about one role is
-// removed: the comparison of spheres, whose widths are the source's, and the target's limits.
+// removed: the comparison of spheres, whose widths are the source's, and the target's limits. Widths of the
+// target that differ by the rounding of the measurement (1e-9 of the width) become one.
 Table swapped(const Table& table);
 
 }  // namespace remap

@@ -2,6 +2,7 @@
 #include "table/domain.hpp"
 
 #include <random>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -96,4 +97,19 @@ TEST_CASE("swapped: parameters and models are exchanged, unusable rows removed")
   CHECK(table.rows.front().alpha2 == Approx(0.05));
   CHECK(table.rows.front().specular2 == Approx(0.1));
   CHECK(table.comments.back() == std::pair<std::string, std::string>{"roles", "swapped"});
+}
+
+TEST_CASE("swapped: widths that differ by rounding are one column") {
+  const Table given = grid([](double, double) { return RowStatus::kOk; });
+  Table rounded = given;
+  for (TableRow& row : rounded.rows) row.alpha2 *= 1.0 + 5e-11 * row.specular1;
+  const auto widths = [](const Table& table) {
+    std::set<double> found;
+    for (const TableRow& row : table.rows) found.insert(row.alpha1);
+    return found.size();
+  };
+  REQUIRE(widths(given) < 100);
+  CHECK(widths(swapped(rounded)) == widths(given));
+  for (TableRow& row : rounded.rows) row.alpha2 *= 1.0 + 1e-6 * row.specular1;
+  CHECK(widths(swapped(rounded)) == rounded.rows.size());
 }
