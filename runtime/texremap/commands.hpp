@@ -5,6 +5,9 @@
 
 namespace remap {
 
+inline constexpr const char* kProgram = "texremap";  // begins every message
+
+void add_check_command(Command& app);
 void add_convert_command(Command& app);
 void add_list_command(Command& app);
 void add_path_command(Command& app);

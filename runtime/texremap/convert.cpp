@@ -26,8 +26,6 @@
 namespace remap {
 namespace {
 
-constexpr const char* kProgram = "texremap";
-
 void warn(const ConvertOptions& options, const std::string& message) {
   if (!options.quiet) print_message(kProgram, "warning: " + message);
 }

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("texremap ") + remap::kVersion);
   app.require_subcommand(1);
   remap::add_convert_command(app);
+  remap::add_check_command(app);
   remap::add_list_command(app);
   remap::add_path_command(app);
   app.footer(

@@ -1,0 +1,388 @@
+// Rules of single maps: their tags, channels and texels.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "check/rules.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+#include "sets/name_pieces.hpp"
+
+namespace remap::look {
+namespace {
+
+using Plane = std::vector<float>;
+
+std::string channel_text(const MaterialUse& use) {
+  return use.channels == Channels::kWhole ? "" : std::string(name_of(kChannels, use.channels));
+}
+
+// Shares of values near 0, near 1 and between.
+struct Shares {
+  double low = 0.0, high = 0.0, between = 0.0;
+};
+Shares shares_of(const Plane& plane) {
+  constexpr float kNear = 0.06f;
+  Shares shares;
+  for (const float value : plane)
+    (value < kNear ? shares.low : value > 1.0f - kNear ? shares.high : shares.between) += 1.0;
+  const double count = static_cast<double>(std::max<std::size_t>(1, plane.size()));
+  return {shares.low / count, shares.high / count, shares.between / count};
+}
+
+bool is_constant(const Plane& plane) {
+  const auto [least, most] = std::ranges::minmax(plane);
+  return least == most;
+}
+
+// The share of texels whose normal has about unit length, decoded from 0 to 1, and of those that point to the
+// surface.
+struct NormalShares {
+  double unit = 0.0, inwards = 0.0, flat = 0.0;
+};
+NormalShares normals_of(const std::vector<const Plane*>& rgb) {
+  constexpr double kUnit = 0.12;
+  NormalShares shares;
+  const std::size_t count = rgb.front()->size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = 2.0 * (*rgb[0])[i] - 1.0, y = 2.0 * (*rgb[1])[i] - 1.0, z = 2.0 * (*rgb[2])[i] - 1.0;
+    shares.unit += std::fabs(std::sqrt(x * x + y * y + z * z) - 1.0) < kUnit;
+    shares.inwards += z < -0.1;
+    shares.flat += z > 0.98;
+  }
+  const double n = static_cast<double>(std::max<std::size_t>(1, count));
+  return {shares.unit / n, shares.inwards / n, shares.flat / n};
+}
+
+// How far slopes are from those of a surface, with green up and with green down: of a surface the slope along
+// x changes along y as the slope along y does along x.
+struct Curl {
+  double up = 0.0, down = 0.0;
+};
+Curl curl_of(const std::vector<const Plane*>& rgb, int columns, int rows) {
+  const auto slopes = [&](std::size_t i) {
+    const double x = 2.0 * (*rgb[0])[i] - 1.0, y = 2.0 * (*rgb[1])[i] - 1.0;
+    const double z = std::max(0.1, 2.0 * static_cast<double>((*rgb[2])[i]) - 1.0);
+    return std::array{-x / z, y / z};  // along the columns, and along the rows downwards for green up
+  };
+  Curl curl;
+  for (int y = 1; y + 1 < rows; ++y)
+    for (int x = 1; x + 1 < columns; ++x) {
+      const auto at = [&](int dx, int dy) {
+        return slopes(static_cast<std::size_t>(y + dy) * static_cast<std::size_t>(columns) +
+                      static_cast<std::size_t>(x + dx));
+      };
+      const double across = at(0, 1)[0] - at(0, -1)[0], along = at(1, 0)[1] - at(-1, 0)[1];
+      curl.up += (across - along) * (across - along);
+      curl.down += (across + along) * (across + along);
+    }
+  return curl;
+}
+
+enum class Orientation { kUnknown, kOpenGl, kDirectX };
+
+Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, const TargetReader* reader) {
+  if (material.kind == MaterialKind::kGltf) return Orientation::kOpenGl;
+  const std::string name = lower(map.name);
+  const auto has = [&](std::string_view word) { return name.find(word) != std::string::npos; };
+  if (has("directx") || has("_dx") || has("-dx") || has("normaldx") || has("nor_dx"))
+    return Orientation::kDirectX;
+  if (has("opengl") || has("_gl") || has("-gl") || has("normalgl") || has("nor_gl"))
+    return Orientation::kOpenGl;
+  if (reader != nullptr) return reader->wants_directx_normals ? Orientation::kDirectX : Orientation::kOpenGl;
+  return Orientation::kUnknown;
+}
+
+// The share of texels between 0.15 and 0.85 all of whose neighbours two texels away are so, too: an edge is
+// thinner.
+double share_of_grey_areas(const Plane& plane, int columns, int rows) {
+  constexpr int kReach = 2;
+  const auto is_grey = [&](int x, int y) {
+    const float value =
+        plane[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)];
+    return value > 0.15f && value < 0.85f;
+  };
+  std::size_t inside = 0;
+  for (int y = kReach; y + kReach < rows; ++y)
+    for (int x = kReach; x + kReach < columns; ++x)
+      inside += is_grey(x, y) && is_grey(x - kReach, y) && is_grey(x + kReach, y) && is_grey(x, y - kReach) &&
+                is_grey(x, y + kReach);
+  return plane.empty() ? 0.0 : static_cast<double>(inside) / static_cast<double>(plane.size());
+}
+
+// Whether a role of the material is read from a channel.
+bool is_used(const CheckedMaterial& material, std::size_t map, std::size_t channel) {
+  return std::ranges::any_of(material.uses, [&](const MaterialUse& use) {
+    return use.map == map && material.plane(use) == &material.texels(use)->channels[channel];
+  });
+}
+
+// Runs `judge(use)` for the uses that are judged and whose image is read; the same map and channel once.
+template <typename Judge>
+void for_uses(const CheckedMaterial& material, Judge judge) {
+  std::set<std::pair<std::filesystem::path, Channels>> seen;
+  for (const MaterialUse& use : material.uses)
+    if (!use.is_neighbour && material.texels(use) != nullptr &&
+        seen.insert({material.maps[use.map].file, use.channels}).second)
+      judge(use);
+}
+
+}  // namespace
+
+void linear_color(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                  std::vector<MaterialFinding>& findings) {
+  for_uses(material, [&](const MaterialUse& use) {
+    const MaterialMap& map = material.maps[use.map];
+    const ImageLayout& layout = material.texels(use)->layout;
+    if (!is_color_role(use.role) || use.channels == Channels::kAlpha ||
+        !is_integer(layout.channels.front().type) || layout.tagged_transfer != Transfer::kLinear)
+      return;
+    const std::string option(use.role == Role::kBaseColor ? "base_color" : role_name(use.role));
+    findings.push_back(
+        {rule.name, Confidence::kLikely, map.shown, "",
+         "is a color in whole numbers that its file tags as linear; readers that ignore the tag (glTF does) "
+         "decode it as sRGB",
+         "store it as sRGB: texremap convert " + shell_word(material.place.string()) +
+             " --from gltf --to gltf --color-space " + option + "=linear --output-color-space " + option +
+             "=srgb -o mended; or remove the tag, if the values are sRGB"});
+  });
+}
+
+void specgloss_channels(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                        std::vector<MaterialFinding>& findings) {
+  for_uses(material, [&](const MaterialUse& use) {
+    const TexelSample& texels = *material.texels(use);
+    if (use.channels != Channels::kAlpha || use.role == Role::kOther || use.role == Role::kOpacity ||
+        texels.layout.alpha_channel >= 0)
+      return;
+    const MaterialMap& map = material.maps[use.map];
+    const std::size_t count = texels.layout.channels.size();
+    findings.push_back(
+        {rule.name, Confidence::kCertain, map.shown, "A",
+         "has " + std::to_string(count) + (count == 1 ? " channel" : " channels") + " and no alpha, which " +
+             std::string(role_name(use.role)) + " is read from: it is 1 everywhere",
+         "add it as alpha: oiiotool " + shell_word(map.file.string()) +
+             " glossiness.png --chappend --chnames R,G,B,A -o mended/" + shell_word(map.name)});
+  });
+}
+
+void constant_map(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                  std::vector<MaterialFinding>& findings) {
+  for_uses(material, [&](const MaterialUse& use) {
+    // Metallic, occlusion, opacity and specular of one value are usual in sets.
+    const bool is_color =
+        use.role == Role::kBaseColor || use.role == Role::kDiffuse || use.role == Role::kNormal;
+    if (!is_color && !is_roughness(use.role)) return;
+    std::vector<const Plane*> planes = is_color ? material.colors(use) : std::vector<const Plane*>{};
+    if (const Plane* plane = material.plane(use); planes.empty() && plane != nullptr) planes = {plane};
+    const int alpha = material.texels(use)->layout.alpha_channel;
+    if (is_color && alpha >= 0 &&
+        !is_constant(material.texels(use)->channels[static_cast<std::size_t>(alpha)]))
+      return;                  // the color of a label that alpha cuts out
+    constexpr int kSmall = 4;  // of images that stand for a number on purpose
+    const ImageLayout& layout = material.texels(use)->layout;
+    if (planes.empty() || std::min(layout.width, layout.height) <= kSmall ||
+        !std::ranges::all_of(planes, [](const Plane* plane) { return is_constant(*plane); }))
+      return;
+    std::string value;
+    for (const Plane* plane : planes)
+      value += (value.empty() ? "" : ", ") + number_text(rounded(plane->front(), 3));
+    findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, channel_text(use),
+                        std::string(role_name(use.role)) + " is " + value + " in every texel",
+                        use.role == Role::kNormal ? "remove the map: it changes nothing"
+                                                  : "use the number as the factor of the material and remove "
+                                                    "the map (for a folder: texremap convert "
+                                                    "DIR takes numbers, as --base-color VALUE)"});
+  });
+}
+
+// A step of 8 bits at roughness r widens alpha = r^2 by 2 / (255 r): by 20 % at 10 / 255.
+void banding(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+             std::vector<MaterialFinding>& findings) {
+  for_uses(material, [&](const MaterialUse& use) {
+    const Plane* plane = material.plane(use);
+    if (!is_roughness(use.role) || plane == nullptr) return;
+    const ImageLayout& layout = material.texels(use)->layout;
+    if (layout.channels.front().type != PixelType::kUint8) return;
+    const bool is_gloss = use.role == Role::kGlossiness || use.role == Role::kGlossinessSquared;
+    const int last = use.role == Role::kAlphaWidth ? 5 : 10;
+    std::set<int> levels;
+    std::size_t low = 0;
+    for (const float value : *plane) {
+      const int level = static_cast<int>(std::lround(255.0f * (is_gloss ? 1.0f - value : value)));
+      if (level > last) continue;
+      ++low;
+      levels.insert(level);
+    }
+    const double share =
+        static_cast<double>(low) / static_cast<double>(std::max<std::size_t>(1, plane->size()));
+    constexpr double kShare = 0.2;
+    constexpr std::size_t kLevels = 3;
+    if (share < kShare || levels.size() < kLevels) return;
+    findings.push_back(
+        {rule.name, Confidence::kLikely, material.maps[use.map].shown, channel_text(use),
+         percent(share) + " of its texels vary in " + std::to_string(levels.size()) + " steps up to " +
+             std::to_string(last) + " / 255, each of which widens highlights by 20 % and more",
+         "export it with 16 bits or as half float (for copies by texremap: --type uint16 or --format exr)"});
+  });
+}
+
+void bad_values(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                std::vector<MaterialFinding>& findings) {
+  std::set<std::size_t> seen;
+  for_uses(material, [&](const MaterialUse& use) {
+    const TexelSample& texels = *material.texels(use);
+    if (!texels.has_floats() || !seen.insert(use.map).second) return;
+    const bool has_range = use.role != Role::kHeight && use.role != Role::kEmissive &&
+                           use.role != Role::kOther && use.role != Role::kIor && use.role != Role::kNormal &&
+                           use.role != Role::kSubsurface;
+    std::string what;
+    const auto add = [&](std::size_t count, const std::string& text) {
+      if (count > 0) what += (what.empty() ? "" : ", ") + std::to_string(count) + " " + text;
+    };
+    add(texels.nan_count, "NaN or infinite");
+    if (has_range) add(texels.negative_count, "negative");
+    if (has_range) add(texels.above_one_count, "above 1");
+    if (what.empty()) return;
+    findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, "",
+                        "has values that are no " + std::string(role_name(use.role)) + ": " + what,
+                        "texremap convert " + shell_word(material.place.string()) +
+                            " --bad-texels clamp (with --from and --to) moves them into the range"});
+  });
+}
+
+void metallic_greys(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                    std::vector<MaterialFinding>& findings) {
+  for_uses(material, [&](const MaterialUse& use) {
+    const Plane* plane = use.role == Role::kMetallic ? material.plane(use) : nullptr;
+    if (plane == nullptr) return;
+    const TexelSample& texels = *material.texels(use);
+    const double share = share_of_grey_areas(*plane, texels.columns, texels.rows);
+    constexpr double kShare = 0.05;
+    if (share < kShare) return;
+    findings.push_back(
+        {rule.name, Confidence::kPossible, material.maps[use.map].shown, channel_text(use),
+         "metallic is between 0.15 and 0.85 over areas of " + percent(share) +
+             " of the map; materials are metal or not, and greys belong to edges",
+         "if it was made from a specular map, make it again from the original: texremap convert DIR --from "
+         "gltf-specgloss --to gltf -o mended"});
+  });
+}
+
+void channel_order(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                   std::vector<MaterialFinding>& findings) {
+  for_uses(material, [&](const MaterialUse& use) {
+    const Plane* plane =
+        use.role == Role::kMetallic && use.channels != Channels::kWhole ? material.plane(use) : nullptr;
+    const TexelSample& texels = *material.texels(use);
+    if (plane == nullptr || texels.channels.size() < 3) return;
+    const bool varies = shares_of(*plane).between > 0.5;
+    if (!varies && !is_constant(*plane)) return;
+    for (std::size_t c = 0; c < texels.channels.size(); ++c) {
+      const Plane& other = texels.channels[c];
+      const Shares shares = shares_of(other);
+      if (&other == plane || shares.between > 0.15 || shares.low < 0.01 || shares.high < 0.01) continue;
+      if (!varies && is_used(material, use.map, c)) continue;
+      const std::string& name = texels.layout.channels[c].name;
+      const MaterialMap& map = material.maps[use.map];
+      findings.push_back(
+          {rule.name, Confidence::kLikely, map.shown, channel_text(use),
+           "metallic is read from " + channel_text(use) +
+               (varies ? ", which varies like roughness; " : ", which is constant; ") + name +
+               " is black and white like metallic",
+           "say which channel is which (--metallic " + shell_word(map.name + ":" + name) +
+               " with single files, or a rule of a --names file), or swap the channels: oiiotool --ch"});
+      return;
+    }
+  });
+}
+
+void normal_space(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                  std::vector<MaterialFinding>& findings) {
+  for_uses(material, [&](const MaterialUse& use) {
+    const auto rgb = use.role == Role::kNormal ? material.colors(use) : std::vector<const Plane*>{};
+    if (rgb.empty() || material.texels(use)->has_floats()) return;
+    const NormalShares shares = normals_of(rgb);
+    constexpr double kUnit = 0.8, kInwards = 0.1;
+    if (shares.unit < kUnit || shares.inwards < kInwards) return;
+    findings.push_back({rule.name, Confidence::kLikely, material.maps[use.map].shown, "",
+                        percent(shares.inwards) +
+                            " of its normals point into the surface: they are of world or object space, "
+                            "not of tangent space",
+                        "bake the map again in tangent space; no conversion of the texels alone does that"});
+  });
+}
+
+void normal_orientation(const CheckedMaterial& material, const TargetReader* reader, const Rule& rule,
+                        std::vector<MaterialFinding>& findings) {
+  for_uses(material, [&](const MaterialUse& use) {
+    const auto rgb = use.role == Role::kNormal ? material.colors(use) : std::vector<const Plane*>{};
+    const MaterialMap& map = material.maps[use.map];
+    const Orientation name = claimed(material, map, reader);
+    if (rgb.empty() || name == Orientation::kUnknown || normals_of(rgb).unit < 0.8) return;
+    const TexelSample& texels = *material.texels(use);
+    const Curl curl = curl_of(rgb, texels.columns, texels.rows);
+    constexpr double kClear = 2.0;  // noise and rounding add the same to both
+    const Orientation seen = curl.down > kClear * curl.up   ? Orientation::kOpenGl
+                             : curl.up > kClear * curl.down ? Orientation::kDirectX
+                                                            : Orientation::kUnknown;
+    if (seen == Orientation::kUnknown || seen == name) return;
+    const auto text = [](Orientation orientation) {
+      return std::string(orientation == Orientation::kOpenGl ? "OpenGL (green up)" : "DirectX (green down)");
+    };
+    findings.push_back(
+        {rule.name, Confidence::kLikely, map.shown, "G",
+         "its slopes are those of a surface only as " + text(seen) + ", but " +
+             (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or reader says ") + text(name),
+         "turn green: oiiotool " + shell_word(map.file.string()) + " --mulc 1,-1,1 --addc 0,1,0 -o mended/" +
+             shell_word(map.name)});
+  });
+}
+
+void wrong_texture(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                   std::vector<MaterialFinding>& findings) {
+  const auto add = [&](const MaterialUse& use, Confidence confidence, const std::string& what) {
+    findings.push_back({rule.name, confidence, material.maps[use.map].shown, "",
+                        "is used as " + std::string(role_name(use.role)) + ", but " + what,
+                        use.slot.empty()
+                            ? "give the map a name that says what it holds, or replace it by a map of " +
+                                  std::string(role_name(use.role))
+                            : "point " + use.slot + " in " + material.place.filename().string() +
+                                  " to the image of " + std::string(role_name(use.role))});
+  };
+  std::set<std::size_t> named;
+  for (const MaterialUse& use : material.uses)
+    for (const MaterialUse& other : material.uses) {
+      const bool clash =
+          use.map == other.map && is_data_role(use.role) && use.channels != Channels::kAlpha &&
+          (is_color_role(other.role) || (other.role == Role::kNormal && use.role != Role::kNormal)) &&
+          other.channels != Channels::kAlpha && other.role != Role::kSpecular;
+      if (clash && !use.is_neighbour && !other.is_neighbour && named.insert(use.map).second)
+        add(use, Confidence::kCertain, "the same image is used as " + std::string(role_name(other.role)));
+    }
+  for_uses(material, [&](const MaterialUse& use) {
+    if (named.contains(use.map)) return;
+    const TexelSample& texels = *material.texels(use);
+    if (texels.channels.size() < 3 || texels.has_floats()) return;
+    const MaterialUse whole{use.role, use.map, Channels::kRgb, "", {}, "", false};
+    const auto rgb = material.colors(whole);
+    if (rgb.empty() || std::ranges::all_of(rgb, [](const Plane* plane) { return is_constant(*plane); }))
+      return;
+    const NormalShares shares = normals_of(rgb);
+    const double mean_blue = [&] {
+      double sum = 0.0;
+      for (const float value : *rgb[2]) sum += value;
+      return sum / static_cast<double>(std::max<std::size_t>(1, rgb[2]->size()));
+    }();
+    const bool looks_like_normals = shares.unit > 0.97 && shares.inwards < 0.01 && mean_blue > 0.85;
+    if (use.role != Role::kNormal && use.role != Role::kOther && looks_like_normals &&
+        named.insert(use.map).second)
+      add(use, Confidence::kLikely, "its texels are unit normals of tangent space");
+    const bool has_blue = !is_constant(*rgb[2]);  // maps of two channels store none
+    if (use.role == Role::kNormal && shares.unit < 0.3 && has_blue && named.insert(use.map).second)
+      add(use, Confidence::kLikely, percent(1.0 - shares.unit) + " of its texels are no unit vectors");
+  });
+}
+
+}  // namespace remap::look

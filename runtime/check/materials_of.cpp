@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <set>
+
+#include "check/material.hpp"
+#include "core/errors.hpp"
+#include "sets/discovery.hpp"
+#include "sets/name_pieces.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+std::string extension_of(const fs::path& file) { return lower(file.extension().string()); }
+
+bool is_asset(const fs::path& file) {
+  const std::string extension = extension_of(file);
+  return extension == ".gltf" || extension == ".glb" || extension == ".mtl";
+}
+
+void add_asset(const fs::path& file, FoundMaterials& found) {
+  try {
+    extension_of(file) == ".mtl" ? add_mtl(file, found) : add_gltf(file, found);
+  } catch (const Error& error) {
+    found.problems.push_back(error.what());
+  }
+}
+
+// The tiles of a map are images of their own.
+void add_set(const fs::path& root, const FoundSet& set, FoundMaterials& found) {
+  CheckedMaterial material;
+  material.place = root / set.folder;
+  material.name = shown(root / set.folder / set.name);
+  for (const FoundMap& map : set.maps) {
+    std::vector<fs::path> files;
+    for (const Tile& tile : map.tiles) files.push_back(tile.path);
+    if (files.empty()) files.push_back(map.path);
+    for (const fs::path& file : files) {
+      for (const ChannelMeaning& entry : map.meaning)
+        material.uses.push_back({entry.role, material.maps.size(), entry.channels, "", {}, "", false});
+      material.maps.push_back({root / file, shown(root / file), file.filename().string(), nullptr});
+    }
+  }
+  found.materials.push_back(std::move(material));
+}
+
+bool same_folder(const fs::path& a, const fs::path& b) {
+  return (a / "").lexically_normal() == (b / "").lexically_normal();
+}
+
+// Lets materials of assets see the widths of sets in the same folder, which may contradict theirs.
+void add_neighbours(FoundMaterials& found) {
+  for (CheckedMaterial& material : found.materials) {
+    if (material.kind != MaterialKind::kGltf) continue;
+    for (const CheckedMaterial& set : found.materials) {
+      if (set.kind != MaterialKind::kFolder || !same_folder(set.place, material.place.parent_path()))
+        continue;
+      for (const MaterialUse& use : set.uses) {
+        const MaterialMap& map = set.maps[use.map];
+        const bool is_own = std::ranges::any_of(material.maps, [&](const MaterialMap& own) {
+          return own.file.lexically_normal() == map.file.lexically_normal();
+        });
+        if (is_own || !is_roughness(use.role)) continue;
+        material.uses.push_back(use);
+        material.uses.back().map = material.maps.size();
+        material.uses.back().is_neighbour = true;
+        material.maps.push_back(map);
+      }
+    }
+  }
+}
+
+// Maps that an asset names are judged as it uses them, not by their names.
+void remove_used_by_assets(FoundMaterials& found) {
+  std::set<fs::path> used;
+  for (const CheckedMaterial& material : found.materials)
+    if (material.kind != MaterialKind::kFolder)
+      for (const MaterialMap& map : material.maps) used.insert(map.file.lexically_normal());
+  for (CheckedMaterial& material : found.materials)
+    if (material.kind == MaterialKind::kFolder)
+      std::erase_if(material.uses, [&](const MaterialUse& use) {
+        return used.contains(material.maps[use.map].file.lexically_normal());
+      });
+}
+
+void add_folder(const fs::path& folder, const Naming& naming, FoundMaterials& found) {
+  DiscoveryOptions options;
+  options.naming = &naming;
+  const Discovery discovery = find_sets(folder, options);
+  for (const WalkProblem& problem : discovery.problems) found.problems.push_back(problem.message);
+  for (const FoundSet& set : discovery.sets) add_set(folder, set, found);
+  std::vector<fs::path> assets;
+  std::error_code failure;
+  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failure),
+       end;
+       !failure && at != end; at.increment(failure))
+    if (is_asset(at->path()) && at->is_regular_file(failure)) assets.push_back(at->path());
+  std::ranges::sort(assets);
+  for (const fs::path& asset : assets) add_asset(asset, found);
+  remove_used_by_assets(found);
+  add_neighbours(found);
+  std::erase_if(found.materials, [](const CheckedMaterial& material) {
+    return material.kind == MaterialKind::kFolder && material.uses.empty();
+  });
+}
+
+}  // namespace
+
+FoundMaterials materials_of(const fs::path& path, const Naming& naming) {
+  FoundMaterials found;
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    add_folder(path, naming, found);
+  } else if (!fs::exists(path, ignored)) {
+    throw input_error(shown(path) + ": does not exist");
+  } else if (is_asset(path)) {
+    add_asset(path, found);
+  } else {
+    const std::vector<NameReading> readings = naming.read(path.stem().string());
+    if (readings.empty())
+      throw input_error(
+          shown(path) +
+          ": its name does not tell what it holds (give the folder of its set, or --names FILE)");
+    CheckedMaterial material;
+    material.place = path;
+    material.name = shown(path);
+    for (const ChannelMeaning& entry : readings.front().meaning)
+      material.uses.push_back({entry.role, 0, entry.channels, "", {}, "", false});
+    material.maps.push_back({path, shown(path), path.filename().string(), nullptr});
+    found.materials.push_back(std::move(material));
+  }
+  return found;
+}
+
+}  // namespace remap

@@ -1,0 +1,132 @@
+#include "check/rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace remap {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array kSpecular = {"KHR_materials_specular"sv,
+                                  "KHR_materials_ior"sv,
+                                  "KHR_materials_clearcoat"sv,
+                                  "KHR_materials_sheen"sv,
+                                  "KHR_materials_transmission"sv,
+                                  "KHR_materials_volume"sv,
+                                  "KHR_materials_iridescence"sv,
+                                  "KHR_materials_anisotropy"sv,
+                                  "KHR_materials_dispersion"sv,
+                                  "KHR_materials_diffuse_transmission"sv,
+                                  "KHR_materials_pbrSpecularGlossiness"sv};
+// All but the last; each reader that ignores less takes a part of the list.
+constexpr std::span kAllButSpecGloss = std::span(kSpecular).first(10);
+constexpr std::array kThree = {"KHR_materials_pbrSpecularGlossiness"sv};
+constexpr std::array kUnreal = {"KHR_materials_volume"sv, "KHR_materials_iridescence"sv,
+                                "KHR_materials_anisotropy"sv, "KHR_materials_dispersion"sv,
+                                "KHR_materials_diffuse_transmission"sv};
+constexpr std::array kUsd = {"KHR_materials_sheen"sv,
+                             "KHR_materials_transmission"sv,
+                             "KHR_materials_volume"sv,
+                             "KHR_materials_iridescence"sv,
+                             "KHR_materials_anisotropy"sv,
+                             "KHR_materials_dispersion"sv,
+                             "KHR_materials_diffuse_transmission"sv};
+
+constexpr std::array<TargetReader, 6> kReaders = {{
+    {"gltf", "a reader of core glTF 2.0", kSpecular, false, false, "glTF 2.0, 3.12: extensions are optional"},
+    {"unity", "Unity (glTFast, Lit shader)", kAllButSpecGloss, true, false,
+     "Unity glTFast, features: materials; Unity manual, Lit shader: a metallic map replaces the slider"},
+    {"unreal", "Unreal Engine (Interchange)", kUnreal, false, true,
+     "Unreal Engine 5.4 API reference, GLTF::FAsset::SupportedExtensions"},
+    {"godot", "Godot 4", kAllButSpecGloss, false, false, "Godot issue 83320; class reference, GLTFSpecGloss"},
+    {"threejs", "three.js (GLTFLoader)", kThree, false, false, "three.js r147 removed the extension"},
+    {"usd", "UsdPreviewSurface", kUsd, false, false, "UsdPreviewSurface specification, inputs"},
+}};
+
+constexpr std::array<Rule, 20> kRules = {{
+    {"srgb-data", "a map of numbers (roughness, metallic, normal, ...) that its file tags as sRGB",
+     look::srgb_data},
+    {"linear-color", "a color map in whole numbers that its file tags as linear", look::linear_color},
+    {"gloss-as-roughness", "a map of roughness that another map of the set shows to be gloss, or the reverse",
+     look::gloss_as_roughness},
+    {"alpha-as-roughness", "a map of roughness that is a power of what another map of the set says",
+     look::alpha_as_roughness},
+    {"channel-order",
+     "a packed map whose channel of metallic varies smoothly while another one is black and white",
+     look::channel_order},
+    {"specgloss-channels", "a map whose name or role needs an alpha channel that the file lacks",
+     look::specgloss_channels},
+    {"sizes", "maps of a set that differ in size", look::sizes},
+    {"metallic-greys", "metallic between 0 and 1 over areas, not only at edges", look::metallic_greys},
+    {"factor-zero", "a map times a factor of 0", look::factor_zero},
+    {"factor-ignored", "a factor beside a map that the given reader ignores", look::factor_ignored},
+    {"normal-space", "a normal map that points away from the surface: of world or object space",
+     look::normal_space},
+    {"normal-orientation",
+     "a normal map whose slopes fit together only with green turned, against its name or reader",
+     look::normal_orientation},
+    {"wrong-texture",
+     "a map in the role of another kind: normals as a color, a color as normals, one image in two roles",
+     look::wrong_texture},
+    {"constant-map", "a map of one value, which a number replaces", look::constant_map},
+    {"banding", "low roughness in 8 bits, where one step widens highlights visibly", look::banding},
+    {"bad-values", "NaN, infinite or negative values, or values above 1, in a map of floating-point numbers",
+     look::bad_values},
+    {"ior", "an index of refraction or a specular factor that no material has", look::index_of_refraction},
+    {"ignored-by-reader", "an extension of a glTF material that the given reader does not know",
+     look::ignored_by_reader},
+    {"exponent-range", "exponents of an MTL file in another range than 0 to 1000", look::exponent_range},
+    {"duplicate-map", "two files of different roles with the same texels", look::duplicate_map},
+}};
+
+}  // namespace
+
+std::span<const TargetReader> target_readers() { return kReaders; }
+
+std::span<const Rule> rules() { return kRules; }
+
+std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const TargetReader* reader) {
+  std::vector<MaterialFinding> findings;
+  for (const Rule& rule : kRules) rule.look(material, reader, rule, findings);
+  // What the values of a map look like says nothing where the map holds something else.
+  std::set<std::string> misread;
+  for (const MaterialFinding& finding : findings)
+    if (finding.rule == "wrong-texture" || finding.rule == "channel-order") misread.insert(finding.place);
+  std::erase_if(findings, [&](const MaterialFinding& finding) {
+    return misread.contains(finding.place) && (finding.rule == "metallic-greys" || finding.rule == "banding");
+  });
+  return findings;
+}
+
+bool is_color_role(Role role) {
+  return role == Role::kBaseColor || role == Role::kDiffuse || role == Role::kSpecular;
+}
+
+bool is_data_role(Role role) {
+  return is_roughness(role) || role == Role::kMetallic || role == Role::kOcclusion || role == Role::kNormal ||
+         role == Role::kHeight || role == Role::kCavity;
+}
+
+std::string shell_word(const std::string& text) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./=,:%+@").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string width_command(const CheckedMaterial& material, std::string_view encoding) {
+  const bool is_specular = std::ranges::any_of(material.uses, [](const MaterialUse& use) {
+    return use.role == Role::kSpecular || use.role == Role::kGlossiness;
+  });
+  const std::string model = is_specular ? "gltf-specgloss" : "gltf";
+  return "texremap convert " + shell_word(material.place.string()) + " --from " + model + " --to " + model +
+         " --roughness-encoding " + std::string(encoding) + " --output-encoding roughness -o mended";
+}
+
+}  // namespace remap

@@ -1,0 +1,143 @@
+// Rules of what assets state in words and numbers.
+#include <algorithm>
+#include <cmath>
+
+#include "check/rules.hpp"
+#include "core/number_text.hpp"
+
+namespace remap::look {
+namespace {
+
+std::string file_of(const CheckedMaterial& material) { return material.place.filename().string(); }
+
+bool all_zero(const std::vector<double>& factors) {
+  return !factors.empty() && std::ranges::all_of(factors, [](double factor) { return factor == 0.0; });
+}
+
+}  // namespace
+
+void factor_zero(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                 std::vector<MaterialFinding>& findings) {
+  for (const MaterialUse& use : material.uses) {
+    // glTF packs metallic and roughness: a factor of 0 says that the channel of the other is not used.
+    const std::vector<float>* plane = material.plane(use);
+    const bool is_unused =
+        plane != nullptr && std::ranges::minmax(*plane).min == std::ranges::minmax(*plane).max;
+    if (all_zero(use.factors) && !is_unused)
+      findings.push_back(
+          {rule.name, Confidence::kCertain, material.name, "",
+           use.factor_name + " 0 times the map " + material.maps[use.map].shown + " is 0 everywhere",
+           "set " + use.factor_name + " to 1 in " + file_of(material) +
+               (use.factors.size() > 1 ? " (for each channel)" : "") + ", or remove the texture"});
+  }
+}
+
+void factor_ignored(const CheckedMaterial& material, const TargetReader* reader, const Rule& rule,
+                    std::vector<MaterialFinding>& findings) {
+  if (reader == nullptr || !reader->ignores_factors_beside_maps) return;
+  for (const MaterialUse& use : material.uses) {
+    if (use.is_neighbour || (use.role != Role::kMetallic && use.role != Role::kRoughness)) continue;
+    if (use.factors.empty() || use.factors.front() == 1.0 || use.factors.front() == 0.0) continue;
+    const std::string role(role_name(use.role)), factor = number_text(use.factors.front());
+    findings.push_back(
+        {rule.name, Confidence::kLikely, material.name, "",
+         use.factor_name + " " + factor + " beside a map: " + std::string(reader->title) + " takes " + role +
+             " from the map alone",
+         "multiply the map by it (texremap convert " +
+             shell_word(material.place.parent_path().empty() ? "." : material.place.parent_path().string()) +
+             " --from gltf --to gltf --" + role + "-factor " + factor + " -o mended), and set " +
+             use.factor_name + " to 1"});
+  }
+}
+
+// Real dielectrics reflect 2 to 17 % at normal incidence: an index of refraction from 1.3 (water) to 2.42
+// (diamond).
+void index_of_refraction(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                         std::vector<MaterialFinding>& findings) {
+  const GltfStatements& stated = material.gltf;
+  const auto add = [&](Confidence confidence, const std::string& message, const std::string& mend) {
+    findings.push_back({rule.name, confidence, material.name, "", message, mend});
+  };
+  constexpr double kLeast = 1.05, kMost = 3.0;
+  if (stated.ior && *stated.ior > kMost)
+    add(Confidence::kLikely,
+        "KHR_materials_ior: ior " + number_text(*stated.ior) +
+            " makes a mirror, which readers without the extension show as plastic",
+        "state the metal as metallicFactor 1 with its color as baseColorFactor, and remove "
+        "KHR_materials_ior");
+  if (stated.ior && *stated.ior != 0.0 && *stated.ior < kLeast && !stated.transmits)
+    add(Confidence::kLikely,
+        "KHR_materials_ior: ior " + number_text(*stated.ior) + " reflects nothing (F0 below 0.001)",
+        "set ior to 1.5, or to that of the material (water 1.33, plastics 1.45 to 1.6)");
+  if (!stated.specular_factor) return;
+  const double factor = *stated.specular_factor;
+  if (factor > 1.0 || factor < 0.0)
+    add(Confidence::kCertain,
+        "KHR_materials_specular: specularFactor " + number_text(factor) + " is outside 0 to 1",
+        "set specularFactor to 1 and state the reflectance by ior in KHR_materials_ior");
+  if (factor > 0.0 && factor <= 0.5 && !stated.has_specular_map && stated.ior.value_or(1.5) == 1.5)
+    add(Confidence::kPossible,
+        "KHR_materials_specular: specularFactor " + number_text(factor) + " gives F0 " +
+            number_text(rounded(0.04 * factor, 2)) +
+            ", less than water; it may be the level of a node whose 0.5 means F0 0.04",
+        "set specularFactor to " + number_text(std::min(1.0, 2.0 * factor)) +
+            ", if a level was written as a factor");
+  if (factor == 0.0 && !stated.has_specular_map)
+    add(Confidence::kLikely,
+        "KHR_materials_specular: specularFactor 0 switches off all reflection of the dielectric",
+        "remove KHR_materials_specular, or set specularFactor to 1");
+}
+
+void ignored_by_reader(const CheckedMaterial& material, const TargetReader* reader, const Rule& rule,
+                       std::vector<MaterialFinding>& findings) {
+  if (reader == nullptr) return;
+  for (const std::string_view extension : reader->ignored) {
+    if (!material.gltf.extensions.contains(std::string(extension))) continue;
+    const bool is_specgloss = extension == "KHR_materials_pbrSpecularGlossiness";
+    findings.push_back(
+        {rule.name, Confidence::kCertain, material.name, "",
+         std::string(extension) + " is ignored by " + std::string(reader->title) +
+             (is_specgloss ? ", which shows the material by its metallic values instead" : ""),
+         is_specgloss
+             ? "convert the maps to the metallic workflow: texremap convert " +
+                   shell_word(material.place.parent_path().empty() ? "."
+                                                                   : material.place.parent_path().string()) +
+                   " --from gltf-specgloss --to gltf --preset gltf -o mended"
+             : "state what it says by base color, metallic and roughness, or remove " +
+                   std::string(extension)});
+  }
+}
+
+// Ns of MTL files is from 0 to 1000 (Wavefront, Advanced Visualizer manual, appendix B).
+void exponent_range(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                    std::vector<MaterialFinding>& findings) {
+  double largest = 0.0;
+  std::size_t above_zero = 0, whole_tens = 0;
+  for (const Exponent& exponent : material.exponents) {
+    largest = std::max(largest, exponent.value);
+    above_zero += exponent.value > 0.0;
+    whole_tens += exponent.value > 0.0 && std::fmod(exponent.value, 5.0) == 0.0;
+  }
+  if (above_zero == 0) return;
+  const std::string place = material.place.string(), all = std::to_string(above_zero) +
+                                                           (above_zero == 1 ? " exponent" : " exponents") +
+                                                           " (Ns) up to " + number_text(largest);
+  const auto add = [&](Confidence confidence, const std::string& what, const std::string& mend) {
+    findings.push_back({rule.name, confidence, place, "", all + ": " + what, mend});
+  };
+  if (largest <= 1.0)
+    add(above_zero > 1 ? Confidence::kLikely : Confidence::kPossible,
+        "a share from 0 to 1, where the format has exponents from 0 to 1000",
+        "multiply Ns by the range that the exporter meant: 1000, or 128 for fixed-function GL");
+  else if (largest > 1000.0)
+    add(Confidence::kCertain, "beyond the range of the format, 0 to 1000",
+        "divide Ns until it is at most 1000");
+  else if (largest <= 100.0 && above_zero >= 3 && whole_tens == above_zero)
+    add(Confidence::kPossible, "all are whole fives up to 100, which looks like percent",
+        "multiply Ns by 10, if the exporter wrote percent of the range 0 to 1000");
+  else if (largest == 128.0 && above_zero >= 2)
+    add(Confidence::kPossible, "the largest is 128, which looks like the range of fixed-function GL",
+        "multiply Ns by 1000 / 128, if the exporter scaled shininess to 0 to 128");
+}
+
+}  // namespace remap::look

@@ -1,0 +1,173 @@
+// `texremap check`: looks at materials and names what looks wrong. It converts and writes nothing.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "check/rules.hpp"
+#include "command_line/command.hpp"
+#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
+#include "command_line/run_app.hpp"
+#include "core/errors.hpp"
+#include "core/json.hpp"
+#include "core/parallel.hpp"
+#include "sets/naming.hpp"
+#include "texremap/commands.hpp"
+
+namespace remap {
+namespace {
+
+struct CheckOptions {
+  std::vector<std::filesystem::path> paths;
+  std::string names;
+  const TargetReader* reader = nullptr;
+  std::vector<std::string> ignored;  // names of rules
+  unsigned thread_count = 0;
+  bool json = false;
+  bool quiet = false;
+};
+
+Reader<const TargetReader*> target_reader() {
+  std::vector<std::string> known;
+  for (const TargetReader& reader : target_readers()) known.emplace_back(reader.name);
+  return {[known](const std::string& option, const std::string& word) -> const TargetReader* {
+            for (const TargetReader& reader : target_readers())
+              if (reader.name == word) return &reader;
+            fail_unknown(option, "reader", word, known);
+          },
+          known};
+}
+
+Reader<std::vector<std::string>> rule_names() {
+  std::vector<std::string> known;
+  for (const Rule& rule : rules()) known.emplace_back(rule.name);
+  return list_of(Reader<std::string>{[known](const std::string& option, const std::string& word) {
+                                       if (std::ranges::find(known, word) == known.end())
+                                         fail_unknown(option, "rule", word, known);
+                                       return word;
+                                     },
+                                     {}});
+}
+
+// What is found in one material, and what could not be read.
+struct Looked {
+  std::vector<MaterialFinding> findings;
+  std::vector<std::string> problems;
+  std::size_t map_count = 0;
+};
+
+Looked look_at(CheckedMaterial material, const CheckOptions& options) {
+  Looked looked;
+  looked.problems = material.read_maps();
+  looked.map_count = material.maps.size();
+  looked.findings = findings_in(material, options.reader);
+  std::erase_if(looked.findings, [&](const MaterialFinding& finding) {
+    return std::ranges::find(options.ignored, finding.rule) != options.ignored.end();
+  });
+  return looked;
+}
+
+void print(const MaterialFinding& finding) {
+  std::cout << finding.place << (finding.channel.empty() ? "" : ":" + finding.channel) << ": "
+            << finding.message << " [" << finding.rule << ", " << name_of(kConfidences, finding.confidence)
+            << "]\n"
+            << "    " << finding.mend << '\n';
+}
+
+Json finding_json(const MaterialFinding& finding) {
+  return {{"rule", finding.rule},       {"confidence", name_of(kConfidences, finding.confidence)},
+          {"path", finding.place},      {"channel", finding.channel},
+          {"message", finding.message}, {"mend", finding.mend}};
+}
+
+// `text` in lines of at most `width` letters that begin with `before`.
+std::string wrapped(std::string_view text, std::size_t width, const std::string& before) {
+  std::string result;
+  while (!text.empty()) {
+    std::size_t end = text.size() <= width ? text.size() : text.rfind(' ', width);
+    if (end == std::string_view::npos) end = text.size();
+    result += before + std::string(text.substr(0, end)) + "\n";
+    text.remove_prefix(std::min(text.size(), end + 1));
+  }
+  return result;
+}
+
+void check(const CheckOptions& options) {
+  const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
+  FoundMaterials found;
+  std::vector<std::shared_ptr<const std::filesystem::path>> embedded;
+  for (const std::filesystem::path& path : options.paths) {
+    FoundMaterials own = materials_of(path, naming);
+    std::ranges::move(own.materials, std::back_inserter(found.materials));
+    std::ranges::move(own.problems, std::back_inserter(found.problems));
+    embedded.push_back(std::move(own.embedded));
+  }
+  if (found.materials.empty() && found.problems.empty())
+    throw usage_error(options.paths.front().string() +
+                      ": no map found by file names, and no glTF or MTL file (use --names "
+                      "FILE for other names)");
+  std::vector<Looked> looked(found.materials.size());
+  Progress progress("materials", looked.size(), !options.quiet);
+  run_parallel(looked.size(), options.thread_count, [&](std::size_t i) {
+    if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted");
+    looked[i] = look_at(std::move(found.materials[i]), options);
+    progress.advance();
+  });
+  progress.hide();
+  Json json = {{"version", 1},
+               {"for", options.reader != nullptr ? Json(options.reader->name) : Json()},
+               {"materials", looked.size()},
+               {"maps", 0},
+               {"findings", Json::list()},
+               {"problems", Json::list()}};
+  std::size_t count = 0, maps = 0;
+  for (const Looked& one : looked) {
+    std::ranges::copy(one.problems, std::back_inserter(found.problems));
+    maps += one.map_count;
+    count += one.findings.size();
+    for (const MaterialFinding& finding : one.findings)
+      options.json ? json["findings"].push_back(finding_json(finding)) : print(finding);
+  }
+  const std::set<std::string> problems(found.problems.begin(), found.problems.end());
+  for (const std::string& problem : problems) {
+    json["problems"].push_back(problem);
+    print_message(kProgram, "not read: " + problem);
+  }
+  json["maps"] = maps;
+  if (options.json) std::cout << json.dump(2) << '\n';
+  const auto counted = [](std::size_t n, const std::string& noun) {
+    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+  };
+  const std::string all = counted(looked.size(), "material") + ", " + counted(maps, "map");
+  if (count > 0 || !problems.empty())
+    throw input_error(all + ": " + counted(count, "finding") +
+                      (problems.empty() ? "" : ", " + counted(problems.size(), "file") + " not read"));
+  if (!options.quiet) print_message(kProgram, all + ": nothing looks wrong");
+}
+
+}  // namespace
+
+void add_check_command(Command& app) {
+  Command* command =
+      app.add_subcommand("check", "Look for wrong conventions in maps and assets; write nothing");
+  CheckOptions& options = set_work<CheckOptions>(*command, check);
+  command->add_option("PATH", options.paths, "Folders of texture sets and assets, glTF and MTL files, maps")
+      ->required();
+  command->add_option("--for NAME", options.reader, target_reader(),
+                      "Also name what this reader ignores or takes otherwise");
+  command->add_option("--ignore RULES", options.ignored, rule_names(),
+                      "Rules to leave out, with commas between");
+  command->add_option("--names FILE", options.names, "More file-name habits (JSON)");
+  command->add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core");
+  command->add_flag("--json", options.json, "Print the findings as JSON to standard output");
+  command->add_flag("--quiet", options.quiet, "Print nothing but findings and errors");
+  std::string text = "The exit code is 1 if anything looks wrong. Rules:\n";
+  for (const Rule& rule : rules())
+    text += "  " + std::string(rule.name) + "\n" + wrapped(rule.sees, 73, "      ");
+  command->footer(text + "\nExample:\n  texremap check assets\n  texremap check model.glb --for godot");
+}
+
+}  // namespace remap
