@@ -79,18 +79,6 @@ std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std:
   return std::nullopt;
 }
 
-void judge(FoundSet& set) {
-  set.width = single_use(set, is_roughness, "roughness");
-  set.specular = single_use(set, is<Role::kSpecular>, "specular");
-  if (set.state == SetState::kFaulty || set.width) return;
-  set.state = SetState::kSkipped;
-  std::string squared;
-  for (const MapUse& use : uses(set, is<Role::kGlossinessSquared>))
-    squared = " (" + shown(set.maps[use.map].path.filename()) +
-              " holds the square of glossiness, which is not converted; take its root, or export glossiness)";
-  set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found" + squared);
-}
-
 // Adds the sets of one folder.
 void add_sets(const ImageFolder& folder, const std::string& folder_name, const Naming& naming,
               Discovery& discovery) {
@@ -134,6 +122,20 @@ std::string last_name(const fs::path& path) {
 
 }  // namespace
 
+void judge(FoundSet& set) {
+  set.state = SetState::kReady;
+  set.remarks.clear();
+  set.width = single_use(set, is_roughness, "roughness");
+  set.specular = single_use(set, is<Role::kSpecular>, "specular");
+  if (set.state == SetState::kFaulty || set.width) return;
+  set.state = SetState::kSkipped;
+  std::string squared;
+  for (const MapUse& use : uses(set, is<Role::kGlossinessSquared>))
+    squared = " (" + shown(set.maps[use.map].path.filename()) +
+              " holds the square of glossiness, which is not converted; take its root, or export glossiness)";
+  set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found" + squared);
+}
+
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role)) {
   std::vector<MapUse> found;
   for (std::size_t i = 0; i < set.maps.size(); ++i)
@@ -162,7 +164,8 @@ std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found,
     if (use.channels != Channels::kWhole) text += " in " + std::string(name_of(kChannels, use.channels));
     text += ")";
   }
-  return std::to_string(found.size()) + " " + what + " maps found: " + text + "; keep one";
+  return std::to_string(found.size()) + " " + what + " maps found: " + text +
+         "; keep one, or choose by --prefer WORD";
 }
 
 Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {

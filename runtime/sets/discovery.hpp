@@ -53,6 +53,8 @@ std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
 std::vector<std::string> channel_names(Channels channels);
 // The encoding of a map of this role; none for the roughness as the model defines it.
 std::optional<RoughnessConvention> convention_of(Role role);
+// Sets `state`, `width`, `specular` and `remarks` from the roles of the maps.
+void judge(FoundSet& set);
 // `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep one`.
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
 

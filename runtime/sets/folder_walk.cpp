@@ -15,8 +15,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::string_view, 10> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
-                                                          "jpeg", "tga", "bmp",  "hdr", "tx"};
+constexpr std::array<std::string_view, 11> kExtensions = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
+                                                          "tga", "bmp", "hdr",  "tx",  "webp"};
 
 bool is_image_name(std::string_view name) {
   const std::size_t dot = name.rfind('.');

@@ -32,9 +32,9 @@ struct Walk {
   std::vector<WalkProblem> problems;  // in any order
 };
 
-// Lists the images under `root`, with the extensions exr tif tiff png jpg jpeg tga bmp hdr tx. Hidden names
-// are skipped, and with them unfinished results (files.hpp). Symbolic links are followed. Each folder is
-// visited once, under its own path if that lies below the root, so loops end. Unreadable files and folders
+// Lists the images under `root`, with the extensions exr tif tiff png jpg jpeg tga bmp hdr tx webp. Hidden
+// names are skipped, and with them unfinished results (files.hpp). Symbolic links are followed. Each folder
+// is visited once, under its own path if that lies below the root, so loops end. Unreadable files and folders
 // become problems. Throws kInput only if the root itself cannot be read.
 Walk walk_images(const std::filesystem::path& root, const WalkOptions& options);
 

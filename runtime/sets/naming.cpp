@@ -19,8 +19,8 @@ struct NameParts {
 namespace {
 
 // Formats and qualities next to a resolution (4K-PNG, 2K-HQ) or before a second extension (.exr.tx).
-constexpr std::array<std::string_view, 11> kFormats = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
-                                                       "tga", "bmp", "hdr",  "hq",  "lq"};
+constexpr std::array<std::string_view, 12> kFormats = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
+                                                       "tga", "bmp", "hdr",  "hq",  "lq",  "webp"};
 
 // Whether `digits` is the side of a square map: a power of two from 128 to 32768.
 bool is_side(std::string_view digits) {
@@ -29,6 +29,12 @@ bool is_side(std::string_view digits) {
   unsigned side = 0;
   for (const char c : digits) side = side * 10 + static_cast<unsigned>(c - '0');
   return side >= 128 && side <= 32768 && (side & (side - 1)) == 0;
+}
+
+// Whether a piece numbers a version: v001, v2.
+bool is_version(std::string_view piece) {
+  return piece.size() >= 2 && piece.size() <= 5 && lower(piece.front()) == 'v' &&
+         std::all_of(piece.begin() + 1, piece.end(), is_digit);
 }
 
 // Whether a capital at `i` begins a new part of a name, as S in heroSpec and the second M in ORMMap.
@@ -154,11 +160,56 @@ std::optional<Naming::Ending> Naming::ending_from(const NameParts& parts, std::s
 }
 
 std::vector<NameReading> Naming::read(std::string_view name) const {
+  std::vector<NameReading> readings = read_end(name);
+  if (const auto pair = read_pair(name)) readings.insert(readings.begin(), *pair);
+  if (readings.empty()) readings = read_front(name);
+  return readings;
+}
+
+// `Robot Metallic-Robot Roughness`: Blender's export of glTF names a packed map after the two that it is made
+// of.
+std::optional<NameReading> Naming::read_pair(std::string_view name) const {
+  for (std::size_t dash = name.find('-'); dash != std::string_view::npos; dash = name.find('-', dash + 1)) {
+    const std::vector<NameReading> first = read_end(name.substr(0, dash)),
+                                   second = read_end(name.substr(dash + 1));
+    const auto is_whole = [](const std::vector<NameReading>& readings, Role role) {
+      return !readings.empty() &&
+             readings.front().meaning == std::vector{ChannelMeaning{Channels::kWhole, role}};
+    };
+    if (!is_whole(first, Role::kMetallic) || !is_whole(second, Role::kRoughness) ||
+        first.front().stem != second.front().stem)
+      continue;
+    NameReading reading = first.front();
+    reading.habit = "glTF";
+    reading.doubtful = false;
+    reading.meaning = {{Channels::kGreen, Role::kRoughness}, {Channels::kBlue, Role::kMetallic}};
+    return reading;
+  }
+  return std::nullopt;
+}
+
+// `ROUGHNESS_Robot`: the word in front counts where another map has the same stem.
+std::vector<NameReading> Naming::read_front(std::string_view name) const {
+  const std::vector<NamePiece> pieces = name_pieces(name);
+  for (std::size_t count = std::min<std::size_t>(3, pieces.size() - std::min<std::size_t>(1, pieces.size()));
+       count > 0; --count) {
+    std::vector<NameReading> readings = read_end(name.substr(0, pieces[count - 1].end));
+    std::erase_if(readings, [](const NameReading& reading) { return !reading.stem.empty(); });
+    if (readings.empty()) continue;
+    readings.resize(1);
+    readings.front().stem = readings.front().numbered_stem = std::string(name.substr(pieces[count].begin));
+    readings.front().doubtful = true;
+    return readings;
+  }
+  return {};
+}
+
+std::vector<NameReading> Naming::read_end(std::string_view name) const {
   NameParts parts{name, name_pieces(name), false};
   while (!parts.pieces.empty()) {
     const std::string_view last = parts.pieces.back().in(name);
     const bool resolution = is_resolution(last);
-    if (!resolution && !is_format_word(last) && !ignored_.contains(lower(last))) break;
+    if (!resolution && !is_format_word(last) && !is_version(last) && !ignored_.contains(lower(last))) break;
     parts.resolution_after = parts.resolution_after || resolution;
     parts.pieces.pop_back();
   }

@@ -161,7 +161,7 @@ class Naming {
   Naming(std::vector<Habit> habits, std::vector<std::string> ignored_words);
 
   // The ways to read `name`, a file name without extension and tile. The longest word, which is the
-  // likeliest, comes first. Empty if no habit matches the end of the name.
+  // likeliest, comes first; a word in front counts where none ends the name. Empty if no habit matches.
   std::vector<NameReading> read(std::string_view name) const;
 
   const std::vector<Habit>& habits() const noexcept { return habits_; }
@@ -174,7 +174,10 @@ class Naming {
     std::string text;               // as the table writes it
     std::vector<std::size_t> cuts;  // where separators may be, as offsets into the word without separators
   };
-  struct Ending;  // a part of a name that may be a word
+  struct Ending;                                                   // a part of a name that may be a word
+  std::vector<NameReading> read_end(std::string_view name) const;  // words at the end
+  std::optional<NameReading> read_pair(std::string_view name) const;
+  std::vector<NameReading> read_front(std::string_view name) const;
   std::optional<Ending> ending_from(const NameParts& parts, std::size_t first, std::size_t begin) const;
   const Word* best_word(const Ending& ending) const;
 

@@ -7,6 +7,7 @@
 #include "remap/error.hpp"
 #include "sets/discovery.hpp"
 #include "texremap/conversion_request.hpp"
+#include "texremap/set_choice.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -47,28 +48,6 @@ bool is_given(const ParameterRequest& request) {
   return map == nullptr || !map->file.empty();
 }
 
-// The maps of a set that may hold a parameter, by the best role found: some sets call their base color
-// diffuse, or their diffuse color albedo.
-std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
-  const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
-    return best.empty() ? other : best;
-  };
-  switch (parameter) {
-    case Parameter::kRoughness:
-      return uses(set, is_roughness);
-    case Parameter::kSpecular:
-      return uses(set, is<Role::kSpecular>);
-    case Parameter::kDiffuse:
-      return either(uses(set, is<Role::kDiffuse>), uses(set, is<Role::kBaseColor>));
-    case Parameter::kBaseColor:
-      return either(uses(set, is<Role::kBaseColor>), uses(set, is<Role::kDiffuse>));
-    case Parameter::kMetallic:
-      return uses(set, is<Role::kMetallic>);
-    default:
-      return {};
-  }
-}
-
 // The set with its diffuse map as the first, for a warp that converts diffuse alone.
 FoundSet of_diffuse_alone(FoundSet set) {
   const std::vector<MapUse> found = uses_of(set, Parameter::kDiffuse);
@@ -84,18 +63,20 @@ FoundSet of_diffuse_alone(FoundSet set) {
 // Turns a folder of sets into jobs.
 class FolderJobs {
  public:
-  FolderJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& defaults)
+  FolderJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& defaults,
+             Discovery found)
       : options_(options),
         workflow_(workflow),
         choice_(target_choice(options, workflow)),
         defaults_(defaults),
-        root_(options.folder) {}
+        root_(options.folder),
+        found_(std::move(found)) {}
 
   JobList list();
 
  private:
-  void add(const FoundSet& set);
-  void add_tile(const FoundSet& set, int tile);
+  void add(FoundSet set);
+  void add_tile(const FoundSet& set, int tile, const std::vector<std::string>& notes);
   bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                    ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
@@ -103,6 +84,18 @@ class FolderJobs {
   std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   void require_no_collisions() const;
   void require_encoding_used() const;
+  // The pattern with `*` for the name of a set that an option gives for a parameter; null for none.
+  const MapName* pattern_of(Parameter parameter) const {
+    const MapSource* source = options_.map_of(parameter);
+    return source != nullptr ? std::get_if<MapName>(source) : nullptr;
+  }
+  // The width that the source model takes, where one is known.
+  std::optional<RoughnessConvention> own_width() const {
+    if (workflow_.is_material()) return width_of(*workflow_.source);
+    return std::nullopt;
+  }
+  // Whether a set without a map of width has one by an option, and other maps of the material.
+  bool has_given_width(const FoundSet& set) const;
   void fail(const std::string& message) { jobs_.left_out.push_back({message, true}); }
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
@@ -111,30 +104,16 @@ class FolderJobs {
   TargetChoice choice_;
   const TextureSetRequest& defaults_;  // values for missing maps, and factors for all sets
   fs::path root_;
+  Discovery found_;
   std::vector<FoundSet> converted_;
   JobList jobs_;
 };
 
 JobList FolderJobs::list() {
-  const Naming naming = options_.names.empty() ? built_in_naming() : read_naming(options_.names);
-  DiscoveryOptions discovery;
-  discovery.recursive = options_.recursive;
-  discovery.naming = &naming;
-  discovery.excluded = {options_.output};
-  if (!options_.diagnose.empty()) discovery.excluded.push_back(options_.diagnose);
-  Discovery found = find_sets(root_, discovery);
   jobs_.is_tree = true;
-  for (const fs::path& image : found.unrecognised) jobs_.unrecognised.push_back(root_ / image);
-  for (const WalkProblem& problem : found.problems) fail(problem.message);
-  for (FoundSet& set : found.sets) {
-    if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
-      set = of_diffuse_alone(std::move(set));
-    if (set.state == SetState::kReady)
-      add(set);
-    else
-      for (const std::string& remark : set.remarks)
-        jobs_.left_out.push_back({shown(root_) + "/" + remark, set.state == SetState::kFaulty});
-  }
+  for (const fs::path& image : found_.unrecognised) jobs_.unrecognised.push_back(root_ / image);
+  for (const WalkProblem& problem : found_.problems) fail(problem.message);
+  for (FoundSet& set : found_.sets) add(std::move(set));
   require_no_collisions();
   require_encoding_used();
   if (jobs_.jobs.empty() && jobs_.left_out.empty())
@@ -144,7 +123,41 @@ JobList FolderJobs::list() {
   return std::move(jobs_);
 }
 
-void FolderJobs::add(const FoundSet& set) {
+// A file of a set by a pattern: `*` is the name of the set, `<UDIM>` the number of the tile.
+fs::path named_after(const fs::path& pattern, const FoundSet& set, const std::string& number) {
+  std::string name = pattern.string();
+  const auto put = [&name](std::string_view token, const std::string& text) {
+    if (const std::size_t at = name.find(token); at != std::string::npos)
+      name.replace(at, token.size(), text);
+  };
+  put("*", set.name);
+  put("<UDIM>", number);
+  return name;
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+bool FolderJobs::has_given_width(const FoundSet& set) const {
+  if (!pattern_of(Parameter::kRoughness) && !is_given(defaults_.parameters.at(Parameter::kRoughness)))
+    return false;
+  return std::ranges::any_of(workflow_.sources(), [&](Parameter parameter) {
+    return pattern_of(parameter) != nullptr || !uses_of(set, parameter).empty();
+  });
+}
+
+void FolderJobs::add(FoundSet set) {
+  const std::vector<std::string> notes = choose_maps(set, workflow_.sources(), options_.prefer, own_width());
+  if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
+    set = of_diffuse_alone(std::move(set));
+  if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
+  if (set.state != SetState::kReady) {
+    for (const std::string& remark : set.remarks)
+      jobs_.left_out.push_back({shown(root_) + "/" + remark, set.state == SetState::kFaulty});
+    return;
+  }
   for (const Parameter parameter : workflow_.sources()) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name = plain_name(parameter);
@@ -153,17 +166,26 @@ void FolderJobs::add(const FoundSet& set) {
                   " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
                   "--diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
-    if (found.empty() && !is_given(defaults_.parameters.at(parameter)))
+    if (found.empty() && !pattern_of(parameter) && !is_given(defaults_.parameters.at(parameter)))
       return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
                   " VALUE for such sets)");
   }
   converted_.push_back(set);
-  for (const int tile : tiles_of(set)) add_tile(set, tile);
+  for (const int tile : tiles_of(set)) add_tile(set, tile, notes);
 }
 
 // Puts the map of a parameter into the job. Notes a message and returns false where the set lacks the tile.
 bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                              ConversionJob& job) {
+  if (const MapName* pattern = pattern_of(parameter)) {
+    const fs::path file = root_ / set.folder / named_after(pattern->file, set, number);
+    if (!is_file(file)) {
+      fail(job.name + ": no " + shown(file.filename()) + ", which " + parameter_option(parameter) + " names");
+      return false;
+    }
+    job.request.parameters[parameter].source = MapName{file, pattern->channels};
+    return true;
+  }
   const std::vector<MapUse> found = uses_of(set, parameter);
   if (found.empty()) return true;
   const MapUse& use = found.front();
@@ -181,7 +203,7 @@ bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std
   return true;
 }
 
-void FolderJobs::add_tile(const FoundSet& set, int tile) {
+void FolderJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::string>& notes) {
   const std::string number = tile == 0 ? "" : std::to_string(tile);
   ConversionJob job{place(set),
                     number,
@@ -190,7 +212,8 @@ void FolderJobs::add_tile(const FoundSet& set, int tile) {
                     options_.diagnose / set.folder,
                     {set.name, tile == 0 ? "" : "." + number},
                     {},
-                    {}};
+                    {},
+                    notes};
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, job)) return;
   if (!choice_.layout.keeps_names) carry(set, tile, job.request);
@@ -200,6 +223,15 @@ void FolderJobs::add_tile(const FoundSet& set, int tile) {
 
 // Adds the maps that are not converted but have a place in the layout.
 void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
+  const std::string number = tile == 0 ? "" : std::to_string(tile);
+  const auto add_pattern = [&](const std::string& name, const MapSource* source) {
+    const auto* pattern = source != nullptr ? std::get_if<MapName>(source) : nullptr;
+    if (pattern == nullptr) return;
+    const MapName map{root_ / set.folder / named_after(pattern->file, set, number), pattern->channels};
+    request.carried.push_back({name, {map, {}, Transfer::kLinear}});
+  };
+  add_pattern("occlusion", options_.occlusion ? &*options_.occlusion : nullptr);
+  if (!workflow_.is_material()) add_pattern("metallic", options_.map_of(Parameter::kMetallic));
   for (const FoundMap& map : set.maps)
     for (const ChannelMeaning& entry : map.meaning) {
       const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
@@ -337,11 +369,22 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
 
 }  // namespace
 
+std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
+  if (options.folder.empty()) return std::nullopt;
+  const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
+  DiscoveryOptions discovery;
+  discovery.recursive = options.recursive;
+  discovery.naming = &naming;
+  discovery.excluded = {options.output};
+  if (!options.diagnose.empty()) discovery.excluded.push_back(options.diagnose);
+  return find_sets(options.folder, discovery);
+}
+
 JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
-                        const TextureSetRequest& request) {
-  if (!options.folder.empty()) return FolderJobs(options, workflow, request).list();
+                        const TextureSetRequest& request, std::optional<Discovery> sets) {
+  if (sets) return FolderJobs(options, workflow, request, *std::move(sets)).list();
   ConversionJob job{"", "", request, options.output, options.diagnose, {}, copied_files(options, workflow),
-                    {}};
+                    {}, {}};
   if (const std::vector<TiledFile> tiled = tiled_files(job); !tiled.empty()) return tile_jobs(job, tiled);
   JobList list;
   list.jobs.push_back(std::move(job));

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sets/discovery.hpp"
 #include "texremap/convert_options.hpp"
 #include "texremap/workflow_choice.hpp"
 #include "texture/target_plan.hpp"
@@ -22,6 +24,7 @@ struct ConversionJob {
   ResultNames names;                               // of results without an input of the same name
   std::vector<CopiedFile> copies;
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
+  std::vector<std::string> notes;                  // which of several maps were taken
 };
 
 // A set that is not converted, or a file or folder that cannot be read.
@@ -38,9 +41,13 @@ struct JobList {
   std::string tile_noun = "tile";  // "frame" for sequences
 };
 
+// The sets of the folder that the options name; none without a folder. Throws kInput if it, or a naming file,
+// cannot be read.
+std::optional<Discovery> discovered_sets(const ConvertOptions& options);
+
 // `request` is what the options say about one set, or about all sets of a folder. Throws kUsage if the folder
 // has no sets or if two sets would write one file; kInput if the folder or a naming file cannot be read.
 JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
-                        const TextureSetRequest& request);
+                        const TextureSetRequest& request, std::optional<Discovery> sets);
 
 }  // namespace remap

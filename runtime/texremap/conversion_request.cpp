@@ -87,17 +87,15 @@ void require_read(const ConvertOptions& options, const WorkflowChoice& workflow)
     if (!workflow.has_source(parameter) && !has_place && options.map_of(parameter) != nullptr)
       refuse_map(parameter_option(parameter), is_result);
   }
-  if (!workflow.has_source(Parameter::kSpecular) && !options.specular_factors.empty())
-    refuse_map("--specular-factor", false);
+  for (const auto& [parameter, factors] : options.factors)
+    if (!workflow.has_source(parameter) && !factors.empty())
+      refuse_map(parameter_option(parameter) + "-factor", false);
 }
 
-// Refuses options of a single set with a folder, and options of a folder with a single set.
+// Refuses options of a folder with a single set, and maps that a folder does not take.
 void require_one_way(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const bool is_tree = !options.folder.empty();
-  if (is_tree)
-    refuse(options, kNotWithFolder, " cannot be used with a folder (its sets are found by name)");
-  else
-    refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");
+  if (!is_tree) refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");
   for (const Parameter parameter : {Parameter::kBaseColor, Parameter::kDiffuse})
     if (is_tree && !workflow.has_source(parameter) && options.map_of(parameter) != nullptr)
       throw Error(ErrorKind::kUsage,
@@ -106,12 +104,16 @@ void require_one_way(const ConvertOptions& options, const WorkflowChoice& workfl
   if (!is_tree) require_parameters(options, workflow);
 }
 
-void require_numbers(const ConvertOptions& options, const std::string& option,
-                     const ParameterRequest& parameter) {
-  if (const auto* map = std::get_if<MapName>(&parameter.source);
-      !options.folder.empty() && map && !map->file.empty())
+// With a folder, a map is a name with `*`, which each set completes; other maps are refused.
+void keep_numbers(const ConvertOptions& options, const std::string& option, ParameterRequest& parameter) {
+  const auto* map = std::get_if<MapName>(&parameter.source);
+  if (options.folder.empty() || map == nullptr || map->file.empty()) return;
+  if (map->file.string().find('*') == std::string::npos)
     throw Error(ErrorKind::kUsage,
-                option + ": the map " + map->file.string() + " cannot be used with a folder (give numbers)");
+                option + ": the map " + map->file.string() +
+                    " cannot be used with a folder (give numbers, or a name with * for that of "
+                    "the set: '*_packed.png:G')");
+  parameter.source = MapName{};  // each set has its own file
 }
 
 // The encoding of the roughness maps. `--roughness` means roughness even for a model that takes glossiness.
@@ -138,19 +140,21 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
     if (const MapSource* source = options.map_of(parameter)) asked.source = *source;
     if (const auto constant = workflow.constants.find(parameter); constant != workflow.constants.end())
       asked.source = constant->second;
-    require_numbers(options,
-                    is_width && options.reads_glossiness() ? "--glossiness" : parameter_option(parameter),
-                    asked);
-    if (is_width) asked.factors = options.roughness_factors;
-    if (parameter == Parameter::kSpecular) asked.factors = options.specular_factors;
+    keep_numbers(options,
+                 is_width && options.reads_glossiness() ? "--glossiness" : parameter_option(parameter),
+                 asked);
+    if (const auto found = options.factors.find(parameter); found != options.factors.end())
+      asked.factors = found->second;
     if (const auto found = transfers.find(parameter); found != transfers.end())
       asked.transfer = found->second;
     request.parameters[parameter] = std::move(asked);
   }
   const auto carry = [&](const std::string& name, const MapSource* source) {
     if (source == nullptr) return;
-    request.carried.push_back({name, {*source, {}, Transfer::kLinear}});
-    require_numbers(options, "--" + name, request.carried.back().parameter);
+    ParameterRequest asked{*source, {}, Transfer::kLinear};
+    keep_numbers(options, "--" + name, asked);
+    if (const auto* map = std::get_if<MapName>(&asked.source); map != nullptr && map->file.empty()) return;
+    request.carried.push_back({name, std::move(asked)});
   };
   carry("occlusion", options.occlusion ? &*options.occlusion : nullptr);
   if (!workflow.has_source(Parameter::kMetallic) && !workflow.is_to_metallic())

@@ -21,6 +21,7 @@
 #include "texremap/convert_report.hpp"
 #include "texremap/converter_text.hpp"
 #include "texremap/job_run.hpp"
+#include "texremap/set_choice.hpp"
 #include "texremap/workflow_choice.hpp"
 
 namespace remap {
@@ -159,12 +160,12 @@ void warn_of_encoding(const ConvertOptions& options, const JobList& list, const 
 }
 
 void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chosen,
-                     const TextureSetRequest& request) {
+                     const TextureSetRequest& request, std::optional<Discovery> sets) {
   const Stopwatch stopwatch;
   if (options.output.empty()) throw Error(ErrorKind::kUsage, "--output is required");
-  const JobList list = conversion_jobs(options, chosen.workflow, request);
+  const JobList list = conversion_jobs(options, chosen.workflow, request, std::move(sets));
   warn_of_encoding(options, list, chosen.info().source);
-  Outcome outcome{chosen, list, {}, options.dry_run, options.histograms, 0.0, {}};
+  Outcome outcome{chosen, list, {}, options.dry_run, options.histograms, options.json, 0.0, {}};
   // What a run says of a set, it says as soon as the set is finished: a killed run has told what it did.
   const bool as_lines = options.json && list.is_tree;
   print_left_out(kProgram, list, options.quiet);
@@ -196,10 +197,18 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
                     "this)");
 }
 
-void convert(const ConvertOptions& options) {
+void convert(ConvertOptions options) {
+  std::optional<Discovery> sets = discovered_sets(options);
+  std::string told;
+  if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
+    const ToldSource source = told_source(options, sets);
+    options.from = model_name().read("--from", source.model);
+    told = source.note;
+  }
   const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_fitted_converter(options.fit));
   const WarpMapFit* warp = warp_in(fit);
   WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
+  if (!told.empty()) workflow.notes.insert(workflow.notes.begin(), told);
   (void)target_choice(options, workflow);  // refuses what cannot be written before any file is read
   const TextureSetRequest request = set_request(options, workflow);
   const ChosenConverter chosen = choose_converter(options, fit, std::move(workflow));
@@ -210,7 +219,7 @@ void convert(const ConvertOptions& options) {
            ": applies to nothing, because all maps are numbers (give a file, or remove this option)");
     convert_values(options, chosen, request);
   } else {
-    convert_maps_of(options, chosen, request);
+    convert_maps_of(options, chosen, request, std::move(sets));
   }
 }
 

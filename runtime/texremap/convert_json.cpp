@@ -111,6 +111,15 @@ Json job_json(const Outcome& outcome, const JobReport& report) {
   json["mask"] = file_json(report, [](const JobReport::Result& result) { return result.mask; });
   json["copies"] = paths_json(report.copies);
   json["left_behind"] = paths_json(report.left_behind);
+  if (outcome.dry_run) {
+    json["plan"] = Json::list();
+    for (const PlannedRole& role : report.plan)
+      json["plan"].push_back({{"role", role.role},
+                              {"input", role.input},
+                              {"encoding", role.encoding},
+                              {"happens", role.happens},
+                              {"output", role.output}});
+  }
   json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);
   json.update(counts_json(counts));
   for (const Parameter parameter : chosen.converter().sources())
@@ -129,8 +138,8 @@ Json job_json(const Outcome& outcome, const JobReport& report) {
     json["above_one"] = counts.above_one_count;
     json["metallic_confidence"] = metallic_json(counts.metallic);
     json["estimated_dielectric_f0"] = f0_json(report.estimated_f0);
-    json["warnings"] = report.warnings;
   }
+  json["warnings"] = report.warnings;
   json["seconds"] = report.seconds;
   json["bytes_read"] = report.bytes_read;
   json["bytes_written"] = report.bytes_written;

@@ -140,13 +140,11 @@ void add_map_options(Command& command, ConvertOptions& options) {
     return command.add_option(name + " MAP", options.maps[parameter], map_source(), description)
         ->tag(kChangesResults);
   };
-  add_map("--roughness", P::kRoughness, "Roughness of the source model")
-      ->tag(kNotWithFolder | kNotWithDiffuseWarp);
+  add_map("--roughness", P::kRoughness, "Roughness of the source model")->tag(kNotWithDiffuseWarp);
   add_map("--glossiness", P::kRoughness, "Glossiness, 1 - sqrt(alpha), in place of the roughness")
-      ->tag(kNotWithFolder | kNotWithDiffuseWarp)
+      ->tag(kNotWithDiffuseWarp)
       ->excludes(command.option("--roughness"));
-  add_map("--specular", P::kSpecular, "Specular color; with DIR, numbers for sets without a specular map")
-      ->tag(kNotWithDiffuseWarp);
+  add_map("--specular", P::kSpecular, "Specular color")->tag(kNotWithDiffuseWarp);
   add_map("--diffuse", P::kDiffuse, "Diffuse color of a specular workflow; else the file is copied");
   add_map("--base-color", P::kBaseColor, "Base color of a metallic workflow; else the file is copied");
   add_map("--metallic", P::kMetallic, "Metallic of a metallic workflow; else --layout places it unconverted");
@@ -170,6 +168,14 @@ void add_map_options(Command& command, ConvertOptions& options) {
       .add_flag("--resample", options.resample,
                 "Enlarge smaller maps of a set to the largest size, bilinearly")
       ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_option(
+          "--prefer WORDS", options.prefer,
+          "Of several maps of one parameter, those of this role or with this word in the name: gloss, "
+          "arm, 4k, png; commas between, the first that applies counts")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->tag(kChangesResults | kNeedsFolder);
   command.add_option("--names FILE", options.names, "More file-name habits for the maps in DIR (JSON)")
       ->tag(kChangesResults | kNeedsFolder);
 }
@@ -222,7 +228,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
       .add_flag("--allow-skips", options.allow_skips,
                 "With DIR, sets that are found and not converted do not make the exit code 1")
       ->tag(kNeedsFolder);
-  command.add_flag("--dry-run", options.dry_run, "List the files that would be written; write nothing")
+  command
+      .add_flag("--dry-run", options.dry_run,
+                "Show what would happen to each map, and the files that would be written; write nothing")
       ->tag(kNeedsFiles);
   Option* json = command.add_flag(
       "--json", options.json,
@@ -275,14 +283,17 @@ void add_rare_options(Command& command, ConvertOptions& options) {
           "What the roughness results hold (default: as the inputs where that is known, else what the "
           "target model takes; a file named glossiness holds glossiness)")
       ->tag(kChangesResults);
-  command
-      .add_option("--roughness-factor NUMBER", options.roughness_factors, factors(),
-                  "Multiply the roughness or glossiness map before it is decoded")
-      ->tag(kChangesResults | kNotWithDiffuseWarp);
-  command
-      .add_option("--specular-factor NUMBERS", options.specular_factors, factors(),
-                  "Multiply linear specular by one number, or by three")
-      ->tag(kChangesResults | kNotWithDiffuseWarp);
+  const auto add_factor = [&](const std::string& names, Parameter parameter, const std::string& description) {
+    command.add_option(names, options.factors[parameter], factors(), description)
+        ->tag(kChangesResults | kNotWithDiffuseWarp);
+  };
+  add_factor("--roughness-factor,--glossiness-factor NUMBER", Parameter::kRoughness,
+             "Multiply the roughness or glossiness map before it is decoded");
+  add_factor("--specular-factor NUMBERS", Parameter::kSpecular,
+             "Multiply linear specular by one number, or by three");
+  add_factor("--diffuse-factor NUMBERS", Parameter::kDiffuse, "The same for diffuse");
+  add_factor("--base-color-factor NUMBERS", Parameter::kBaseColor, "The same for base color");
+  add_factor("--metallic-factor NUMBER", Parameter::kMetallic, "Multiply metallic");
   command.add_flag("--dither", options.dither, "Add repeatable noise of half a step to 8-bit results")
       ->tag(kChangesResults | kNeedsFiles);
 

@@ -23,12 +23,11 @@ enum : OptionTags {
   kChangesResults = 1u << 0u,
   kNeedsFiles = 1u << 1u,   // applies to nothing where all maps are numbers
   kNeedsFolder = 1u << 2u,  // of texture sets
-  kNotWithFolder = 1u << 3u,
-  kNeedsWorkflow = 1u << 4u,
-  kNeedsMetallic = 1u << 5u,  // as a result
-  kNotWithWorkflow = 1u << 6u,
-  kNotWithWarp = 1u << 7u,
-  kNotWithDiffuseWarp = 1u << 8u,  // a warp whose source is a diffuse map alone
+  kNeedsWorkflow = 1u << 3u,
+  kNeedsMetallic = 1u << 4u,  // as a result
+  kNotWithWorkflow = 1u << 5u,
+  kNotWithWarp = 1u << 6u,
+  kNotWithDiffuseWarp = 1u << 7u,  // a warp whose source is a diffuse map alone
 };
 
 using MapSource = std::variant<MapName, ConstantValues>;
@@ -64,7 +63,8 @@ struct ConvertOptions {
   std::map<Parameter, std::optional<MapSource>> maps;
   std::optional<MapSource> occlusion;
   std::optional<RoughnessConvention> roughness_encoding;  // of roughness maps
-  std::vector<float> roughness_factors, specular_factors;
+  std::map<Parameter, std::vector<float>> factors;
+  std::vector<std::string> prefer;  // among several maps of one parameter
   std::vector<ColorSpaceWord> color_spaces;
   std::filesystem::path names;
   bool resample = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include "command_line/run_app.hpp"
 #include "core/nearest_name.hpp"
@@ -116,6 +117,7 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   has_8_bits = has_8_bits || other.has_8_bits;
   if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
   for (const auto& [note, count] : other.colors) colors[note] += count;
+  if (plan.empty()) plan = other.plan;
   if (!estimated_f0) estimated_f0 = other.estimated_f0;
   statistics += other.statistics;
   seconds += other.seconds;
@@ -196,7 +198,7 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
     print_message(program, place + "would write " + files_text(report) + " from " +
                                counted(report.inputs.size(), "file") +
                                " (first: " + report.inputs.front().string() + ")");
-    if (!report.left_behind.empty()) print_message(program, place + left_behind_text(report));
+    if (!outcome.is_json) std::cout << plan_table(report.plan);
     return;
   }
   const MapStatistics& counts = report.statistics;

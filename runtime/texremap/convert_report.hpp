@@ -12,6 +12,7 @@
 #include "command_line/progress.hpp"
 #include "remap/path.hpp"
 #include "texremap/conversion_jobs.hpp"
+#include "texremap/plan_table.hpp"
 #include "texture/material_survey.hpp"
 #include "texture/texture_pass.hpp"
 
@@ -67,6 +68,7 @@ struct JobReport {
   ColorNotes colors;                         // of whole numbers, and of what a file or the user says
   std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
   std::vector<std::string> warnings;
+  std::vector<PlannedRole> plan;  // of a dry run; of tiles, that of the first
   std::optional<std::string> failure;
   bool was_done = false;    // by the earlier run that this one resumes
   bool has_8_bits = false;  // a result does
@@ -86,6 +88,7 @@ struct Outcome {
   std::vector<JobReport> reports;  // one per set
   bool dry_run = false;
   bool histograms = false;  // in the JSON
+  bool is_json = false;
   double seconds = 0.0;
   ResourceUse used;  // threads waited for the rest of seconds x threads
 

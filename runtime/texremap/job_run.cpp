@@ -311,7 +311,8 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
       report.copies.push_back(copy.path);
     else
       report.results.push_back(result_of({copy.path, copy.parts}));
-  report.warnings = plan.left_out;
+  report.warnings = job.notes;
+  report.warnings.insert(report.warnings.end(), plan.left_out.begin(), plan.left_out.end());
   const bool needs_hash = options_.resume || !options_.dry_run;
   const std::string inputs = needs_hash ? inputs_hash(report.inputs, job) : "";
   if (options_.resume) {
@@ -324,7 +325,10 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   } else if (is_tree_ && !options_.force) {
     require_free(results_of(plan), journal_);
   }
-  if (options_.dry_run) return;
+  if (options_.dry_run) {
+    report.plan = planned_roles(set, plan, choice, job, chosen_.info().source.roughness, width);
+    return;
+  }
 
   const std::unique_ptr<Converter> own = survey(set, report);
   std::vector<TargetMap> targets = open_targets(set, plan);

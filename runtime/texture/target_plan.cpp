@@ -21,8 +21,14 @@ void require_known_extension(const std::string& extension) {
                 "--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
 }
 
+// WebP is read, and written as PNG, which is lossless and has more than 8 bits.
+std::string written_extension(const fs::path& input) {
+  const std::string extension = input.extension().string();
+  return extension == ".webp" ? ".png" : extension;
+}
+
 fs::path result_path(fs::path name, const TargetChoice& choice) {
-  if (!choice.extension.empty()) name.replace_extension(choice.extension);
+  name.replace_extension(choice.extension.empty() ? written_extension(name) : choice.extension);
   return choice.folder / name;
 }
 
@@ -106,8 +112,8 @@ std::string named(const std::string& pattern, const ResultNames& names) {
 
 std::string own_name(const std::string& name, bool is_grey, const TextureSet& set,
                      const TargetChoice& choice) {
-  std::string extension = choice.extension.empty() ? set.maps[set.first_map()].path().extension().string()
-                                                   : "." + choice.extension;
+  std::string extension =
+      choice.extension.empty() ? written_extension(set.maps[set.first_map()].path()) : "." + choice.extension;
   if (is_grey && extension == ".hdr") extension = ".exr";  // Radiance files have three channels
   return name + extension;
 }

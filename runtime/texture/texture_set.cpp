@@ -92,6 +92,52 @@ std::vector<std::size_t> color_channels(const ImageLayout& layout) {
   return {layout.alpha_channel == 0 && has_alpha ? std::size_t{1} : std::size_t{0}};
 }
 
+// The words that layers of a parameter have in their names.
+const std::vector<std::string_view>& layer_words(Parameter parameter) {
+  static const std::map<Parameter, std::vector<std::string_view>> kWords = {
+      {Parameter::kRoughness, {"rough", "gloss", "smooth"}},
+      {Parameter::kSpecular, {"spec", "refl"}},
+      {Parameter::kDiffuse, {"diff", "albedo"}},
+      {Parameter::kBaseColor, {"base", "albedo", "col"}},
+      {Parameter::kMetallic, {"metal"}}};
+  static const std::vector<std::string_view> kNone;
+  const auto found = kWords.find(parameter);
+  return found == kWords.end() ? kNone : found->second;
+}
+
+// The color channels of a layer: those of names such as `ViewLayer.Combined.R`, without the last word. Of
+// several layers the one counts whose name has a word of the parameter. Empty for none, or several.
+std::vector<std::size_t> layer_channels(const ImageLayout& layout, std::optional<Parameter> parameter) {
+  std::map<std::string, ImageLayout> layers;
+  std::map<std::string, std::vector<std::size_t>> places;
+  for (std::size_t c = 0; c < layout.channels.size(); ++c) {
+    const std::string& name = layout.channels[c].name;
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string::npos) continue;
+    Channel own = layout.channels[c];
+    own.name = name.substr(dot + 1);
+    ImageLayout& layer = layers[name.substr(0, dot)];
+    if (same_word(own.name, "A")) layer.alpha_channel = static_cast<int>(layer.channels.size());
+    layer.channels.push_back(own);
+    places[name.substr(0, dot)].push_back(c);
+  }
+  std::vector<std::vector<std::size_t>> found;
+  for (const auto& [name, layer] : layers) {
+    std::string small = name;
+    for (char& letter : small) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    const bool is_named =
+        parameter && std::ranges::any_of(layer_words(*parameter), [&](std::string_view word) {
+          return small.find(word) != std::string::npos;
+        });
+    if (layers.size() > 1 && !is_named) continue;
+    std::vector<std::size_t> channels = color_channels(layer);
+    if (channels.empty()) continue;
+    for (std::size_t& channel : channels) channel = places[name][channel];
+    found.push_back(std::move(channels));
+  }
+  return found.size() == 1 ? found.front() : std::vector<std::size_t>{};
+}
+
 // Empty if the part lacks one of them.
 std::vector<std::size_t> named_channels(const ImageReader& reader, const std::vector<std::string>& asked) {
   std::vector<std::size_t> channels;
@@ -181,14 +227,16 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
 }
 
 // The named channels, or the color channels, in the only part of the file that has them.
-std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& expected, TextureSet& set) {
+std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Parameter> parameter,
+                                        const std::string& expected, TextureSet& set) {
   const std::vector<std::size_t> parts = open_file(name.file, set);
   std::vector<std::vector<ChannelPlace>> candidates;
   std::vector<std::string> part_names;
   for (const std::size_t map : parts) {
     const ImageReader& reader = set.maps[map];
-    const std::vector<std::size_t> channels =
+    std::vector<std::size_t> channels =
         name.channels.empty() ? color_channels(reader.layout()) : named_channels(reader, name.channels);
+    if (channels.empty() && name.channels.empty()) channels = layer_channels(reader.layout(), parameter);
     if (!channels.empty()) candidates.emplace_back();
     for (const std::size_t channel : channels) candidates.back().push_back({map, channel});
     part_names.push_back(reader.part_name().empty() ? std::to_string(reader.part()) : reader.part_name());
@@ -213,14 +261,15 @@ void choose_transfer(const TextureSet& set, std::optional<Transfer> asked, SetPa
                                    : TransferReason::kUsual;
 }
 
-SetParameter open_parameter(const ParameterRequest& request, const std::string& expected, TextureSet& set) {
+SetParameter open_parameter(const ParameterRequest& request, std::optional<Parameter> role,
+                            const std::string& expected, TextureSet& set) {
   SetParameter parameter;
   parameter.factors = request.factors;
   if (const auto* constants = std::get_if<ConstantValues>(&request.source)) {
     parameter.constants = *constants;
     return parameter;
   }
-  parameter.channels = find_channels(std::get<MapName>(request.source), expected, set);
+  parameter.channels = find_channels(std::get<MapName>(request.source), role, expected, set);
   return parameter;
 }
 
@@ -304,8 +353,8 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
   set.convention = request.convention;
   for (const auto& [parameter, asked] : request.parameters) {
     const bool color = is_color(parameter);
-    SetParameter opened =
-        open_parameter(asked, color ? "R, G and B, or one channel" : "one channel, Y, or R, G and B", set);
+    SetParameter opened = open_parameter(
+        asked, parameter, color ? "R, G and B, or one channel" : "one channel, Y, or R, G and B", set);
     if (color && opened.is_map()) choose_transfer(set, asked.transfer, opened);
     if (!color && !opened.is_map() && opened.constants.size() != 1)
       throw Error(ErrorKind::kUsage, parameter_option(parameter) + ": has three values (give one)");
@@ -314,7 +363,8 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
   }
   (void)set.first_map();  // throws if no parameter is a map
   for (const CarriedRequest& carried : request.carried) {
-    SetParameter parameter = open_parameter(carried.parameter, "one channel, Y, or R, G and B", set);
+    SetParameter parameter =
+        open_parameter(carried.parameter, std::nullopt, "one channel, Y, or R, G and B", set);
     if (parameter.is_map()) parameter.channels.resize(1);  // all are equal
     if (parameter.channel_count() != 1)
       throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values (give one)");

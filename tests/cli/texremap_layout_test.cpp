@@ -215,10 +215,98 @@ TEST_CASE("texremap: every file of a folder that takes no part is named") {
   const Words words = "convert in --from gltf --to cycles-5/principled -o out";
   const std::string left = "in/wood: not converted: wood_normal.png (--copy-others copies it)";
   const std::string unknown = "not recognised: in/preview of wood.png";
-  CHECK_THAT(require_success(session.texremap(words + "--dry-run")).errors,
-             Contains(left) && Contains(unknown));
+  const ProcessResult planned = require_success(session.texremap(words + "--dry-run"));
+  CHECK_THAT(planned.errors, Contains(unknown));
+  CHECK_THAT(planned.output, Contains("role") && Contains("wood_occlusionRoughnessMetallic.png:G") &&
+                                 Contains("wood_normal.png") && Contains("left behind"));
   CHECK_THAT(require_success(session.texremap(words)).errors, Contains(left) && Contains(unknown));
   const ProcessResult all = require_success(session.texremap(words + "--force --copy-others --json"));
   CHECK_THAT(all.output, Contains("\"left_behind\":[]") &&
                              Contains("\"unrecognised_images\":[\"in/preview of wood.png\"]"));
+}
+
+TEST_CASE("texremap: the maps of a folder tell the source, and what was taken is said") {
+  const Session session;
+  write_orm_set(session);
+  const ProcessResult told = require_success(session.texremap("convert in --to gltf -o out"));
+  CHECK_THAT(told.errors, Contains("--from is taken as metallic, by the maps of wood"));
+  CHECK(session.content("out/wood_occlusionRoughnessMetallic.png") ==
+        session.content("in/wood_occlusionRoughnessMetallic.png"));
+  const OIIO::ImageSpec spec = test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8);
+  for (const char* word : {"Diffuse", "Specular", "Glossiness"})
+    session.make("in/chair_" + std::string(word) + ".png", spec, noise);
+  const ProcessResult differ = session.texremap("convert in --to gltf -o out2");
+  CHECK(differ.exit_code == 2);
+  CHECK_THAT(differ.errors, Contains("--from is required, because the sets differ: chair is of the model "
+                                     "gltf-specgloss, wood of metallic"));
+}
+
+TEST_CASE("texremap: of several maps of one parameter, one is taken and named, or --prefer chooses") {
+  const Session session;
+  write_orm_set(session);
+  const OIIO::ImageSpec grey = test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8);
+  session.make("in/wood_rough.png", grey, noise);
+  session.make("in/wood_Gloss.png", grey, [](int x, int y, int) { return noise(x, y, 7); });
+  const Words words = "convert in --to gltf --preset unity -o ";
+  const auto smoothness = [&](const Words& more, const std::string& folder) {
+    const ProcessResult result = require_success(session.texremap(words + folder + more));
+    CHECK((result.errors.find("--prefer changes that") == std::string::npos) == (more.size() > 0));
+    return channel(session, folder + "/wood_MetallicSmoothness.png", 3);
+  };
+  CHECK(smoothness({}, "a") == complement(channel(session, "in/wood_rough.png", 0)));
+  CHECK(smoothness("--prefer gloss", "b") == channel(session, "in/wood_Gloss.png", 0));
+  CHECK(smoothness("--prefer occlusionroughnessmetallic", "c") ==
+        complement(channel(session, "in/wood_occlusionRoughnessMetallic.png", 1)));
+}
+
+TEST_CASE("texremap: maps of a folder by a name with * for that of the set") {
+  const Session session;
+  write_orm_set(session);
+  const OIIO::ImageSpec spec = test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8);
+  session.make("in/wood_mine.png", spec, noise);
+  const Words words = Words("convert in --to gltf --preset unity -o out --roughness") +
+                      Words(std::vector<std::string>{"*_mine.png:B", "--occlusion", "*_mine.png:R"});
+  require_success(session.texremap(words));
+  CHECK(channel(session, "out/wood_MetallicSmoothness.png", 3) ==
+        complement(channel(session, "in/wood_mine.png", 2)));
+  CHECK(channel(session, "out/wood_Occlusion.png", 0) == channel(session, "in/wood_mine.png", 0));
+  std::filesystem::remove(session.path("in/wood_mine.png"));
+  CHECK_THAT(session.texremap(words + "--force").errors,
+             Contains("in/wood: no wood_mine.png, which --roughness names"));
+}
+
+TEST_CASE("texremap: layers of an EXR by their names, factors of every parameter, WebP") {
+  const Session session;
+  session.make("in/wood_maps.exr",
+               test_spec(kSize, kSize, {"rough.Y", "metal.Y", "base.R", "base.G", "base.B"}, OIIO::TypeHalf),
+               noise);
+  const std::string all =
+      "convert --from gltf --to gltf --roughness in/wood_maps.exr --metallic in/wood_maps.exr "
+      "--base-color in/wood_maps.exr --layout separate";
+  require_success(session.texremap(all + " -o out"));
+  const auto stored = [&](const std::string& name, const std::string& part) {
+    const TestImage image = session.image(name);
+    return channel(session, name, image.channel(part));
+  };
+  CHECK(stored("out/roughness.exr", "Y") == stored("in/wood_maps.exr", "rough.Y"));
+  CHECK(stored("out/metallic.exr", "Y") == stored("in/wood_maps.exr", "metal.Y"));
+  CHECK(stored("out/base_color.exr", "G") == stored("in/wood_maps.exr", "base.G"));
+
+  require_success(session.texremap(all + " --base-color-factor 0.5,1,1 --metallic-factor 0.5 -o half"));
+  const std::vector<float> red = stored("in/wood_maps.exr", "base.R"),
+                           halved = stored("half/base_color.exr", "R"),
+                           metal = stored("in/wood_maps.exr", "metal.Y"),
+                           dull = stored("half/metallic.exr", "Y");
+  for (std::size_t i = 0; i < red.size(); i += 97) {
+    CHECK(halved[i] == Approx(0.5f * red[i]).epsilon(1e-3));
+    CHECK(dull[i] == Approx(0.5f * metal[i]).epsilon(1e-3));
+  }
+  CHECK(stored("half/base_color.exr", "G") == stored("in/wood_maps.exr", "base.G"));
+
+  if (OIIO::ImageOutput::create("x.webp") == nullptr) return;
+  session.make("web/wood_Roughness.webp", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8),
+               [](int x, int y, int) { return noise(x, y, 1); });
+  require_success(
+      session.texremap("convert web --from mitsuba/ward --to mitsuba/as --specular 0.04 --quiet -o webout"));
+  CHECK(session.image("webout/wood_Roughness.png").spec.width == kSize);
 }

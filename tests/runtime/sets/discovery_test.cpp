@@ -81,15 +81,20 @@ TEST_CASE("find sets: two candidates for a role make only their set faulty") {
     return set.remarks.front();
   };
   CHECK(remark("a") ==
-        "a: 2 roughness maps found: a_Roughness.exr (roughness), a_rough.png (roughness); keep one");
+        "a: 2 roughness maps found: a_Roughness.exr (roughness), a_rough.png (roughness); keep one, or "
+        "choose by --prefer WORD");
   CHECK(remark("b") ==
-        "b: 2 roughness maps found: b_glossiness.png (glossiness), b_roughness.png (roughness); keep one");
+        "b: 2 roughness maps found: b_glossiness.png (glossiness), b_roughness.png (roughness); keep one, or "
+        "choose by --prefer WORD");
   CHECK(remark("c") ==
-        "c: 2 roughness maps found: c_orm.png (roughness in G), c_roughness.png (roughness); keep one");
+        "c: 2 roughness maps found: c_orm.png (roughness in G), c_roughness.png (roughness); keep one, or "
+        "choose by --prefer WORD");
   CHECK(remark("d") ==
-        "d: 2 specular maps found: d_spec.png (specular), d_specular.exr (specular); keep one");
+        "d: 2 specular maps found: d_spec.png (specular), d_specular.exr (specular); keep one, or choose by "
+        "--prefer WORD");
   CHECK(remark("f") ==
-        "f: 2 roughness maps found: f_rough_2k.png (roughness), f_rough_4k.png (roughness); keep one");
+        "f: 2 roughness maps found: f_rough_2k.png (roughness), f_rough_4k.png (roughness); keep one, or "
+        "choose by --prefer WORD");
   CHECK(set_at(found, "e").state == SetState::kReady);
   CHECK_FALSE(set_at(found, "a").width);
 }
@@ -150,7 +155,7 @@ TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are not text") {
   CHECK(set_at(found, "K\xc3\xb6nig\xe2\x99\x9a").state == SetState::kReady);
   CHECK(set_at(found, "a\nb").remarks.at(0) ==
         "a\\nb: 2 roughness maps found: a\\nb_Roughness.png (roughness), a\\nb_rough.png (roughness); keep "
-        "one");
+        "one, or choose by --prefer WORD");
   CHECK(shown("tab\there\x1b") == "tab\\x09here\\x1b");
 }
 

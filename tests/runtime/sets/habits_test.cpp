@@ -177,10 +177,12 @@ TEST_CASE("read name: case and separators are ignored") {
 }
 
 TEST_CASE("read name: words inside other words and names of sets do not count") {
-  for (const std::string name :
-       {"spectrum", "glossary", "through", "a_spectrum", "color_chart", "arms", "armchair_", "normalized_2k",
-        "rough_sketch", "trough", "4k", "", "_", "1024"})
+  for (const std::string name : {"spectrum", "glossary", "through", "a_spectrum", "arms", "armchair_",
+                                 "normalized_2k", "trough", "4k", "", "_", "1024"})
     CHECK(reading_text(name) == "none");
+  // A word in front counts only beside another map of that stem.
+  for (const std::string name : {"color_chart", "rough_sketch"})
+    CHECK(built_in_naming().read(name).front().doubtful);
   CHECK(reading_text("rough_wood_diff_2k") == "Poly Haven: diffuse");
   CHECK(stem("rough_wood_diff_2k") == "rough_wood");
   CHECK(stem("glossy_tiles_Roughness") == "glossy_tiles");
@@ -223,4 +225,21 @@ TEST_CASE("built-in habits: every word is read as its rule says") {
       }
     }
   }
+}
+
+TEST_CASE("read name: versions at the end, roles in front, and Blender's pair of packed maps") {
+  CHECK(reading_text("Robot_Roughness_v001") == "Substance Painter: roughness");
+  CHECK(stem("Robot_Roughness_v001") == "Robot");
+  CHECK(stem("Robot_2K_Gloss_v2") == "Robot");
+  CHECK(stem("ROUGHNESS_Robot") == "Robot");
+  CHECK(built_in_naming().read("ROUGHNESS_Robot").front().doubtful);
+  CHECK(reading_text("Robot Metallic-Robot Roughness") == "glTF: G=roughness B=metallic");
+  CHECK(stem("Robot Metallic-Robot Roughness") == "Robot");
+  CHECK(reading_text("Robot Metallic-Chair Roughness") == "Substance Painter: roughness");
+  CHECK(reading_text("vases_v2") == "none");
+
+  const SetSession front{"ROUGHNESS_Robot.png", "METALLIC_Robot.png", "BaseColor_Robot.png", "rough_cut.png"};
+  const Discovery found = front.find();
+  CHECK(only_set(found, "Robot").maps.size() == 3);
+  CHECK(found.unrecognised.size() == 1);
 }

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""habits_trial.py TEXREMAP: ten sets as ten tools name them, each converted for five targets by one command.
+
+A set has four patches of known values. The command has no option but --preset (or --to) and -o. What it writes is compared with closed
+forms: engines of the metallic workflow take the same base color, metallic and roughness (Unity 1 - roughness), within two steps of 8
+bits, 0.02 where the set is specular-gloss; Cycles 5, another renderer, within 0.04 of them. Prints the table; exit code 1 if one is wrong.
+"""
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SIDE = 8
+PATCHES = [  # base color (linear), metallic, roughness, occlusion: one for each quarter
+    ((0.50, 0.20, 0.10), 0.0, 0.40, 1.0), ((0.90, 0.70, 0.30), 1.0, 0.25, 0.9),
+    ((0.20, 0.30, 0.60), 0.0, 0.80, 0.6), ((0.60, 0.60, 0.65), 1.0, 0.60, 0.7)]
+F0 = 0.04
+
+
+def srgb(x):
+    return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
+
+
+def linear(x):
+    return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
+
+
+VALUES = {  # of a patch, as a map stores them
+    "base": lambda b, m, r, o: [srgb(c) for c in b], "metallic": lambda b, m, r, o: [m], "rough": lambda b, m, r, o: [r],
+    "gloss": lambda b, m, r, o: [1 - r], "ao": lambda b, m, r, o: [o], "normal": lambda b, m, r, o: [0.5, 0.5, 1.0],
+    "height": lambda b, m, r, o: [0.5], "orm": lambda b, m, r, o: [o, r, m], "mr": lambda b, m, r, o: [0.0, r, m],
+    "unity": lambda b, m, r, o: [m, m, m, 1 - r], "linear base": lambda b, m, r, o: list(b),
+    # Specular-gloss as glTF defines it: diffuse counts 1 - max(specular).
+    "diffuse": lambda b, m, r, o: [srgb(0.0 if m else c) for c in b],
+    "specular": lambda b, m, r, o: [srgb(c if m else F0) for c in b]}
+
+SETS = {
+    "Substance 3D": {"Robot_BaseColor.png": "base", "Robot_Metallic.png": "metallic", "Robot_Roughness.png": "rough",
+                     "Robot_Normal_OpenGL.png": "normal", "Robot_Height.png": "height"},
+    "Quixel": {"sfk_2K_Albedo.png": "base", "sfk_2K_Roughness.png": "rough", "sfk_2K_Gloss.png": "gloss",
+               "sfk_2K_Metalness.png": "metallic", "sfk_2K_AO.png": "ao", "sfk_2K_Normal.png": "normal"},
+    "Poly Haven": {"rock_diff_2k.png": "base", "rock_rough_2k.png": "rough", "rock_arm_2k.png": "orm",
+                   "rock_nor_gl_2k.png": "normal", "rock_disp_2k.png": "height"},
+    "ambientCG": {"Metal032_2K-PNG_Color.png": "base", "Metal032_2K-PNG_Roughness.png": "rough",
+                  "Metal032_2K-PNG_Metalness.png": "metallic", "Metal032_2K-PNG_NormalGL.png": "normal",
+                  "Metal032_2K-PNG_NormalDX.png": "normal"},
+    "Unity": {"Robot_BaseMap.png": "base", "Robot_MetallicSmoothness.png": "unity", "Robot_Normal.png": "normal",
+              "Robot_Occlusion.png": "ao"},
+    "Unreal": {"T_Robot_BC.png": "base", "T_Robot_N.png": "normal", "T_Robot_ORM.png": "orm"},
+    "Marmoset": {"robot_Diffuse.png": "diffuse", "robot_Specular.png": "specular", "robot_Gloss.png": "gloss",
+                 "robot_Normal.png": "normal"},
+    "Blender's bake": {"Robot Base Color.png": "base", "Robot Metallic.png": "metallic", "Robot Roughness.png": "rough",
+                       "Robot Normal.png": "normal"},
+    "Mari UDIM": {f"robot_{word}.{tile}.exr": kind for tile in (1001, 1002)
+                  for word, kind in (("baseColor", "linear base"), ("metalness", "metallic"), ("specRough", "rough"))},
+    "glTF export": {"Robot Base Color.png": "base", "Robot Metallic-Robot Roughness.png": "mr", "Robot Normal.png": "normal"}}
+
+TABLES = {"threejs": "mitsuba_ggx_to_threejs_r187_standard_metal.csv", "cycles-5/principled": "mitsuba_ggx_to_cycles_5_principled_metal.csv"}
+PACKED = ("occlusion", "roughness", "metallic")
+TARGETS = {  # options, and by a part of the file name what its channels hold
+    "gltf": (["--preset", "gltf"], {"baseColor": ("base",), "occlusionRoughnessMetallic": PACKED}),
+    "unity": (["--preset", "unity"], {"BaseMap": ("base",), "MetallicSmoothness": ("metallic", "metallic", "metallic", "smoothness")}),
+    "unreal": (["--preset", "unreal"], {"_BC": ("base",), "_ORM": PACKED}),
+    "threejs": (["--preset", "threejs"], {"baseColor": ("base",), "_orm": PACKED}),
+    "cycles-5/principled": (["--to", "cycles-5/principled"], {})}
+
+
+def write(folder, files):
+    """Maps of four patches, by one call of oiiotool."""
+    command = ["oiiotool"]
+    for name, kind in files.items():
+        for patch in PATCHES:
+            values = VALUES[kind](*patch)
+            command += ["--pattern", "constant:color=" + ",".join(f"{v:.6f}" for v in values), f"{SIDE // 2}x{SIDE // 2}", str(len(values))]
+        command += ["--mosaic", "2x2", "-d", "half" if name.endswith(".exr") else "uint8", "-o", str(folder / name), "--pop"]
+    subprocess.run(command, check=True, capture_output=True)
+
+
+def patches_in(paths):
+    """The values of the four patches of each file, as stored, by one call of oiiotool."""
+    text = subprocess.run(["oiiotool", "--no-autopremult", "--dumpdata", *map(str, paths)], check=True, capture_output=True, text=True).stdout
+    patches = []
+    for dump in re.split(r"(?m)^\S.*\d channel.*$", text)[1:]:
+        values = {}
+        for x, y, line in re.findall(r"Pixel \((\d+), (\d+)\): ([^\n]*)", dump):  # of whole numbers the shares are in parentheses
+            values[int(x), int(y)] = [float(v) for v in re.sub(r".*\(|\)", "", line).split()]
+        patches.append([values[place] for place in ((1, 1), (SIDE - 2, 1), (1, SIDE - 2), (SIDE - 2, SIDE - 2))])
+    return dict(zip(paths, patches))
+
+
+def between(rows, key, at):
+    """Linear interpolation of rows, lists of values that begin with `key` rising."""
+    below = max((row for row in rows if row[key] <= at), key=lambda row: row[key], default=min(rows, key=lambda row: row[key]))
+    above = min((row for row in rows if row[key] >= at), key=lambda row: row[key], default=below)
+    share = (at - below[key]) / (above[key] - below[key]) if above[key] > below[key] else 0.0
+    return [a + share * (b - a) for a, b in zip(below, above)]
+
+
+def measured(target, base, metallic, roughness):
+    """Base color and roughness of a patch in another renderer, by the table of its metals."""
+    if target not in TABLES or not metallic:
+        return base, roughness
+    text = (Path(__file__).resolve().parents[2] / "fits" / "tables" / TABLES[target]).read_text()
+    rows = [[float(cell) for cell in line.split(",")[:4]] for line in text.splitlines() if line[:1].isdigit() and line.endswith("ok")]
+    alphas = sorted({row[0] for row in rows})
+    colors, widths = [], []
+    for channel in base:
+        row = between([between([r for r in rows if r[0] == alpha], 1, channel) for alpha in alphas], 0, roughness ** 2)
+        colors.append(row[3])
+        widths.append(row[2])
+    return colors, max(widths) ** 0.5
+
+
+def faults_of(path, patches, contents, tolerance, has_occlusion, target):
+    faults, is_linear = [], path.suffix == ".exr"
+    for found, (base, metallic, roughness, occlusion) in zip(patches, PATCHES):
+        base, roughness = measured(target, base, metallic, roughness)
+        expected = {"metallic": [metallic], "roughness": [roughness], "smoothness": [1 - roughness],
+                    "occlusion": [occlusion if has_occlusion else 1.0], "base": list(base) if is_linear else [srgb(c) for c in base]}
+        wanted = [v for content in contents for v in expected[content]]
+        if len(found) < len(wanted) or any(abs(a - b) > tolerance for a, b in zip(found, wanted)):
+            faults.append(f"{path.name}: {[round(v, 3) for v in found]}, expected {[round(v, 3) for v in wanted]}")
+    return faults[:1]
+
+
+def judge(texremap, folder, name, target):
+    options, files = TARGETS[target]
+    out = folder / "out" / re.sub(r"\W", "_", target)
+    command = [texremap, "convert", str(folder), *options, "-o", str(out)]
+    run = subprocess.run(command, capture_output=True, text=True)
+    if run.returncode != 0:
+        return run.stderr.strip().splitlines()[-2:]
+    has_occlusion = any(kind in ("ao", "orm") for kind in SETS[name].values())
+    tolerance = 0.04 if target in TABLES else 0.02 if name == "Marmoset" else 2.1 / 255
+    found = sorted(path for path in out.rglob("*") if path.suffix in (".png", ".exr"))
+    patches = patches_in(found)
+    if not files:  # results keep the names of the inputs, or are named by their parameters
+        words = {r"(?i)base.?color|albedo|_diff_|_color|basemap|_bc": ("base",), r"(?i)_?(specRough|roughness|rough)(_2k)?(\.\d+)?\.": ("roughness",)}
+        faults = []
+        for words_of, contents in words.items():
+            matching = [p for p in found if re.search(words_of, p.name) and "Metallic" not in p.name and "_arm" not in p.name]
+            if not matching and contents == ("base",):
+                faults.append("no base color written")
+            for path in matching:
+                faults += faults_of(path, patches[path], contents, tolerance, has_occlusion, target)
+        return faults
+    faults = []
+    for word, contents in files.items():
+        matching = [p for p in found if word in p.name]
+        if not matching:
+            faults.append(f"no {word}")
+        for path in matching:
+            faults += faults_of(path, patches[path], contents, tolerance, has_occlusion, target)
+    return faults
+
+
+def main():
+    texremap = sys.argv[1]
+    right = 0
+    print(f"{'set':16}" + "".join(f"{target:22}" for target in TARGETS))
+    faults = []
+    for name, files in SETS.items():
+        row = f"{name:16}"
+        with tempfile.TemporaryDirectory() as made:
+            folder = Path(made) / "set"
+            folder.mkdir()
+            write(folder, files)
+            for target in TARGETS:
+                wrong = judge(texremap, folder, name, target)
+                right += not wrong
+                row += f"{'wrong' if wrong else 'right':22}"
+                faults += [f"{name} to {target}: {fault}" for fault in wrong]
+        print(row.rstrip())
+    print(f"\n{right} of {len(SETS) * len(TARGETS)} right")
+    print("\n".join(faults))
+    sys.exit(bool(faults))
+
+
+if __name__ == "__main__":
+    main()
