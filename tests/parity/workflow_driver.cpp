@@ -117,7 +117,7 @@ int check(const Converter& converter, const Rows& in, Rows& all, std::size_t& ou
     for (std::size_t r = 0; r < in_rows; ++r) from[r] = in[r][i];
     converter.evaluate(from.data(), to.data());
     for (std::size_t r = 0; r < out_rows; ++r) single[r][i] = to[r];
-    outside_one += converter.in_domain(from.data()) ? 0 : 1;
+    outside_one += converter.in_domain(from.data()) ? 0u : 1u;
   }
   if (!same(single, all)) return fail("single texels differ from rows");
   if (outside_one != outside) return fail("in_domain disagrees with rows");
