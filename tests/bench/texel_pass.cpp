@@ -19,7 +19,7 @@ void BENCH_NAME(TexelUse use, std::size_t count, const float* width, const float
   else
     for (std::size_t i = 0; i < count; ++i, in += 4, out += 4) {
       const auto texel = converter::evaluate(in[3], {in[0], in[1], in[2]});
-      std::memcpy(out, texel.specular.data(), sizeof texel.specular);
+      for (std::size_t c = 0; c < 3; ++c) out[c] = texel.specular[c];
       out[3] = texel.width;
     }
 }
