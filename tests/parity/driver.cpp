@@ -1,6 +1,6 @@
 // Runs generated headers as a user's program would: reads texels, writes what every entry point gives. Built
 // by the parity test with each compiler and each set of flags. The test writes headers.hpp, which includes
-// the headers under test and defines CONVERTERS(ENTRY) as ENTRY(ID) of each.
+// the headers under test and defines CONVERTERS(ENTRY) as ENTRY(ID) of each, and HEADER_COUNT.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -62,6 +62,21 @@ std::size_t texels(std::size_t count, const Buffers<T>& in, const Buffers<T>& ou
                                              {{out.width, out.width_stride}, {out.red, out.stride}});
 }
 
+// Two element types of many headers, with optimisation, would take compilers half a minute.
+#ifdef __OPTIMIZE__
+constexpr bool kChecksTexels = HEADER_COUNT == 1;
+#else
+constexpr bool kChecksTexels = true;
+#endif
+
+template <class Header, class T>
+constexpr decltype(&texels<Header, T>) texels_to_check() {
+  if constexpr (kChecksTexels)
+    return texels<Header, T>;
+  else
+    return nullptr;
+}
+
 template <class Header>
 Converter entry_of(const char* id) {
   return {id,
@@ -82,8 +97,8 @@ Converter entry_of(const char* id) {
           },
           rows<Header, 3>,
           rows<Header, 1>,
-          texels<Header, float>,
-          texels<Header, Half>};
+          texels_to_check<Header, float>(),
+          texels_to_check<Header, Half>()};
 }
 
 #define ENTRY(ID) entry_of<remap::ID>(#ID),
@@ -215,8 +230,10 @@ int check(const Converter& converter, const std::vector<float>& rows, std::vecto
   converter.rows_of_one(count, &mixed[0], {&mixed[count]}, &width_out[0], {&mixed[count]});
   if (!same_bits(&mixed[count], &of_one[count], count)) return fail("one channel in place differs");
   if (!same_bits(&width_out[0], &of_one[0], count)) return fail("the width beside it differs");
-  if (!texels_agree(converter, converter.texels, rows)) return fail("interleaved texels differ from rows");
-  if (!texels_agree(converter, converter.halves, rows)) return fail("texels of 16 bits differ from rows");
+  if (converter.texels != nullptr && !texels_agree(converter, converter.texels, rows))
+    return fail("interleaved texels differ from rows");
+  if (converter.halves != nullptr && !texels_agree(converter, converter.halves, rows))
+    return fail("texels of 16 bits differ from rows");
 
   single.push_back(static_cast<float>(outside));
   return 0;

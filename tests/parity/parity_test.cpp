@@ -275,7 +275,8 @@ class Headers {
       includes += "#include \"" + id + ".hpp\"\n";
       entries += " ENTRY(" + id + ")";
     }
-    write_file(path("headers.hpp"), includes + "#define CONVERTERS(ENTRY)" + entries + "\n");
+    write_file(path("headers.hpp"), includes + "#define HEADER_COUNT " + std::to_string(subjects_.size()) +
+                                        "\n#define CONVERTERS(ENTRY)" + entries + "\n");
   }
 
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
