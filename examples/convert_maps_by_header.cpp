@@ -44,8 +44,8 @@ int main(int argc, char** argv) {
   const std::size_t count = roughness.texel_count;
   float* width = roughness.values.data();
   float* red = specular.values.data();
-  const std::size_t outside = remap::mitsuba_ward_to_mitsuba_as::evaluate_batch<3>(
-      count, width, {red, red + count, red + 2 * count}, width, {red, red + count, red + 2 * count});
+  const std::size_t outside = remap::mitsuba_ward_to_mitsuba_as::evaluate_batch(
+      count, {width, {red, red + count, red + 2 * count}}, {width, {red, red + count, red + 2 * count}});
   roughness.values.resize(count);  // the first channel is the width
   expected_roughness.values.resize(count);
   const bool same =

@@ -5,13 +5,13 @@
 #include "mitsuba_ward_to_mitsuba_as.hpp"
 
 int main() {
-  namespace ward_to_as = remap::mitsuba_ward_to_mitsuba_as;
+  using ward_to_as = remap::mitsuba_ward_to_mitsuba_as;
   const float alpha = 0.2f;
   const std::array<float, 3> copper = {0.72f, 0.48f, 0.36f};  // linear red, green, blue
 
   const auto as = ward_to_as::evaluate(alpha, copper);
   std::printf("%s: alpha %.7g, specular %.7g %.7g %.7g\n", ward_to_as::kSourceModel, double{alpha},
               double{copper[0]}, double{copper[1]}, double{copper[2]});
-  std::printf("%s: alpha %.7g, f0 %.7g %.7g %.7g\n", ward_to_as::kTargetModel, double{as.alpha},
-              double{as.f0[0]}, double{as.f0[1]}, double{as.f0[2]});
+  std::printf("%s: alpha %.7g, f0 %.7g %.7g %.7g\n", ward_to_as::kTargetModel, double{as.width},
+              double{as.specular[0]}, double{as.specular[1]}, double{as.specular[2]});
 }

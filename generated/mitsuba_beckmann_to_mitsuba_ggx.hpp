@@ -28,39 +28,10 @@
 #pragma clang diagnostic ignored "-Wpass-failed"
 #endif
 
-namespace remap::mitsuba_beckmann_to_mitsuba_ggx {
+namespace remap {
+namespace mitsuba_beckmann_to_mitsuba_ggx_detail {
 
-inline constexpr const char* kId = "mitsuba_beckmann_to_mitsuba_ggx";
-inline constexpr const char* kSourceModel = "mitsuba/beckmann";
-inline constexpr const char* kSourceRoughness = "alpha";  // convention of its width parameter
-inline constexpr const char* kSourceSpecular = "f0";
-inline constexpr const char* kTargetModel = "mitsuba/ggx";
-inline constexpr const char* kTargetRoughness = "alpha";
-inline constexpr const char* kTargetSpecular = "f0";
-
-// Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00022f;
-inline constexpr float kSpecularRmsError = 9.7e-05f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
-// to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.36f;
-
-struct Input {
-  float alpha;  // microfacet width, (0, 1]
-  float f0;  // reflectance at normal incidence, linear
-};
-struct Output {
-  float alpha;  // microfacet width, (0, 1]
-  float f0;  // reflectance at normal incidence, linear
-};
-
-// What the measured table covers. Beyond it alpha is clamped to the edge, and f0 is extrapolated in
-// proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
-// of domain. f0 is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
-inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 1.0f};
-
-namespace detail {
+namespace detail = mitsuba_beckmann_to_mitsuba_ggx_detail;
 
 inline std::uint32_t bits(float value) noexcept {
   std::uint32_t result = 0;
@@ -387,8 +358,7 @@ inline Float between(Float from, Float to, Float share) noexcept { return from +
 
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.0f};
+  static constexpr Domain domain{0.01f, 1.0f, 0.0f, 1.0f, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -684,111 +654,284 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
     any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
-}  // namespace detail
-
-// Rows of `count` texels: one row of alpha, `Channels` rows of f0 (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
-// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// Rows of any length; one function for all buffers. In a caller's function clang would warn of loops that stay scalar.
 template <std::size_t Channels>
-inline std::size_t evaluate_batch(std::size_t count, const float* alpha,
-                                  const std::array<const float*, Channels>& f0, float* alpha_out,
-                                  const std::array<float*, Channels>& f0_out) noexcept {
-  std::size_t out_of_domain = 0, start = 0;
+[[gnu::noinline]] inline std::size_t convert_rows(std::size_t count, const float* width, const float* const* specular, float* width_out,
+                                float* const* specular_out) noexcept {
+  std::size_t outside = 0, start = 0;
   const auto convert = [&](auto size) {
-    std::array<const float*, Channels> from = f0;
-    std::array<float*, Channels> to = f0_out;
-    for (const float*& row : from) row += start;
-    for (float*& row : to) row += start;
-    detail::Block block;
-    detail::convert_block<Channels>(size, detail::Mapping(), alpha + start, from.data(), alpha_out + start,
-                                    to.data(), block);
-    out_of_domain += detail::count_outside(size, block.outside);
+    std::array<const float*, Channels> from{};
+    std::array<float*, Channels> to{};
+    for (std::size_t c = 0; c < Channels; ++c) {
+      from[c] = specular[c] + start;
+      to[c] = specular_out[c] + start;
+    }
+    Block block;
+    convert_block<Channels>(size, Mapping(), width + start, from.data(), width_out + start, to.data(), block);
+    outside += count_outside(size, block.outside);
     start += size;
   };
-  while (count - start >= detail::kBlock) convert(std::integral_constant<std::size_t, detail::kBlock>());
+  while (count - start >= kBlock) convert(std::integral_constant<std::size_t, kBlock>());
   if (start < count) convert(count - start);
-  return out_of_domain;
+  return outside;
 }
 
-// One texel of one channel: a row of one.
-inline Output evaluate(Input in) noexcept {
-  Output out{0.0f, 0.0f};
-  evaluate_batch<1>(1, &in.alpha, {&in.f0}, &out.alpha, {&out.f0});
-  return out;
-}
-
-// One texel of several channels, which share one alpha and one extrapolation.
+// A row of one, as a constant: loops and rows of the block become registers.
 template <std::size_t Channels>
-struct OutputTexel {
-  float alpha;
-  std::array<float, Channels> f0;
-};
-
-template <std::size_t Channels>
-inline OutputTexel<Channels> evaluate(float alpha, const std::array<float, Channels>& f0) noexcept {
-  OutputTexel<Channels> out{};
+inline void convert_texel(float width, const float* specular, float& width_out, float* specular_out) noexcept {
   std::array<const float*, Channels> from{};
   std::array<float*, Channels> to{};
   for (std::size_t c = 0; c < Channels; ++c) {
-    from[c] = &f0[c];
-    to[c] = &out.f0[c];
+    from[c] = specular + c;
+    to[c] = specular_out + c;
   }
-  evaluate_batch<Channels>(1, &alpha, from, &out.alpha, to);
-  return out;
+  Block block;
+  convert_block<Channels>(std::integral_constant<std::size_t, 1>(), Mapping(), &width, from.data(), &width_out, to.data(),
+                          block);
 }
 
-// Whether the texel lies where the table has data.
-inline bool in_domain(Input in) noexcept {
-  constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::clamped_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.f0)) >>
-          31) == 0;
+inline bool in_domain(float width, float specular) noexcept {
+  constexpr Domain kDomain = Mapping::domain;
+  return ((clamped_width(kDomain, width).outside | channel_outside(kDomain, specular)) >> 31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
-// above: single texels and rows.
-inline bool self_test() noexcept {
-  struct Golden {
-    Input in;
-    Output out, within;
+template <class T>
+struct Strided {
+  T* first;
+  std::size_t stride;
+
+  Strided operator[](std::size_t channel) const noexcept { return {first + channel, stride}; }
+};
+
+// Texels whose channels become planar rows together.
+inline constexpr std::size_t kTexels = 128;
+
+// Calls move(element, value in its row) for channels side by side. A stride of 0 is known at run time only.
+template <std::size_t Stride, class Count, class T, class Move, std::size_t... Channel>
+inline void move_channels(Count count, Strided<T> texels, float (*rows)[kTexels], const Move& move,
+                          std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count, stride = Stride == 0 ? texels.stride : Stride;
+  T* const first = texels.first;
+#if defined(__GNUC__) && !defined(__clang__)  // clang would warn, at the caller, of a T that has no vectors
+#pragma GCC ivdep
+#endif
+  for (std::size_t i = 0; i < size; ++i) (move(first[i * stride + Channel], rows[Channel][i]), ...);
+}
+
+template <std::size_t kRows, class Count, class T, class Move>
+inline void move_texels(Count count, std::size_t start, const std::array<Strided<T>, kRows>& texels,
+                        float (*rows)[kTexels], const Move& move) noexcept {
+  for (std::size_t r = 0; r < kRows;) {
+    const Strided<T> from = texels[r][start * texels[r].stride];
+    std::size_t side_by_side = 1;
+    while (r + side_by_side < kRows && texels[r + side_by_side].first == texels[r].first + side_by_side &&
+           texels[r + side_by_side].stride == from.stride)
+      ++side_by_side;
+    const auto run = [&](auto channels, auto stride) {
+      move_channels<stride>(count, from, rows + r, move, std::make_index_sequence<channels>());
+      r += channels;
+    };
+    using One = std::integral_constant<std::size_t, 1>;
+    using Three = std::integral_constant<std::size_t, 3>;
+    using Four = std::integral_constant<std::size_t, 4>;
+    if (side_by_side >= 4 && from.stride == 4)
+      run(Four(), Four());
+    else if (side_by_side >= 3 && from.stride == 4)
+      run(Three(), Four());
+    else if (side_by_side >= 3 && from.stride == 3)
+      run(Three(), Three());
+    else if (from.stride == 1)
+      run(One(), One());
+    else
+      run(One(), std::integral_constant<std::size_t, 0>());
+  }
+}
+
+// Texels anywhere by `convert`, which takes planar rows and returns how many were outside.
+template <std::size_t kIn, std::size_t kOut, class T, class Convert>
+inline std::size_t convert_texels(std::size_t count, const std::array<Strided<const T>, kIn>& in,
+                                  const std::array<Strided<T>, kOut>& out, const Convert& convert) noexcept {
+  float rows[kIn < kOut ? kOut : kIn][kTexels];
+  std::array<const float*, kIn> from{};
+  std::array<float*, kOut> to{};
+  for (std::size_t r = 0; r < kIn; ++r) from[r] = rows[r];
+  for (std::size_t r = 0; r < kOut; ++r) to[r] = rows[r];
+  std::size_t outside = 0, start = 0;
+  const auto run = [&](auto size) {
+    move_texels(size, start, in, rows, [](const T& texel, float& value) { value = static_cast<float>(texel); });
+    outside += convert(size, from, to);
+    move_texels(size, start, out, rows, [](T& texel, float value) { texel = static_cast<T>(value); });
+    start += size;
   };
-  constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.008236185f, 1.0f}, {0.00026f, 0.00011f}},
-      {{0.13375f, 0.9375f}, {0.109397955f, 0.94238645f}, {0.00026f, 0.00011f}},
-      {{0.2575f, 0.875f}, {0.20833331f, 0.90902126f}, {0.00026f, 0.00011f}},
-      {{0.38125f, 0.8125f}, {0.31456167f, 0.9120194f}, {0.00026f, 0.00011f}},
-      {{0.505f, 0.75f}, {0.43403804f, 0.9314374f}, {0.00026f, 0.00011f}},
-      {{0.62875f, 0.6875f}, {0.571252f, 0.9582289f}, {0.00026f, 0.00011f}},
-      {{0.7525f, 0.625f}, {0.72528994f, 0.99178797f}, {0.00026f, 0.00011f}},
-      {{0.87625f, 0.5625f}, {0.8774327f, 1.0f}, {0.00026f, 0.00011f}},
-      {{1.0f, 0.5f}, {1.0f, 0.9433691f}, {0.00026f, 0.00011f}},
-      {{0.005f, 0.5f}, {0.008233234f, 0.5024107f}, {0.00026f, 0.00011f}},
-      {{1.5f, 0.25f}, {1.0f, 0.47252443f}, {0.00026f, 0.00011f}},
-      {{0.505f, 0.0f}, {0.43525413f, 0.0006639902f}, {0.00026f, 0.00011f}},
-      {{0.505f, 2.0f}, {0.35973525f, 2.0f}, {0.00026f, 0.00022f}},
-  }};
-  std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
-  for (std::size_t i = 0; i < kGolden.size(); ++i) {
-    alpha[i] = kGolden[i].in.alpha;
-    f0[i] = kGolden[i].in.f0;
-  }
-  evaluate_batch<1>(kGolden.size(), alpha.data(), {f0.data()}, widths.data(), {speculars.data()});
-  const auto close = [](float value, float expected, float within) {
-    const float difference = value < expected ? expected - value : value - expected;
-    return difference <= within;
-  };
-  bool passed = true;
-  for (std::size_t i = 0; i < kGolden.size(); ++i) {
-    const Golden& golden = kGolden[i];
-    const Output out = evaluate(golden.in);
-    passed = passed && close(out.alpha, golden.out.alpha, golden.within.alpha);
-    passed = passed && close(out.f0, golden.out.f0, golden.within.f0);
-    passed = passed && close(widths[i], golden.out.alpha, golden.within.alpha);
-    passed = passed && close(speculars[i], golden.out.f0, golden.within.f0);
-  }
-  return passed;
+  while (count - start >= kTexels) run(std::integral_constant<std::size_t, kTexels>());
+  if (start < count) run(count - start);
+  return outside;
 }
 
-}  // namespace remap::mitsuba_beckmann_to_mitsuba_ggx
+}  // namespace mitsuba_beckmann_to_mitsuba_ggx_detail
+
+// A type without values: templates take it as an argument. Headers of one kind have the same members.
+struct mitsuba_beckmann_to_mitsuba_ggx {
+  static constexpr const char* kId = "mitsuba_beckmann_to_mitsuba_ggx";
+  static constexpr const char* kSourceModel = "mitsuba/beckmann";
+  static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
+  static constexpr const char* kTargetModel = "mitsuba/ggx";
+  static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "f0";  // what the model calls Input::specular
+  static constexpr const char* kTargetSpecular = "f0";
+
+  // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
+  static constexpr float kAlphaRmsError = 0.00022f;
+  static constexpr float kSpecularRmsError = 9.7e-05f;
+  // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+  // to the source's. Negative where no pictures were compared.
+  static constexpr float kImageRmsError = 0.36f;
+
+  struct Input {
+    float width;  // microfacet width, (0, 1]
+    float specular;  // reflectance at normal incidence, linear
+  };
+  struct Output {
+    float width;  // microfacet width, (0, 1]
+    float specular;  // reflectance at normal incidence, linear
+  };
+
+  // The first value of each member in a buffer of texels, whose channels follow one another, and the elements from one
+  // texel to the next: {rgba, 4}. T is float, or any type that static_cast converts to float and back.
+  template <class T>
+  using Strided = mitsuba_beckmann_to_mitsuba_ggx_detail::Strided<T>;
+
+  // Planar rows: a row of the width, and one for each channel of specular.
+  template <std::size_t Channels = 3>
+  struct InputRows {
+    const float* width;
+    std::array<const float*, Channels> specular;
+  };
+  template <std::size_t Channels = 3>
+  struct OutputRows {
+    float* width;
+    std::array<float*, Channels> specular;
+  };
+
+  // Texels of a buffer, or of two.
+  template <class T>
+  struct InputTexels {
+    Strided<const T> width, specular;
+  };
+  template <class T>
+  struct OutputTexels {
+    Strided<T> width, specular;
+  };
+
+  // One texel of several channels, which share one width and one extrapolation.
+  template <std::size_t Channels>
+  struct OutputTexel {
+    float width;
+    std::array<float, Channels> specular;
+  };
+
+  // What the measured table covers. Beyond it the width is clamped to the edge, and specular is extrapolated in
+  // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
+  // of domain. Target specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
+  static constexpr Input kDomainMin{0.01f, 0.0f};
+  static constexpr Input kDomainMax{1.0f, 1.0f};
+
+  // `count` texels of `Channels` channels (1 for a grey map, 3 for RGB). An output row may be exactly its own input row; no
+  // other rows may overlap. Texels do not see each other: any split into rows gives the same bits (which NaN aside). Returns
+  // the number of texels out of domain.
+  template <std::size_t Channels = 3>
+  static std::size_t evaluate_batch(std::size_t count, const InputRows<Channels>& in,
+                                    const OutputRows<Channels>& out) noexcept {
+    return mitsuba_beckmann_to_mitsuba_ggx_detail::convert_rows<Channels>(count, in.width, in.specular.data(), out.width, out.specular.data());
+  }
+
+  // The same bits of texels that are interleaved, or strided in another way. Output may be exactly the elements of input.
+  template <class T = float, std::size_t Channels = 3>
+  static std::size_t evaluate_texels(std::size_t count, const InputTexels<T>& in, const OutputTexels<T>& out) noexcept {
+    std::array<Strided<const T>, Channels + 1> from{};
+    std::array<Strided<T>, Channels + 1> to{};
+    for (std::size_t c = 0; c < Channels; ++c) {
+      from[c] = in.specular[c];
+      to[c] = out.specular[c];
+    }
+    from[Channels] = in.width;
+    to[Channels] = out.width;
+    return mitsuba_beckmann_to_mitsuba_ggx_detail::convert_texels(
+        count, from, to, [](std::size_t size, const auto& rows, const auto& rows_out) {
+          return mitsuba_beckmann_to_mitsuba_ggx_detail::convert_rows<Channels>(size, rows[Channels], rows.data(), rows_out[Channels],
+                                                     rows_out.data());
+        });
+  }
+
+  // One texel of one channel.
+  static Output evaluate(const Input& in) noexcept {
+    const OutputTexel<1> out = evaluate(in.width, {in.specular});
+    return {out.width, out.specular[0]};
+  }
+
+  template <std::size_t Channels>
+  static OutputTexel<Channels> evaluate(float width, const std::array<float, Channels>& specular) noexcept {
+    OutputTexel<Channels> out{};
+    mitsuba_beckmann_to_mitsuba_ggx_detail::convert_texel<Channels>(width, specular.data(), out.width, out.specular.data());
+    return out;
+  }
+
+  // The same, written as a list: evaluate(0.3f, {0.8f, 0.6f, 0.4f}).
+  template <std::size_t Channels>
+  static OutputTexel<Channels> evaluate(float width, const float (&specular)[Channels]) noexcept {
+    OutputTexel<Channels> out{};
+    mitsuba_beckmann_to_mitsuba_ggx_detail::convert_texel<Channels>(width, specular, out.width, out.specular.data());
+    return out;
+  }
+
+  // Whether the texel lies where the table has data.
+  static bool in_domain(const Input& in) noexcept { return mitsuba_beckmann_to_mitsuba_ggx_detail::in_domain(in.width, in.specular); }
+
+  // Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
+  // above: single texels and rows.
+  static bool self_test() noexcept {
+    struct Golden {
+      Input in;
+      Output out, within;
+    };
+    constexpr std::array<Golden, 13> kGolden = {{
+        {{0.01f, 1.0f}, {0.008236185f, 1.0f}, {0.00026f, 0.00011f}},
+        {{0.13375f, 0.9375f}, {0.109397955f, 0.94238645f}, {0.00026f, 0.00011f}},
+        {{0.2575f, 0.875f}, {0.20833331f, 0.90902126f}, {0.00026f, 0.00011f}},
+        {{0.38125f, 0.8125f}, {0.31456167f, 0.9120194f}, {0.00026f, 0.00011f}},
+        {{0.505f, 0.75f}, {0.43403804f, 0.9314374f}, {0.00026f, 0.00011f}},
+        {{0.62875f, 0.6875f}, {0.571252f, 0.9582289f}, {0.00026f, 0.00011f}},
+        {{0.7525f, 0.625f}, {0.72528994f, 0.99178797f}, {0.00026f, 0.00011f}},
+        {{0.87625f, 0.5625f}, {0.8774327f, 1.0f}, {0.00026f, 0.00011f}},
+        {{1.0f, 0.5f}, {1.0f, 0.9433691f}, {0.00026f, 0.00011f}},
+        {{0.005f, 0.5f}, {0.008233234f, 0.5024107f}, {0.00026f, 0.00011f}},
+        {{1.5f, 0.25f}, {1.0f, 0.47252443f}, {0.00026f, 0.00011f}},
+        {{0.505f, 0.0f}, {0.43525413f, 0.0006639902f}, {0.00026f, 0.00011f}},
+        {{0.505f, 2.0f}, {0.35973525f, 2.0f}, {0.00026f, 0.00022f}},
+    }};
+    std::array<float, kGolden.size()> width{}, specular{};
+    for (std::size_t i = 0; i < kGolden.size(); ++i) {
+      width[i] = kGolden[i].in.width;
+      specular[i] = kGolden[i].in.specular;
+    }
+    evaluate_batch<1>(kGolden.size(), {width.data(), {specular.data()}}, {width.data(), {specular.data()}});
+    const auto close = [](float value, float expected, float within) {
+      const float difference = value < expected ? expected - value : value - expected;
+      return difference <= within;
+    };
+    bool passed = true;
+    for (std::size_t i = 0; i < kGolden.size(); ++i) {
+      const Golden& golden = kGolden[i];
+      const Output alone = evaluate(golden.in);
+      for (const Output& out : {alone, Output{width[i], specular[i]}})
+        passed = passed && close(out.width, golden.out.width, golden.within.width) &&
+                 close(out.specular, golden.out.specular, golden.within.specular);
+    }
+    return passed;
+  }
+};
+
+}  // namespace remap
 
 #if defined(__clang__)
 #pragma clang diagnostic pop

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #if defined(__clang__)  // silences the warning about loops that cannot be vectorised
@@ -19,45 +20,10 @@
 #pragma clang diagnostic ignored "-Wpass-failed"
 #endif
 
-namespace remap::specular_to_metallic_weighted_sztrajman_2019 {
+namespace remap {
+namespace specular_to_metallic_weighted_sztrajman_2019_detail {
 
-inline constexpr const char* kId = "specular_to_metallic_weighted_sztrajman_2019";
-inline constexpr const char* kFormula = "equation-3";
-inline constexpr const char* kSourceModel = "specular";
-inline constexpr const char* kSourceWorkflow = "specular";
-inline constexpr const char* kSourceDiffuse = "plain";  // plain, or scaled by what specular leaves
-inline constexpr const char* kSourceRoughness = "roughness";  // convention of its width parameter
-inline constexpr const char* kTargetModel = "metallic";
-inline constexpr const char* kTargetWorkflow = "metallic";
-inline constexpr const char* kTargetDiffuse = "plain";
-inline constexpr const char* kTargetRoughness = "roughness";
-inline constexpr float kDielectricF0 = 0.03f;  // of the metallic workflow
-
-struct Input {
-  std::array<float, 3> diffuse;  // diffuse reflectance, linear, 0 to 1
-  std::array<float, 3> specular;  // reflectance at normal incidence, linear, 0 to 1
-  float roughness;  // square root of the microfacet width, 0 to 1
-};
-struct Output {
-  std::array<float, 3> base_color;  // albedo of the dielectric and F0 of the metal, linear, 0 to 1
-  float metallic;  // share of metal, 0 to 1
-  float roughness;  // square root of the microfacet width, 0 to 1
-};
-
-// The same, a row of texels for each channel.
-struct InputRows {
-  std::array<const float*, 3> diffuse;
-  std::array<const float*, 3> specular;
-  const float* roughness;
-};
-struct OutputRows {
-  std::array<float*, 3> base_color;
-  float* metallic;
-  float* roughness;
-};
-inline constexpr std::size_t kInputRows = 7, kOutputRows = 5;
-
-namespace detail {
+namespace detail = specular_to_metallic_weighted_sztrajman_2019_detail;
 
 inline std::uint32_t bits(float value) noexcept {
   std::uint32_t result = 0;
@@ -297,83 +263,216 @@ inline std::size_t solve_equation_3(const Conventions& use, bool by_albedo,
 }
 
 inline constexpr Conventions kConventions{0.03f, 1.0f, false, WidthParameter::kRoughness, WidthParameter::kRoughness};
-
-}  // namespace detail
-
-// Rows of `count` texels, in the order of the members above. An output row may be exactly any input row; no other rows may
-// overlap. Texels do not see each other: any split into rows gives the same bits. Values beyond 0 to 1 are clamped there; NaN
-// makes the outputs that depend on it NaN. Returns the number of texels that had such values.
-inline std::size_t evaluate_rows(std::size_t count, const std::array<const float*, kInputRows>& in,
-                                 const std::array<float*, kOutputRows>& out) noexcept {
-  return detail::convert_rows<detail::kMetallicBlock>(count, in, out, [](const auto& from, const auto& to) {
-    return detail::solve_equation_3(detail::kConventions, true, from, to);
+inline std::size_t evaluate_rows(std::size_t count, const std::array<const float*, 7>& in,
+                                 const std::array<float*, 5>& out) noexcept {
+  return convert_rows<kMetallicBlock>(count, in, out, [](const auto& from, const auto& to) {
+    return solve_equation_3(detail::kConventions, true, from, to);
   });
 }
 
-inline std::size_t evaluate_batch(std::size_t count, const InputRows& in, const OutputRows& out) noexcept {
-  return evaluate_rows(count, {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.roughness},
-                       {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.roughness});
+template <class T>
+struct Strided {
+  T* first;
+  std::size_t stride;
+
+  Strided operator[](std::size_t channel) const noexcept { return {first + channel, stride}; }
+};
+
+// Texels whose channels become planar rows together.
+inline constexpr std::size_t kTexels = 128;
+
+// Calls move(element, value in its row) for channels side by side. A stride of 0 is known at run time only.
+template <std::size_t Stride, class Count, class T, class Move, std::size_t... Channel>
+inline void move_channels(Count count, Strided<T> texels, float (*rows)[kTexels], const Move& move,
+                          std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count, stride = Stride == 0 ? texels.stride : Stride;
+  T* const first = texels.first;
+#if defined(__GNUC__) && !defined(__clang__)  // clang would warn, at the caller, of a T that has no vectors
+#pragma GCC ivdep
+#endif
+  for (std::size_t i = 0; i < size; ++i) (move(first[i * stride + Channel], rows[Channel][i]), ...);
 }
 
-// One texel: rows of one.
-inline Output evaluate(const Input& in) noexcept {
-  Output out{};
-  evaluate_rows(1, {&in.diffuse[0], &in.diffuse[1], &in.diffuse[2], &in.specular[0], &in.specular[1], &in.specular[2], &in.roughness},
-                {&out.base_color[0], &out.base_color[1], &out.base_color[2], &out.metallic, &out.roughness});
-  return out;
-}
-
-// Whether all values of the texel are in 0 to 1.
-inline bool in_domain(const Input& in) noexcept {
-  std::uint32_t outside = 0;
-  for (const float value : {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.roughness})
-    outside |= detail::outside_sign(value);
-  return outside >> 31 == 0;
-}
-
-// Whether this compilation gives the values that remapc computes, to 1e-4f: single texels and rows.
-inline bool self_test() noexcept {
-  constexpr std::size_t kCount = 8;
-  constexpr float kIn[kInputRows][kCount] = {
-      {0.5f, 0.0f, 0.375f, 0.1875f, 0.21875f, 0.125f, 0.8203125f, 0.0f},
-      {0.25f, 0.0f, 0.25f, 0.375f, 0.03125f, 0.125f, 0.8203125f, 0.0f},
-      {0.125f, 0.0f, 0.125f, 0.65625f, 0.125f, 0.125f, 0.8203125f, 0.0f},
-      {0.03f, 1.0f, 0.39f, 0.085f, 0.66375f, 0.03f, 0.1434375f, 0.5f},
-      {0.03f, 0.75f, 0.265f, 0.1475f, 0.10125f, 0.03f, 0.1434375f, 0.5f},
-      {0.03f, 0.375f, 0.07f, 0.24125f, 0.3825f, 0.03f, 0.1434375f, 0.5f},
-      {0.5f, 0.25f, 0.75f, 0.375f, 1.0f, 0.125f, 0.625f, 0.0f},
-  };
-  constexpr float kOut[kOutputRows][kCount] = {
-      {0.49999997f, 1.0f, 0.75f, 0.25f, 0.875f, 0.125f, 0.9375f, 0.5f},
-      {0.25f, 0.75f, 0.5f, 0.5f, 0.12499999f, 0.125f, 0.9375f, 0.5f},
-      {0.125f, 0.375f, 0.17336994f, 0.875f, 0.5f, 0.125f, 0.9375f, 0.5f},
-      {0.0f, 1.0f, 0.47308144f, 0.25f, 0.75f, 0.0f, 0.125f, 1.0f},
-      {0.5f, 0.25f, 0.75f, 0.375f, 1.0f, 0.125f, 0.625f, 0.0f},
-  };
-  std::array<const float*, kInputRows> in{};
-  std::array<float*, kOutputRows> out{};
-  float values[kOutputRows][kCount] = {};
-  for (std::size_t r = 0; r < kInputRows; ++r) in[r] = kIn[r];
-  for (std::size_t r = 0; r < kOutputRows; ++r) out[r] = values[r];
-  const auto close = [&](std::size_t first, std::size_t count) {
-    bool all = true;
-    for (std::size_t r = 0; r < kOutputRows; ++r)
-      for (std::size_t i = first; i < first + count; ++i) {
-        const float difference = values[r][i] - kOut[r][i];
-        all = all && difference <= 1e-4f && -difference <= 1e-4f;
-      }
-    return all;
-  };
-  bool passed = evaluate_rows(kCount, in, out) == 0 && close(0, kCount);
-  for (std::size_t i = 0; i < kCount; ++i) {
-    passed = passed && evaluate_rows(1, in, out) == 0 && close(i, 1);
-    for (const float*& row : in) ++row;
-    for (float*& row : out) ++row;
+template <std::size_t kRows, class Count, class T, class Move>
+inline void move_texels(Count count, std::size_t start, const std::array<Strided<T>, kRows>& texels,
+                        float (*rows)[kTexels], const Move& move) noexcept {
+  for (std::size_t r = 0; r < kRows;) {
+    const Strided<T> from = texels[r][start * texels[r].stride];
+    std::size_t side_by_side = 1;
+    while (r + side_by_side < kRows && texels[r + side_by_side].first == texels[r].first + side_by_side &&
+           texels[r + side_by_side].stride == from.stride)
+      ++side_by_side;
+    const auto run = [&](auto channels, auto stride) {
+      move_channels<stride>(count, from, rows + r, move, std::make_index_sequence<channels>());
+      r += channels;
+    };
+    using One = std::integral_constant<std::size_t, 1>;
+    using Three = std::integral_constant<std::size_t, 3>;
+    using Four = std::integral_constant<std::size_t, 4>;
+    if (side_by_side >= 4 && from.stride == 4)
+      run(Four(), Four());
+    else if (side_by_side >= 3 && from.stride == 4)
+      run(Three(), Four());
+    else if (side_by_side >= 3 && from.stride == 3)
+      run(Three(), Three());
+    else if (from.stride == 1)
+      run(One(), One());
+    else
+      run(One(), std::integral_constant<std::size_t, 0>());
   }
-  return passed;
 }
 
-}  // namespace remap::specular_to_metallic_weighted_sztrajman_2019
+// Texels anywhere by `convert`, which takes planar rows and returns how many were outside.
+template <std::size_t kIn, std::size_t kOut, class T, class Convert>
+inline std::size_t convert_texels(std::size_t count, const std::array<Strided<const T>, kIn>& in,
+                                  const std::array<Strided<T>, kOut>& out, const Convert& convert) noexcept {
+  float rows[kIn < kOut ? kOut : kIn][kTexels];
+  std::array<const float*, kIn> from{};
+  std::array<float*, kOut> to{};
+  for (std::size_t r = 0; r < kIn; ++r) from[r] = rows[r];
+  for (std::size_t r = 0; r < kOut; ++r) to[r] = rows[r];
+  std::size_t outside = 0, start = 0;
+  const auto run = [&](auto size) {
+    move_texels(size, start, in, rows, [](const T& texel, float& value) { value = static_cast<float>(texel); });
+    outside += convert(size, from, to);
+    move_texels(size, start, out, rows, [](T& texel, float value) { texel = static_cast<T>(value); });
+    start += size;
+  };
+  while (count - start >= kTexels) run(std::integral_constant<std::size_t, kTexels>());
+  if (start < count) run(count - start);
+  return outside;
+}
+
+}  // namespace specular_to_metallic_weighted_sztrajman_2019_detail
+
+// A type without values: templates take it as an argument. Headers of one kind have the same members.
+struct specular_to_metallic_weighted_sztrajman_2019 {
+  static constexpr const char* kId = "specular_to_metallic_weighted_sztrajman_2019";
+  static constexpr const char* kSourceModel = "specular";
+  static constexpr const char* kSourceWidth = "roughness";  // what Input::width is
+  static constexpr const char* kTargetModel = "metallic";
+  static constexpr const char* kTargetWidth = "roughness";
+  static constexpr const char* kFormula = "equation-3";
+  static constexpr const char* kSourceWorkflow = "specular";
+  static constexpr const char* kSourceDiffuse = "plain";  // plain, or scaled by what specular leaves
+  static constexpr const char* kTargetWorkflow = "metallic";
+  static constexpr const char* kTargetDiffuse = "plain";
+  static constexpr float kDielectricF0 = 0.03f;  // of the metallic workflow
+
+  struct Input {
+    std::array<float, 3> diffuse;  // diffuse reflectance, linear, 0 to 1
+    std::array<float, 3> specular;  // reflectance at normal incidence, linear, 0 to 1
+    float width;  // square root of the microfacet width, 0 to 1
+  };
+  struct Output {
+    std::array<float, 3> base_color;  // albedo of the dielectric and F0 of the metal, linear, 0 to 1
+    float metallic;  // share of metal, 0 to 1
+    float width;  // square root of the microfacet width, 0 to 1
+  };
+
+  // The first value of each member in a buffer of texels, whose channels follow one another, and the elements from one
+  // texel to the next: {rgba, 4}. T is float, or any type that static_cast converts to float and back.
+  template <class T>
+  using Strided = specular_to_metallic_weighted_sztrajman_2019_detail::Strided<T>;
+
+  // The same, a row of texels for each channel.
+  struct InputRows {
+    std::array<const float*, 3> diffuse;
+    std::array<const float*, 3> specular;
+    const float* width;
+  };
+  struct OutputRows {
+    std::array<float*, 3> base_color;
+    float* metallic;
+    float* width;
+  };
+
+  // Texels of a buffer, or of several.
+  template <class T>
+  struct InputTexels {
+    Strided<const T> diffuse, specular, width;
+  };
+  template <class T>
+  struct OutputTexels {
+    Strided<T> base_color, metallic, width;
+  };
+
+  // Rows of `count` texels. An output row may be exactly any input row; no other rows may overlap. Texels do not see each
+  // other: any split into rows gives the same bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend
+  // on it NaN. Returns the number of texels that had such values.
+  static std::size_t evaluate_batch(std::size_t count, const InputRows& in, const OutputRows& out) noexcept {
+    return specular_to_metallic_weighted_sztrajman_2019_detail::evaluate_rows(count, {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width},
+                                      {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width});
+  }
+
+  // The same bits of texels that are interleaved, or strided in another way. Output may be exactly elements of input.
+  template <class T = float>
+  static std::size_t evaluate_texels(std::size_t count, const InputTexels<T>& in, const OutputTexels<T>& out) noexcept {
+    return specular_to_metallic_weighted_sztrajman_2019_detail::convert_texels<7, 5, T>(
+        count, {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width},
+        {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width}, specular_to_metallic_weighted_sztrajman_2019_detail::evaluate_rows);
+  }
+
+  // One texel: rows of one.
+  static Output evaluate(const Input& in) noexcept {
+    Output out{};
+    specular_to_metallic_weighted_sztrajman_2019_detail::evaluate_rows(1, {&in.diffuse[0], &in.diffuse[1], &in.diffuse[2], &in.specular[0], &in.specular[1], &in.specular[2], &in.width},
+                               {&out.base_color[0], &out.base_color[1], &out.base_color[2], &out.metallic, &out.width});
+    return out;
+  }
+
+  // Whether all values of the texel are in 0 to 1.
+  static bool in_domain(const Input& in) noexcept {
+    std::uint32_t outside = 0;
+    for (const float value : {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width})
+      outside |= specular_to_metallic_weighted_sztrajman_2019_detail::outside_sign(value);
+    return outside >> 31 == 0;
+  }
+
+  // Whether this compilation gives the values that remapc computes, to 1e-4f: single texels and rows.
+  static bool self_test() noexcept {
+    constexpr std::size_t kCount = 8, kInputRows = 7, kOutputRows = 5;
+    constexpr float kIn[kInputRows][kCount] = {
+        {0.5f, 0.0f, 0.375f, 0.1875f, 0.21875f, 0.125f, 0.8203125f, 0.0f},
+        {0.25f, 0.0f, 0.25f, 0.375f, 0.03125f, 0.125f, 0.8203125f, 0.0f},
+        {0.125f, 0.0f, 0.125f, 0.65625f, 0.125f, 0.125f, 0.8203125f, 0.0f},
+        {0.03f, 1.0f, 0.39f, 0.085f, 0.66375f, 0.03f, 0.1434375f, 0.5f},
+        {0.03f, 0.75f, 0.265f, 0.1475f, 0.10125f, 0.03f, 0.1434375f, 0.5f},
+        {0.03f, 0.375f, 0.07f, 0.24125f, 0.3825f, 0.03f, 0.1434375f, 0.5f},
+        {0.5f, 0.25f, 0.75f, 0.375f, 1.0f, 0.125f, 0.625f, 0.0f},
+    };
+    constexpr float kOut[kOutputRows][kCount] = {
+        {0.49999997f, 1.0f, 0.75f, 0.25f, 0.875f, 0.125f, 0.9375f, 0.5f},
+        {0.25f, 0.75f, 0.5f, 0.5f, 0.12499999f, 0.125f, 0.9375f, 0.5f},
+        {0.125f, 0.375f, 0.17336994f, 0.875f, 0.5f, 0.125f, 0.9375f, 0.5f},
+        {0.0f, 1.0f, 0.47308144f, 0.25f, 0.75f, 0.0f, 0.125f, 1.0f},
+        {0.5f, 0.25f, 0.75f, 0.375f, 1.0f, 0.125f, 0.625f, 0.0f},
+    };
+    std::array<const float*, kInputRows> in{};
+    std::array<float*, kOutputRows> out{};
+    float values[kOutputRows][kCount] = {};
+    for (std::size_t r = 0; r < kInputRows; ++r) in[r] = kIn[r];
+    for (std::size_t r = 0; r < kOutputRows; ++r) out[r] = values[r];
+    const auto close = [&](std::size_t first, std::size_t count) {
+      bool all = true;
+      for (std::size_t r = 0; r < kOutputRows; ++r)
+        for (std::size_t i = first; i < first + count; ++i) {
+          const float difference = values[r][i] - kOut[r][i];
+          all = all && difference <= 1e-4f && -difference <= 1e-4f;
+        }
+      return all;
+    };
+    bool passed = specular_to_metallic_weighted_sztrajman_2019_detail::evaluate_rows(kCount, in, out) == 0 && close(0, kCount);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      passed = passed && specular_to_metallic_weighted_sztrajman_2019_detail::evaluate_rows(1, in, out) == 0 && close(i, 1);
+      for (const float*& row : in) ++row;
+      for (float*& row : out) ++row;
+    }
+    return passed;
+  }
+};
+
+}  // namespace remap
 
 #if defined(__clang__)
 #pragma clang diagnostic pop

@@ -14,8 +14,7 @@ namespace {
 constexpr std::string_view kMapping = R"(
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{kDomainMin.@in_roughness@, kDomainMax.@in_roughness@, kDomainMin.@in_specular@,
-                                 kDomainMax.@in_specular@, @inverse_edge@};
+  static constexpr Domain domain{@width_min@, @width_max@, @specular_min@, @specular_max@, @inverse_edge@};
   static float alpha_of(float own) noexcept { return @to_alpha@; }
   static float own_of(float alpha) noexcept { return @from_alpha@; }
   @functions@
@@ -121,17 +120,18 @@ RuleParts parts_of(const ConverterData& converter, const MappingCode& code) {
 
 }  // namespace
 
-std::string block_code(const ConverterData& converter, const std::string& specular_name,
-                       const MappingCode& code) {
+std::string block_code(const ConverterData& converter, const MappingCode& code) {
+  const ConverterInfo& info = converter.info;
   const RuleParts parts = parts_of(converter, code);
   return code_files({"lanes", "domain"}) + (code.form == CodeForm::kRegimes ? code_files({"limits"}) : "") +
-         fill_template(kMapping,
-                       {{"in_roughness", std::string(convention_name(converter.info.source.roughness))},
-                        {"in_specular", specular_name},
-                        {"inverse_edge", literal(1.0 / converter.info.specular.max)},
-                        {"to_alpha", convention_text(converter.info.source.roughness).to_alpha},
-                        {"from_alpha", convention_text(converter.info.target.roughness).from_alpha},
-                        {"functions", parts.functions}}) +
+         fill_template(kMapping, {{"width_min", literal(info.roughness.min)},
+                                  {"width_max", literal(info.roughness.max)},
+                                  {"specular_min", literal(info.specular.min)},
+                                  {"specular_max", literal(info.specular.max)},
+                                  {"inverse_edge", literal(1.0 / info.specular.max)},
+                                  {"to_alpha", convention_text(info.source.roughness).to_alpha},
+                                  {"from_alpha", convention_text(info.target.roughness).from_alpha},
+                                  {"functions", parts.functions}}) +
          code_files({"count_outside"}) + parts.loops;
 }
 

@@ -1,25 +1,11 @@
 // The description of a converter of width and specular.
-#include <algorithm>
-#include <array>
-
 #include "core/number_text.hpp"
 #include "emit/convention_text.hpp"
 #include "emit/emit.hpp"
 #include "emit/header_data.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
-
-// Refuses names of variables of the template: with such a parameter the header would not compile.
-void require_free_name(const std::string& name) {
-  constexpr std::array<std::string_view, 13> kTaken = {"count",  "start",  "size",  "i",   "in",
-                                                       "out",    "from",   "to",    "row", "widths",
-                                                       "detail", "golden", "passed"};
-  if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return;
-  throw Error(ErrorKind::kInput, "emit: the specular parameter " + name +
-                                     " has the name of a variable of the header (rename it)");
-}
 
 std::string error_text(const std::string& name, const ErrorFigures& figures) {
   return name + " rms " + two_digits(figures.rms) + ", 99 % " + two_digits(figures.p99) + ", max " +
@@ -59,11 +45,11 @@ std::string provenance(const Fit& fit, const std::string& description) {
 }
 
 HeaderEnd end_of(const ModelSide& side) {
-  require_free_name(side.specular);
   return {
       side.model,
-      {{std::string(convention_name(side.roughness)), 1, convention_text(side.roughness).meaning},
-       {side.specular, 1,
+      std::string(convention_name(side.roughness)),
+      {{"width", 1, convention_text(side.roughness).meaning},
+       {"specular", 1,
         side.specular == "f0" ? "reflectance at normal incidence, linear" : "specular reflectance, linear"}}};
 }
 

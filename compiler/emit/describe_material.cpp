@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/report_text.hpp"
 #include "emit/header_data.hpp"
@@ -13,7 +14,8 @@ namespace {
 HeaderEnd end_of(const std::string& model, const std::string& workflow, std::string_view diffuse,
                  std::vector<MaterialParameter> parameters) {
   for (MaterialParameter& parameter : parameters) parameter.meaning += ", 0 to 1";
-  return {model, std::move(parameters), workflow, std::string(diffuse)};
+  const std::string width = std::exchange(parameters.back().name, "width");
+  return {model, width, std::move(parameters), workflow, std::string(diffuse)};
 }
 
 std::string title_of(const HeaderEnd& source, const HeaderEnd& target) {

@@ -12,7 +12,7 @@
 namespace remap {
 
 // The generated header `<id>.hpp`. Throws kNumeric for a fit without a converter and where a number is not
-// finite as a float, kInput where a specular parameter has a name that the header uses itself.
+// finite as a float.
 std::string emit_header(const Fit& fit);
 
 // The generated headers of converters of whole materials; a warp has the specular workflow on both sides.

@@ -1,5 +1,5 @@
-// The text of a header: templates/frame.in around the interface of its kind, templates/converter.in for width
-// and specular, templates/material.in for whole materials.
+// The text of a header: templates/frame.in around what its kind has of its own, templates/converter*.in for
+// width and specular, templates/material*.in for whole materials.
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "emit/convention_text.hpp"
@@ -70,11 +70,10 @@ bool takes_roots(const ConverterData& converter) {
 // What a header has of its own within the frame.
 struct Body {
   std::vector<std::string> includes;
-  std::string text;
+  std::string detail, constants, text;
 };
 
 Body body_of(const HeaderData& data, const ConverterData& converter) {
-  const Parameters &in = data.source.parameters, &out = data.target.parameters;
   const ConverterInfo& info = converter.info;
   const MappingCode code = mapping_code(converter.lowered);
   const auto golden = [](const GoldenValues& texel) {
@@ -83,26 +82,21 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "type_traits", "utility"};
   if (takes_roots(converter)) body.includes.insert(body.includes.begin(), "cmath");
-  body.text = fill_template(code_file("converter"),
-                            {{"source", data.source.model},
-                             {"target", data.target.model},
-                             {"in_roughness", in[0].name},
-                             {"in_specular", in[1].name},
-                             {"out_roughness", out[0].name},
-                             {"out_specular", out[1].name},
-                             {"input_members", members(in)},
-                             {"output_members", members(out)},
-                             {"alpha_rms", literal(info.roughness_rms_error.value_or(-1.0))},
-                             {"specular_rms", literal(info.specular_rms_error.value_or(-1.0))},
-                             {"image_rms", literal(info.image_rms_error.value_or(-1.0))},
-                             {"roughness_min", literal(info.roughness.min)},
-                             {"roughness_max", literal(info.roughness.max)},
-                             {"specular_min", literal(info.specular.min)},
-                             {"specular_max", literal(info.specular.max)},
-                             {"mapping", code.functions},
-                             {"block", block_code(converter, in[1].name, code)},
-                             {"golden_count", std::to_string(data.golden.size())},
-                             {"golden", joined(data.golden, "", golden)}});
+  body.detail = code_files({"converter_bits"}) + code.functions + block_code(converter, code) +
+                code_files({"converter_rows", "strided"});
+  body.constants = fill_template(code_file("converter_constants"),
+                                 {{"source_specular", info.source.specular},
+                                  {"target_specular", info.target.specular},
+                                  {"alpha_rms", literal(info.roughness_rms_error.value_or(-1.0))},
+                                  {"specular_rms", literal(info.specular_rms_error.value_or(-1.0))},
+                                  {"image_rms", literal(info.image_rms_error.value_or(-1.0))}});
+  body.text = fill_template(code_file("converter"), {{"id", data.id},
+                                                     {"width_min", literal(info.roughness.min)},
+                                                     {"width_max", literal(info.roughness.max)},
+                                                     {"specular_min", literal(info.specular.min)},
+                                                     {"specular_max", literal(info.specular.max)},
+                                                     {"golden_count", std::to_string(data.golden.size())},
+                                                     {"golden", joined(data.golden, "", golden)}});
   return body;
 }
 
@@ -110,27 +104,29 @@ template <typename Material>  // a conversion of workflows, or a warp
 Body body_of(const HeaderData& data, const Material& material) {
   const Parameters &in = data.source.parameters, &out = data.target.parameters;
   const MaterialCode code = material_code(material);
+  const std::string input_count = channel_count(in), output_count = channel_count(out);
+  const auto name = [](const MaterialParameter& parameter) { return parameter.name; };
   return {
-      {"array", "cmath", "cstddef", "cstdint", "cstring", "utility"},
-      fill_template(code_file("material"), {{"formula", code.formula},
-                                            {"source", data.source.model},
-                                            {"target", data.target.model},
-                                            {"source_workflow", data.source.workflow},
-                                            {"target_workflow", data.target.workflow},
-                                            {"source_diffuse", data.source.diffuse},
-                                            {"target_diffuse", data.target.diffuse},
-                                            {"source_width", in.back().name},
-                                            {"target_width", out.back().name},
-                                            {"constants", code.constants},
-                                            {"input_members", members(in)},
-                                            {"output_members", members(out)},
+      {"array", "cmath", "cstddef", "cstdint", "cstring", "type_traits", "utility"},
+      code.functions +
+          fill_template(code_file("material_rows"), {{"block", code.block},
+                                                     {"call", code.call},
+                                                     {"input_count", input_count},
+                                                     {"output_count", output_count}}) +
+          code_files({"strided"}),
+      fill_template(code_file("material_constants"), {{"formula", code.formula},
+                                                      {"source_workflow", data.source.workflow},
+                                                      {"target_workflow", data.target.workflow},
+                                                      {"source_diffuse", data.source.diffuse},
+                                                      {"target_diffuse", data.target.diffuse},
+                                                      {"constants", code.constants}}),
+      fill_template(code_file("material"), {{"id", data.id},
                                             {"input_rows", row_members(in, "const float*")},
                                             {"output_rows", row_members(out, "float*")},
-                                            {"input_count", channel_count(in)},
-                                            {"output_count", channel_count(out)},
-                                            {"functions", code.functions},
-                                            {"block", code.block},
-                                            {"call", code.call},
+                                            {"input_names", joined(in, ", ", name)},
+                                            {"output_names", joined(out, ", ", name)},
+                                            {"input_count", input_count},
+                                            {"output_count", output_count},
                                             {"in_flat", channels(in, "in.")},
                                             {"out_flat", channels(out, "out.")},
                                             {"in_addresses", channels(in, "&in.")},
@@ -181,6 +177,14 @@ std::string fill(const HeaderData& data) {
                                             {"provenance", comment_lines(data.provenance)},
                                             {"guard", guard_of(data.id)},
                                             {"includes", joined(body.includes, "", include)},
+                                            {"detail", body.detail},
+                                            {"source", data.source.model},
+                                            {"source_width", data.source.width},
+                                            {"target", data.target.model},
+                                            {"target_width", data.target.width},
+                                            {"constants", body.constants},
+                                            {"input_members", members(data.source.parameters)},
+                                            {"output_members", members(data.target.parameters)},
                                             {"body", body.text}});
 }
 

@@ -21,8 +21,9 @@ struct WarpHeader {
 // Source or target.
 struct HeaderEnd {
   std::string model;  // `mitsuba/ggx`
-  // The members of the header's Input or Output. The width has the name of its convention; it is the first of
-  // two, and the last of whole materials.
+  std::string width;  // the name of its convention
+  // The members of the header's Input or Output. `width` is the first of two, and the last of whole
+  // materials.
   std::vector<MaterialParameter> parameters;
   std::string workflow = {}, diffuse = {};  // of whole materials: `specular`, `plain`
 };
@@ -42,8 +43,7 @@ struct HeaderData {
   std::variant<ConverterData, WorkflowConversion, WarpHeader> code;  // a network is folded()
 };
 
-// Throws kNumeric for a fit without a converter, kInput where a specular parameter has a name that the header
-// uses itself.
+// Throws kNumeric for a fit without a converter.
 HeaderData describe(const Fit& fit);
 // Throw kInput for what require_valid() refuses.
 HeaderData describe(const WorkflowFit& fit);

@@ -33,8 +33,7 @@ MappingCode mapping_code(const Lowered& lowered);
 
 // Functions of namespace detail: clamped_width(), channel_outside(), and convert_block(), which converts up
 // to kBlock texels by the functions of `code`; also its parameter types Mapping and Block.
-std::string block_code(const ConverterData& converter, const std::string& specular_name,
-                       const MappingCode& code);
+std::string block_code(const ConverterData& converter, const MappingCode& code);
 
 // What whole materials contribute.
 struct MaterialCode {

@@ -113,11 +113,11 @@ MaterialCode material_code(const WarpHeader& header) {
   MaterialCode code;
   code.formula = kWarpKind;
   code.constants =
-      "inline constexpr const char* kTemplateModel = kTargetModel;\n"
+      "static constexpr const char* kTemplateModel = kTargetModel;\n"
       "// RMS distance in appearance from the exact copy of template texels; shares of the template's "
       "spread, "
       "-1 where unknown.\n"
-      "inline constexpr double kCopyRmsError = " +
+      "static constexpr double kCopyRmsError = " +
       double_literal(header.copy_rms_error) + ";\n";
   code.functions = code_files({"floats", "rows", "appearance", coordinates.file, table.file, "warp_block"}) +
                    "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + coordinates.numbers +

@@ -64,7 +64,7 @@ MaterialCode material_code(const WorkflowConversion& conversion) {
   const remap::workflow_code::Conventions use = conventions_of(conversion);
   MaterialCode code = std::visit(CodeOf{}, conversion.formula);
   code.formula = formula_name(conversion.formula);
-  code.constants = "inline constexpr float kDielectricF0 = " + float_literal(use.dielectric_f0) +
+  code.constants = "static constexpr float kDielectricF0 = " + float_literal(use.dielectric_f0) +
                    ";  // of the metallic workflow";
   code.functions += "\ninline constexpr Conventions kConventions{" + float_literal(use.dielectric_f0) + ", " +
                     float_literal(use.diffuse_of_albedo) + ", " + (use.diffuse_is_scaled ? "true" : "false") +

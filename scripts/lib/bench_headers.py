@@ -1,4 +1,5 @@
-"""scripts/bench headers REVISION [--json]: evaluate_batch<3> of the generated headers here against those of another revision.
+"""scripts/bench headers REVISION [--json]: evaluate_batch<3> of the generated headers here against those of another revision, which has the
+same interface of headers.
 
 Both are built by g++ -O3 for x86-64-v3 and run in turns in one process on random texels: 4096 at a time, which stay in the cache, so
 that arithmetic counts. A figure is the best of some rounds.
@@ -21,9 +22,8 @@ PROGRAM = """
 #include "remap/%(id)s.hpp"
 // Least and largest width, least and largest specular.
 extern "C" void domain(float* ends) {
-  const auto [least_width, least_specular] = remap::%(id)s::kDomainMin;
-  const auto [width, specular] = remap::%(id)s::kDomainMax;
-  ends[0] = least_width, ends[1] = width, ends[2] = least_specular, ends[3] = specular;
+  constexpr auto kMin = remap::%(id)s::kDomainMin, kMax = remap::%(id)s::kDomainMax;
+  ends[0] = kMin.width, ends[1] = kMax.width, ends[2] = kMin.specular, ends[3] = kMax.specular;
 }
 extern "C" double seconds(const float* ends, std::size_t count, unsigned repeats) {
   std::vector<float> in[4], out[4];
@@ -36,8 +36,8 @@ extern "C" double seconds(const float* ends, std::size_t count, unsigned repeats
   }
   const auto start = std::chrono::steady_clock::now();
   for (unsigned r = 0; r < repeats; ++r)
-    remap::%(id)s::evaluate_batch<3>(count, in[0].data(), {in[1].data(), in[2].data(), in[3].data()}, out[0].data(),
-                                     {out[1].data(), out[2].data(), out[3].data()});
+    remap::%(id)s::evaluate_batch(count, {in[0].data(), {in[1].data(), in[2].data(), in[3].data()}},
+                                  {out[0].data(), {out[1].data(), out[2].data(), out[3].data()}});
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 """

@@ -30,6 +30,7 @@ Row pass_row(const Medians& medians, const std::string& what, const std::string&
 void add_passes();
 Section pass_section(const Medians& medians, const std::string& code, const std::string& title);
 Section other_pass_section(const Medians& medians);
+Section texel_section(const Medians& medians);
 
 void add_converters();
 Section converter_section(const Medians& medians);

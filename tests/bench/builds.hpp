@@ -14,10 +14,16 @@ using Pass = std::size_t (*)(std::size_t count, const float* width,
                              const std::array<const float*, 3>& specular, float* width_out,
                              const std::array<float*, 3>& specular_out);
 
+// The same over interleaved texels: RGBA whose alpha is the width, RGB beside a map of the width, and RGBA
+// texel by texel.
+enum class TexelUse { kRgba, kRgb, kSingle };
+using TexelPass = void (*)(TexelUse use, std::size_t count, const float* width, const float* in,
+                           float* width_out, float* out);
+
 // The header of a network of whole materials that ships.
 inline constexpr const char* kNetworkHeader = "specular_to_metallic_network_sztrajman_2019";
 
-// evaluate_rows of a header of whole materials. Returns texels out of domain.
+// evaluate_batch of a header of whole materials. Returns texels out of domain.
 using MaterialPass = std::size_t (*)(std::size_t count, const float* const* in, float* const* out);
 
 // A network of 6 x 300 x 4 over planar rows of `texels` floats, a multiple of 1024: inputs one after the
@@ -42,6 +48,7 @@ struct Build {
 
 // Those that this processor can run.
 std::vector<Build<Pass>> pass_builds();
+std::vector<Build<TexelPass>> texel_builds();
 std::vector<Build<MaterialPass>> material_builds();
 std::vector<Build<NetworkPass>> network_builds();
 std::vector<Build<ProductsPass>> products_builds();

@@ -11,11 +11,10 @@ namespace {
 const std::filesystem::path kFolder = REMAP_BENCH_FOLDER;
 
 std::string user_code(const std::string& code) {
-  return "#include <cstddef>\n#include \"" + code + ".hpp\"\nnamespace header = remap::" + code +
+  return "#include <cstddef>\n#include \"" + code + ".hpp\"\nusing header = remap::" + code +
          ";\n"
-         "std::size_t convert(std::size_t count, const float* width, const std::array<const float*, 3>& in,\n"
-         "                    float* width_out, const std::array<float*, 3>& out) {\n"
-         "  return header::evaluate_batch<3>(count, width, in, width_out, out);\n}\n"
+         "std::size_t convert(std::size_t count, header::InputRows<3> in, header::OutputRows<3> out) {\n"
+         "  return header::evaluate_batch(count, in, out);\n}\n"
          "header::Output convert_one(header::Input in) { return header::evaluate(in); }\n";
 }
 

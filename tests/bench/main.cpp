@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
       rival_section(medians),
       network_section(medians),
       other_pass_section(medians),
+      texel_section(medians),
       workflow_section(medians),
       warp_section(medians),
       header_section(medians),

@@ -14,12 +14,12 @@
 namespace remap_bench {
 
 std::size_t BENCH_NAME(std::size_t count, const float* const* in, float* const* out) {
-  namespace converter = BENCH_NAMESPACE::BENCH_HEADER;
-  std::array<const float*, converter::kInputRows> from{};
-  std::array<float*, converter::kOutputRows> to{};
-  for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
-  for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
-  return converter::evaluate_rows(count, from, to);
+  using converter = BENCH_NAMESPACE::BENCH_HEADER;
+  converter::InputRows from{};
+  converter::OutputRows to{};
+  std::memcpy(&from, in, sizeof from);
+  std::memcpy(&to, out, sizeof to);
+  return converter::evaluate_batch(count, from, to);
 }
 
 }  // namespace remap_bench

@@ -15,7 +15,8 @@ namespace remap_bench {
 
 std::size_t BENCH_NAME(std::size_t count, const float* width, const std::array<const float*, 3>& specular,
                        float* width_out, const std::array<float*, 3>& specular_out) {
-  return BENCH_NAMESPACE::BENCH_HEADER::evaluate_batch<3>(count, width, specular, width_out, specular_out);
+  return BENCH_NAMESPACE::BENCH_HEADER::evaluate_batch<3>(count, {width, specular},
+                                                          {width_out, specular_out});
 }
 
 }  // namespace remap_bench

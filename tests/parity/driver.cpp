@@ -1,7 +1,8 @@
 // Runs generated headers as a user's program would: reads texels, writes what every entry point gives. Built
 // by the parity test with each compiler and each set of flags. The test writes headers.hpp, which includes
-// the headers under test and defines CONVERTERS(ENTRY) as ENTRY(ID) of each.
+// the headers under test and defines CONVERTERS(ENTRY) as ENTRY(ID) of each, and HEADER_COUNT.
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -11,6 +12,29 @@
 
 namespace {
 
+// Half of a float: a type of a caller.
+struct Half {
+  explicit Half(float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    upper = static_cast<std::uint16_t>(bits >> 16);
+  }
+  explicit operator float() const {
+    const std::uint32_t bits = std::uint32_t{upper} << 16;
+    float value = 0.0f;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+  }
+  std::uint16_t upper;
+};
+
+// Texels in place or not: the width, and red.
+template <class T>
+struct Buffers {
+  T *width, *red;
+  std::size_t width_stride, stride;
+};
+
 // The entry points of one header.
 struct Converter {
   const char* id;
@@ -18,32 +42,66 @@ struct Converter {
   bool (*in_domain)(float width, float specular);
   void (*texel_of_one)(const float* in, float* out);
   void (*texel_of_three)(const float* in, float* out);
-  void (*row_of_one)(const float* in, float* out);  // a row of a single texel of three channels
   std::size_t (*rows_of_three)(std::size_t, const float*, const std::array<const float*, 3>&, float*,
                                const std::array<float*, 3>&);
   std::size_t (*rows_of_one)(std::size_t, const float*, const std::array<const float*, 1>&, float*,
                              const std::array<float*, 1>&);
+  std::size_t (*texels)(std::size_t, const Buffers<float>&, const Buffers<float>&);
+  std::size_t (*halves)(std::size_t, const Buffers<Half>&, const Buffers<Half>&);
 };
 
-#define ENTRY(ID)                                                                                     \
-  {#ID,                                                                                               \
-   remap::ID::self_test,                                                                              \
-   [](float width, float specular) {                                                                  \
-     return remap::ID::in_domain({width, specular});                                                  \
-   },                                                                                                 \
-   [](const float* in, float* out) {                                                                  \
-     const remap::ID::Output texel = remap::ID::evaluate({in[0], in[1]});                             \
-     std::memcpy(out, &texel, sizeof texel);                                                          \
-   },                                                                                                 \
-   [](const float* in, float* out) {                                                                  \
-     const remap::ID::OutputTexel<3> texel = remap::ID::evaluate<3>(in[0], {in[1], in[2], in[3]});    \
-     std::memcpy(out, &texel, sizeof texel);                                                          \
-   },                                                                                                 \
-   [](const float* in, float* out) {                                                                  \
-     remap::ID::evaluate_batch<3>(1, in, {in + 1, in + 2, in + 3}, out, {out + 1, out + 2, out + 3}); \
-   },                                                                                                 \
-   remap::ID::evaluate_batch<3>,                                                                      \
-   remap::ID::evaluate_batch<1>},
+template <class Header, std::size_t Channels>
+std::size_t rows(std::size_t count, const float* width, const std::array<const float*, Channels>& specular,
+                 float* width_out, const std::array<float*, Channels>& specular_out) {
+  return Header::template evaluate_batch<Channels>(count, {width, specular}, {width_out, specular_out});
+}
+
+template <class Header, class T>
+std::size_t texels(std::size_t count, const Buffers<T>& in, const Buffers<T>& out) {
+  return Header::template evaluate_texels<T>(count, {{in.width, in.width_stride}, {in.red, in.stride}},
+                                             {{out.width, out.width_stride}, {out.red, out.stride}});
+}
+
+// Two element types of many headers, with optimisation, would take compilers half a minute.
+#ifdef __OPTIMIZE__
+constexpr bool kChecksTexels = HEADER_COUNT == 1;
+#else
+constexpr bool kChecksTexels = true;
+#endif
+
+template <class Header, class T>
+constexpr decltype(&texels<Header, T>) texels_to_check() {
+  if constexpr (kChecksTexels)
+    return texels<Header, T>;
+  else
+    return nullptr;
+}
+
+template <class Header>
+Converter entry_of(const char* id) {
+  return {id,
+          Header::self_test,
+          [](float width, float specular) {
+            return Header::in_domain({width, specular});
+          },
+          [](const float* in, float* out) {
+            const auto texel = Header::evaluate({in[0], in[1]});
+            out[0] = texel.width;
+            out[1] = texel.specular;
+          },
+          [](const float* in, float* out) {
+            const auto texel = Header::evaluate(in[0], {in[1], in[2], in[3]});
+            const auto same = Header::evaluate(in[0], std::array<float, 3>{in[1], in[2], in[3]});
+            out[0] = std::memcmp(&texel, &same, sizeof texel) == 0 ? texel.width : -1.0f;
+            for (std::size_t c = 0; c < 3; ++c) out[c + 1] = texel.specular[c];
+          },
+          rows<Header, 3>,
+          rows<Header, 1>,
+          texels_to_check<Header, float>(),
+          texels_to_check<Header, Half>()};
+}
+
+#define ENTRY(ID) entry_of<remap::ID>(#ID),
 const Converter kConverters[] = {CONVERTERS(ENTRY)};
 
 // Bit for bit; of two NaN operands a product may hand on either, so any NaN is the same. Under fast-math rows
@@ -68,6 +126,65 @@ int fail(const char* what) {
   return 1;
 }
 
+// Where the elements of a texel are.
+struct Layout {
+  std::size_t stride, red, width;
+  bool apart;  // the width has a buffer of its own, with two elements a texel
+};
+constexpr Layout kLayouts[] = {
+    {4, 0, 3, false}, {4, 1, 0, false}, {4, 0, 1, true}, {3, 0, 0, true}, {5, 1, 4, false}};
+
+// Planar rows as texels; 7 between them.
+template <class T>
+struct Interleaved {
+  Interleaved(const Layout& layout, std::size_t count)
+      : own(layout), color(count * layout.stride, T(7.0f)), width(count * 2, T(7.0f)) {}
+  Interleaved(const Layout& layout, const std::vector<float>& rows) : Interleaved(layout, rows.size() / 4) {
+    const Buffers<T> to = buffers();
+    const std::size_t count = rows.size() / 4;
+    for (std::size_t i = 0; i < count; ++i) {
+      to.width[i * to.width_stride] = T(rows[i]);
+      for (std::size_t c = 0; c < 3; ++c) to.red[i * to.stride + c] = T(rows[(c + 1) * count + i]);
+    }
+  }
+
+  Buffers<T> buffers() {
+    return {(own.apart ? width : color).data() + own.width, color.data() + own.red,
+            own.apart ? 2 : own.stride, own.stride};
+  }
+  std::vector<float> values() const {
+    std::vector<float> all;
+    for (const T& value : color) all.push_back(static_cast<float>(value));
+    for (const T& value : width) all.push_back(static_cast<float>(value));
+    return all;
+  }
+
+  Layout own;
+  std::vector<T> color, width;
+};
+
+// Whether texels give what planar rows of the same values do.
+template <class T>
+bool texels_agree(const Converter& converter,
+                  std::size_t (*convert)(std::size_t, const Buffers<T>&, const Buffers<T>&),
+                  std::vector<float> rows) {
+  const std::size_t count = rows.size() / 4;
+  for (float& value : rows) value = static_cast<float>(T(value));
+  std::vector<float> planar(rows.size());
+  const std::size_t outside =
+      converter.rows_of_three(count, &rows[0], {&rows[count], &rows[2 * count], &rows[3 * count]}, &planar[0],
+                              {&planar[count], &planar[2 * count], &planar[3 * count]});
+  for (const Layout& layout : kLayouts) {
+    const std::vector<float> expected = Interleaved<T>(layout, planar).values();
+    Interleaved<T> in(layout, rows), out(layout, count);
+    if (convert(count, in.buffers(), out.buffers()) != outside || !same_bits(out.values(), expected))
+      return false;
+    convert(count, in.buffers(), in.buffers());
+    if (!same_bits(in.values(), expected)) return false;
+  }
+  return true;
+}
+
 // What the header gives for planar `rows`, and whether its entry points agree. 0 where they do.
 int check(const Converter& converter, const std::vector<float>& rows, std::vector<float>& single) {
   if (!converter.self_test()) return fail("self_test failed");
@@ -84,7 +201,8 @@ int check(const Converter& converter, const std::vector<float>& rows, std::vecto
     outside += inside ? 0 : 1;
     const float texel[4] = {rows[i], rows[count + i], rows[2 * count + i], rows[3 * count + i]};
     float by_row[4], together[4], alone[2];
-    converter.row_of_one(texel, by_row);
+    converter.rows_of_three(1, texel, {texel + 1, texel + 2, texel + 3}, by_row,
+                            {by_row + 1, by_row + 2, by_row + 3});
     converter.texel_of_three(texel, together);
     if (!same_bits(by_row, together, 4)) return fail("a texel of three channels differs from a row of one");
     for (std::size_t r = 0; r < 4; ++r) single[r * count + i] = by_row[r];
@@ -112,6 +230,10 @@ int check(const Converter& converter, const std::vector<float>& rows, std::vecto
   converter.rows_of_one(count, &mixed[0], {&mixed[count]}, &width_out[0], {&mixed[count]});
   if (!same_bits(&mixed[count], &of_one[count], count)) return fail("one channel in place differs");
   if (!same_bits(&width_out[0], &of_one[0], count)) return fail("the width beside it differs");
+  if (converter.texels != nullptr && !texels_agree(converter, converter.texels, rows))
+    return fail("interleaved texels differ from rows");
+  if (converter.halves != nullptr && !texels_agree(converter, converter.halves, rows))
+    return fail("texels of 16 bits differ from rows");
 
   single.push_back(static_cast<float>(outside));
   return 0;

@@ -19,6 +19,7 @@
 #include "support/build_speed.hpp"
 #include "support/campaign.hpp"
 #include "support/example_fit.hpp"
+#include "support/header_flags.hpp"
 #include "support/random_models.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -42,6 +43,11 @@ struct Entry {
   std::size_t (*evaluate)(std::size_t, const float*, const std::array<const float*, 3>&, float*,
                           const std::array<float*, 3>&);
 };
+template <class Converter>
+std::size_t evaluate(std::size_t count, const float* width, const std::array<const float*, 3>& specular, float* width_out,
+                     const std::array<float*, 3>& specular_out) {
+  return Converter::evaluate_batch(count, {width, specular}, {width_out, specular_out});
+}
 )";
 
 struct Header {
@@ -85,16 +91,14 @@ const Entry* build(const TemporaryFolder& folder, const std::vector<Header>& hea
     const std::string& id = headers[i].fit.id;
     write_file(folder.path() / (id + ".hpp"), headers[i].text);
     includes += "#include \"" + id + ".hpp\"\n";
-    entries += "    {remap::" + id + "::self_test, remap::" + id + "::evaluate_batch<3>},\n";
+    entries += "    {remap::" + id + "::self_test, evaluate<remap::" + id + ">},\n";
   }
   const std::string name = (folder.path() / ("headers_" + std::to_string(first))).string();
   write_file(name + ".cpp", includes + kExports +
                                 "extern \"C\" const Entry entries[];\nconst Entry entries[] = {\n" + entries +
                                 "};\n");
-  const std::string command =
-      "g++ -std=c++17 -O1 -ffp-contract=off -fPIC -shared -Wall -Wextra -Wshadow -Wconversion -Wpedantic "
-      "-Werror " +
-      name + ".cpp -o " + name + ".so";
+  const std::string command = std::string("g++ -std=c++17 -O1 -ffp-contract=off -fPIC -shared") +
+                              kHeaderFlags + name + ".cpp -o " + name + ".so";
   if (std::system(command.c_str()) != 0) return nullptr;
   void* library = ::dlopen((name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
   return library == nullptr ? nullptr : static_cast<const Entry*>(::dlsym(library, "entries"));

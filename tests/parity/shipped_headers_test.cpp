@@ -12,6 +12,8 @@
 #include "core/parallel.hpp"
 #include "remap/shipped_converters.hpp"
 #include "runtime/convert/texel_rows.hpp"
+#include "support/header_flags.hpp"
+#include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace remap;
@@ -48,10 +50,15 @@ std::string batch_source(const std::vector<std::string>& ids) {
   std::string text = "#include <cstddef>\n#include <array>\n", entries;
   for (const std::string& id : ids) {
     text += "#include \"" + id + ".hpp\"\n";
-    entries += "  {\"" + id + "\", &remap::" + id + "::evaluate_batch<1>, &remap::" + id +
-               "::evaluate_batch<3>, &remap::" + id + "::self_test},\n";
+    entries += "  {\"" + id + "\", rows<remap::" + id + ", 1>, rows<remap::" + id + ", 3>, remap::" + id +
+               "::self_test},\n";
   }
+  // Its template takes any header.
   return text +
+         "template <class Converter, std::size_t N> std::size_t rows(std::size_t count, const float* width,\n"
+         "    const std::array<const float*, N>& specular, float* width_out, const std::array<float*, N>& "
+         "out) {\n"
+         "  return Converter::template evaluate_batch<N>(count, {width, specular}, {width_out, out});\n}\n"
          "template <std::size_t N> using Run = std::size_t (*)(std::size_t, const float*,\n"
          "    const std::array<const float*, N>&, float*, const std::array<float*, N>&);\n"
          "struct Entry { const char* id; Run<1> grey; Run<3> rgb; bool (*self_test)(); };\n"
@@ -100,6 +107,16 @@ TEST_CASE("shipped headers: bit for bit what texremap gives of the same converte
       CHECK(header.entry.self_test());
       CHECK(same_bits(*converter, header, odd_and_random_texels(info, 5000)));
     }
+}
+
+TEST_CASE("shipped headers: templates wrap those of each kind, without a warning by the flags of engines",
+          "[slow]") {
+  for (const std::string compiler : {"g++", "clang++"})
+    if (has_program(compiler))
+      CHECK(std::system((compiler + " -std=c++17 -fsyntax-only -ffast-math" + kHeaderFlags +
+                         "-I " REMAP_SOURCE_DIR "/generated " REMAP_SOURCE_DIR
+                         "/tests/parity/wrapped_headers.cpp")
+                            .c_str()) == 0);
 }
 
 TEST_CASE("shipped headers: the flags of texels out of domain are those that are counted") {

@@ -11,6 +11,7 @@
 #include "core/files.hpp"
 #include "emit/emit.hpp"
 #include "stages/kernels.hpp"
+#include "support/header_flags.hpp"
 #include "support/random_warp.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
@@ -40,7 +41,11 @@ struct Entry {
   double copy_rms_error;
 };
 #define ENTRY(ID)                                                                                    \
-  {remap::ID::self_test, remap::ID::evaluate_rows,                                                   \
+  {remap::ID::self_test,                                                                             \
+   [](std::size_t count, const std::array<const float*, 7>& in, const std::array<float*, 7>& out) {  \
+     return remap::ID::evaluate_batch(count, {{in[0], in[1], in[2]}, {in[3], in[4], in[5]}, in[6]},  \
+                                      {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}, out[6]}); \
+   },                                                                                                \
    [](const float* in, float* out) {                                                                 \
      remap::ID::Input texel{};                                                                       \
      std::memcpy(&texel, in, sizeof texel);                                                          \
@@ -86,9 +91,8 @@ const Entry* build(const TemporaryFolder& folder, const std::vector<WarpMapFit>&
   write_file(name + ".cpp", includes + kExports +
                                 "extern \"C\" const Entry entries[];\nconst Entry entries[] = {\n" + entries +
                                 "};\n");
-  REQUIRE(std::system((compiler +
-                       " -std=c++17 -fPIC -shared -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Werror " +
-                       flags + " " + name + ".cpp -o " + name + ".so")
+  REQUIRE(std::system((compiler + " -std=c++17 -fPIC -shared" + kHeaderFlags + flags + " " + name +
+                       ".cpp -o " + name + ".so")
                           .c_str()) == 0);
   void* library = ::dlopen((name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
   REQUIRE(library != nullptr);

@@ -18,36 +18,41 @@ struct Converter {
   bool (*self_test)();
   bool (*in_domain)(const float* in);
   void (*evaluate)(const float* in, float* out);
-  std::size_t (*evaluate_rows)(std::size_t count, const std::vector<const float*>& in,
-                               const std::vector<float*>& out);
+  std::size_t (*evaluate_batch)(std::size_t count, const float* const* in, float* const* out);
+  std::size_t (*evaluate_texels)(std::size_t count, const float* color, const float* rest, float* color_out,
+                                 float* rest_out);
 };
 
-template <typename Input>
-Input input_of(const float* in) {
-  Input texel{};
-  std::memcpy(&texel, in, sizeof texel);
-  return texel;
+template <class Struct, class Element>
+Struct made_of(const Element* elements) {
+  Struct made{};
+  std::memcpy(&made, elements, sizeof made);
+  return made;
 }
 
-#define ENTRY(ID)                                                                               \
-  {#ID,                                                                                         \
-   remap::ID::kInputRows,                                                                       \
-   remap::ID::kOutputRows,                                                                      \
-   remap::ID::self_test,                                                                        \
-   [](const float* in) { return remap::ID::in_domain(input_of<remap::ID::Input>(in)); },        \
-   [](const float* in, float* out) {                                                            \
-     static_assert(sizeof(remap::ID::Input) == remap::ID::kInputRows * sizeof(float));          \
-     static_assert(sizeof(remap::ID::Output) == remap::ID::kOutputRows * sizeof(float));        \
-     const remap::ID::Output result = remap::ID::evaluate(input_of<remap::ID::Input>(in));      \
-     std::memcpy(out, &result, sizeof result);                                                  \
-   },                                                                                           \
-   [](std::size_t count, const std::vector<const float*>& in, const std::vector<float*>& out) { \
-     std::array<const float*, remap::ID::kInputRows> from{};                                    \
-     std::array<float*, remap::ID::kOutputRows> to{};                                           \
-     for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];                             \
-     for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];                                \
-     return remap::ID::evaluate_rows(count, from, to);                                          \
-   }},
+template <class Header>
+Converter entry_of(const char* id) {
+  constexpr std::size_t kInputs = sizeof(typename Header::Input) / sizeof(float),
+                        kOutputs = sizeof(typename Header::Output) / sizeof(float);
+  return {
+      id, kInputs, kOutputs, Header::self_test,
+      [](const float* in) { return Header::in_domain(made_of<typename Header::Input>(in)); },
+      [](const float* in, float* out) {
+        const auto result = Header::evaluate(made_of<typename Header::Input>(in));
+        std::memcpy(out, &result, sizeof result);
+      },
+      [](std::size_t count, const float* const* in, float* const* out) {
+        return Header::evaluate_batch(count, made_of<typename Header::InputRows>(in),
+                                      made_of<typename Header::OutputRows>(out));
+      },
+      // Diffuse or base color in texels of three; the rest in texels of four, the width behind the others.
+      [](std::size_t count, const float* color, const float* rest, float* color_out, float* rest_out) {
+        return Header::evaluate_texels(count, {{color, 3}, {rest, 4}, {rest + (kInputs - 4), 4}},
+                                       {{color_out, 3}, {rest_out, 4}, {rest_out + (kOutputs - 4), 4}});
+      }};
+}
+
+#define ENTRY(ID) entry_of<remap::ID>(#ID),
 const Converter kConverters[] = {CONVERTERS(ENTRY)};
 
 int fail(const char* what) {
@@ -60,7 +65,7 @@ std::size_t run(const Converter& converter, const Rows& in, Rows& out, std::size
   std::vector<float*> to;
   for (std::size_t r = 0; r < converter.input_rows; ++r) from.push_back(in[r].data() + first);
   for (std::size_t r = 0; r < converter.output_rows; ++r) to.push_back(out[r].data() + first);
-  return converter.evaluate_rows(count, from, to);
+  return converter.evaluate_batch(count, from.data(), to.data());
 }
 
 // The rows that the header writes, of the first.
@@ -68,6 +73,31 @@ bool same(const Rows& a, const Rows& b) {
   for (std::size_t r = 0; r < a.size() && r < b.size(); ++r)
     if (std::memcmp(a[r].data(), b[r].data(), a[r].size() * sizeof(float)) != 0) return false;
   return true;
+}
+
+// Rows as texels of three and of four elements, and back.
+struct Interleaved {
+  explicit Interleaved(std::size_t count) : color(3 * count), rest(4 * count) {}
+  float& element(std::size_t row, std::size_t i) {
+    return row < 3 ? color[3 * i + row] : rest[4 * i + row - 3];
+  }
+  std::vector<float> color, rest;
+};
+
+bool texels_agree(const Converter& converter, const Rows& in, const Rows& all, std::size_t outside) {
+  const std::size_t count = in[0].size();
+  Interleaved from(count), to(count);
+  for (std::size_t r = 0; r < in.size(); ++r)
+    for (std::size_t i = 0; i < count; ++i) from.element(r, i) = in[r][i];
+  const auto gives_all = [&](Interleaved& out) {
+    const std::size_t found = converter.evaluate_texels(count, from.color.data(), from.rest.data(),
+                                                        out.color.data(), out.rest.data());
+    Rows rows = all;
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      for (std::size_t i = 0; i < count; ++i) rows[r][i] = out.element(r, i);
+    return found == outside && same(rows, all);
+  };
+  return gives_all(to) && gives_all(from);  // the second in place
 }
 
 // Whether the entry points agree over `in`, whose result goes to `all`. 0 where they do.
@@ -87,11 +117,12 @@ int check(const Converter& converter, const Rows& in, Rows& all, std::size_t& ou
     for (std::size_t r = 0; r < in_rows; ++r) from[r] = in[r][i];
     converter.evaluate(from.data(), to.data());
     for (std::size_t r = 0; r < out_rows; ++r) single[r][i] = to[r];
-    outside_one += converter.in_domain(from.data()) ? 0 : 1;
+    outside_one += converter.in_domain(from.data()) ? 0u : 1u;
   }
   if (!same(single, all)) return fail("single texels differ from rows");
   if (outside_one != outside) return fail("in_domain disagrees with rows");
 
+  if (!texels_agree(converter, in, all, outside)) return fail("interleaved texels differ from rows");
   Rows in_place = in;
   if (in_place.size() < out_rows) in_place.resize(out_rows, std::vector<float>(count));
   run(converter, in_place, in_place, 0, count);

@@ -12,6 +12,7 @@
 #include "lower/fit_file.hpp"
 #include "runtime/stages/materials.hpp"
 #include "support/campaign.hpp"
+#include "support/header_flags.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -159,12 +160,11 @@ std::vector<Expected> write_headers(const fs::path& folder) {
 TEST_CASE("workflow headers: the bits of the library from gcc and clang, rows as single texels, in place too",
           "[slow][campaign]") {
   const TemporaryFolder folder;
-  const std::string warnings = " -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Werror ";
   const std::vector<Expected> all = write_headers(folder.path());
   const std::string program = folder.path() / "program";
   for (const Build& build : builds()) {
     INFO(build.compiler << " " << build.flags);
-    REQUIRE(std::system((build.compiler + " -std=c++17 " + build.flags + warnings + "-I" +
+    REQUIRE(std::system((build.compiler + " -std=c++17 " + build.flags + kHeaderFlags + "-I" +
                          folder.path().string() + " " + REMAP_SOURCE_DIR +
                          "/tests/parity/workflow_driver.cpp -o " + program)
                             .c_str()) == 0);
