@@ -119,6 +119,14 @@ TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "
   CHECK(json.output.find("does not apply: mitsuba/ward has alpha, not roughness") != std::string::npos);
 }
 
+TEST_CASE("remapc compare: a table without models is compared with formulas that need none") {
+  const Session session;
+  session.write("t.csv", kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
+  CHECK(require_success(session.remapc("compare t.csv --fits none"))
+            .output.find("pbrt-v3 (the table's model has alpha, not "
+                         "roughness)") != std::string::npos);
+}
+
 TEST_CASE("remapc compare: fits of one id are told apart by their files", "[slow]") {
   const Session session;
   session.write("t.csv", made_table(8, 3));
