@@ -242,7 +242,7 @@ void add_output_options(Command& app, FitCommand& command) {
   app.add_option("-o,--output FOLDER", command.folder, "Folder for the fit, <id>.json");
   app.add_option("--id ID", command.options.id, "Id of the fit (default: <source>_to_<target>)");
   app.add_option("--plot FILE", command.plot,
-                 "Plot rows, fits and residuals to this SVG file (needs gnuplot)");
+                 "Plot rows, fits and residuals to this file, SVG or PNG by its name (needs gnuplot)");
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 

@@ -74,7 +74,7 @@ std::vector<std::string> write_report(const OutputOptions& options, const StudyR
     names.push_back(name);
   }
   for (const auto& [name, script] : report.plots) try {
-      write_svg(options.folder / name, script);
+      write_drawing(options.folder / name, script);
       names.push_back(name);
     } catch (const Error& error) {
       print_message("remap-study", "warning: " + name + " was not drawn: " + error.what());

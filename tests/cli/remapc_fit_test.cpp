@@ -78,6 +78,8 @@ TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plott
   session.write("exact.csv", made_table(12, 4));  // of the paper's form
   CHECK(session.remapc(session.fit("exact.csv") + "--plot exact.svg").exit_code == 0);
   CHECK(session.content("exact.svg").find("parametric paper, rms ") != std::string::npos);
+  require_success(session.remapc(session.fit("exact.csv", "png") + "--plot exact.png"));
+  CHECK(session.content("exact.png").starts_with("\x89PNG"));
   std::string black = "# source: a/b\n# target: c/d\n" + kHeader;
   for (int i = 10; i < 40; ++i)
     for (const std::string specular : {"0.2", "0.5"})

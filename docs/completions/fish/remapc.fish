@@ -116,7 +116,7 @@ complete -c remapc -n '__fish_seen_subcommand_from fit' -l target -x -a "(remapc
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l accept-light -d 'Go on where the source\'s light is rescaled so that specular changes by more than 5 %'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -s o -l output -r -F -d 'Folder for the fit, <id>.json'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l id -x -d 'Id of the fit'
-complete -c remapc -n '__fish_seen_subcommand_from fit' -l plot -r -F -d 'Plot rows, fits and residuals to this SVG file'
+complete -c remapc -n '__fish_seen_subcommand_from fit' -l plot -r -F -d 'Plot rows, fits and residuals to this file, SVG or PNG by its name'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l json -d 'Print a summary as JSON to standard output'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l model -x -a 'auto parametric series svr mlp' -d 'parametric: polynomials and exponentials'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l swap -d 'Fit the inverse, from the table\'s target to its source'
