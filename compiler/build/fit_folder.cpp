@@ -4,6 +4,7 @@
 
 #include "build/manifest.hpp"
 #include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/nearest_name.hpp"
 #include "lower/fit_file.hpp"
 
@@ -18,12 +19,20 @@ void FitFolder::add(AnyFit fit) {
     fits.push_back(std::move(std::get<Fit>(fit)));
 }
 
+std::filesystem::path default_fit_folder() {
+  const std::filesystem::path own = "fits";
+  const std::filesystem::path shipped = is_directory(own) ? own : installed(REMAP_INSTALLED_FITS);
+  return shipped.empty() ? own : shipped;
+}
+
 FitFolder load_fit_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
     throw input_error(folder.string() + ": not a folder (name one with fits, *.json)");
   FitFolder loaded;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName) continue;
+    if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName ||
+        entry.path().stem().extension() == ".csv")
+      continue;
     AnyFit fit = load_any_fit(entry.path());
     if (entry.path().stem() != fit_id(fit))
       throw input_error(entry.path().string() + ": holds the fit " + fit_id(fit) +

@@ -19,8 +19,12 @@ struct FitFolder {
   void add(AnyFit fit);
 };
 
-// Loads every `*.json` of `folder` except its manifest. Throws kInput for a folder that cannot be read, a
-// file that does not hold a fit, and a file whose name is not the id of its fit.
+// Where fits are looked up by default: `fits` in the working directory, else the folder that was installed
+// with the program; `fits` where neither is there.
+std::filesystem::path default_fit_folder();
+
+// Loads every `*.json` of `folder` except its manifest and what is beside tables. Throws kInput for a folder
+// that cannot be read, a file that does not hold a fit, and a file whose name is not the id of its fit.
 FitFolder load_fit_folder(const std::filesystem::path& folder);
 
 // Loads the converters of width and specular only.

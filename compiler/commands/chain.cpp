@@ -5,6 +5,7 @@
 #include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "commands/option_readers.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "fit/fit_table.hpp"
@@ -21,23 +22,27 @@ struct ChainCommand {
   std::vector<std::string> steps;  // of chain: files or ids
   std::string fit;                 // of invert
   std::string id;
-  std::filesystem::path fit_folder = "fits", output = "fits";
-  bool json = false;
+  std::filesystem::path fit_folder, output = "fits";
+  bool force = false, json = false;
 };
 
-std::filesystem::path write_fit(const ChainCommand& command, const Fit& fit) {
-  const std::filesystem::path path = command.output / (fit.id + ".json");
-  write_file(path, fit_to_json(fit));
+// Where the new fit goes, which must not be there yet.
+std::filesystem::path new_path(const ChainCommand& command, const std::string& source,
+                               const std::string& target) {
+  const std::string id = command.id.empty() ? converter_id(source, target) : command.id;
+  const std::filesystem::path path = command.output / (id + ".json");
+  require_new(path, command.force);
   return path;
 }
 
 void run_chain(const ChainCommand& command) {
   std::vector<Fit> steps;
   for (const std::string& name : command.steps) steps.push_back(find_fit(name, command.fit_folder));
+  const std::filesystem::path path = new_path(command, steps.front().source.model, steps.back().target.model);
   Fit chain = composed_fit(steps, command.id);
   add_converter(&chain);
   const Lowered& lowered = chain.converter->lowered;
-  const std::filesystem::path path = write_fit(command, chain);
+  write_file(path, fit_to_json(chain));
   const std::string& steps_text = chain.method.at("against its steps one after another");
   if (command.json) {
     const Json json = {
@@ -62,13 +67,14 @@ void run_chain(const ChainCommand& command) {
 
 void run_invert(const ChainCommand& command) {
   const Fit fit = find_fit(command.fit, command.fit_folder);
+  const std::filesystem::path path = new_path(command, fit.target.model, fit.source.model);
   const std::string bytes = fit_to_json(fit);
   FitOptions options;
   options.id = command.id;
   const Table table = inverse_table(fit, bytes);
   Fit inverse = fit_table(table, table_text(table), options).fit;
   add_converter(&inverse);
-  const std::filesystem::path path = write_fit(command, inverse);
+  write_file(path, fit_to_json(inverse));
   if (command.json) {
     const Json json = {{"fit", path.string()},
                        {"id", inverse.id},
@@ -85,10 +91,11 @@ void run_invert(const ChainCommand& command) {
 
 void add_new_fit_options(Command& app, ChainCommand& command) {
   app.option_group("Input");
-  app.add_option("--fits FOLDER", command.fit_folder, "Folder where ids are looked up");
+  add_fits_option(app, command.fit_folder, "Folder where ids are looked up");
   app.option_group("Output");
   app.add_option("-o,--output FOLDER", command.output, "Folder for the new fit");
   app.add_option("--id ID", command.id, "Id of the new fit (default: <source>_to_<target>)");
+  add_force_flag(app, command.force);
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 

@@ -18,6 +18,7 @@ void add_sweep_command(Command& app);
 void add_sample_command(Command& app);
 void add_render_command(Command& app);
 void add_check_command(Command& app);
+void add_export_command(Command& app);
 
 void add_fit_command(Command& app);
 void add_compare_command(Command& app);

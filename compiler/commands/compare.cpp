@@ -5,6 +5,7 @@
 #include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
@@ -20,7 +21,7 @@ namespace {
 struct CompareOptions {
   TableInput table;
   std::vector<std::string> fits;
-  std::filesystem::path fit_folder = "fits";
+  std::filesystem::path fit_folder;
   bool json = false;
 };
 
@@ -155,7 +156,7 @@ void add_compare_command(Command& app) {
   command->add_option(
       "fit", options.fits,
       "Fits: files, or ids in the folder of fits (default: all that convert the table's models)");
-  command->add_option("--fits FOLDER", options.fit_folder, "Folder of fits");
+  add_fits_option(*command, options.fit_folder, "Folder of fits");
   command->option_group("Output");
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->footer(

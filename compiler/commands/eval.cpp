@@ -5,6 +5,7 @@
 #include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -20,10 +21,10 @@ namespace {
 struct EvalOptions {
   std::string fit;
   TableInput table;
-  std::filesystem::path fit_folder = "fits";
+  std::filesystem::path fit_folder;
   std::size_t grid = 0;  // steps of each parameter; 0: errors on the table
   std::filesystem::path output;
-  bool json = false;
+  bool force = false, json = false;
 };
 
 // The converted values of a grid over the domain, in the models' own parameters.
@@ -54,7 +55,6 @@ void write_grid(const Fit& fit, const EvalOptions& options) {
     std::cout << text;
     return;
   }
-  create_parent(options.output);
   write_file(options.output, text);
 }
 
@@ -93,6 +93,7 @@ void run(const EvalOptions& options) {
     throw usage_error("eval: name a table, or use --grid");
   if (options.grid == 0 && !options.output.empty())
     throw usage_error("--output can only be used with --grid");
+  require_new(options.output, options.force);
   const Fit fit = find_fit(options.fit, options.fit_folder);
   if (options.grid == 0)
     print_errors(fit, options);
@@ -108,7 +109,7 @@ void add_eval_command(Command& app) {
   EvalOptions& options = set_work<EvalOptions>(*command, run);
   command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
   options.table.add_options(*command, false);
-  command->add_option("--fits FOLDER", options.fit_folder, "Folder where ids are looked up");
+  add_fits_option(*command, options.fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
   command
       ->add_option(
@@ -118,6 +119,7 @@ void add_eval_command(Command& app) {
       ->range(std::size_t{2}, std::size_t{1024});
   command->add_option("-o,--output FILE", options.output,
                       "File for the values of --grid (default: standard output)");
+  add_force_flag(*command, options.force);
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->footer(
       "Example:\n  remapc eval fits/mitsuba_ward_to_mitsuba_as.json other.csv\n"

@@ -8,6 +8,7 @@
 #include "command_line/run_app.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "commands/option_readers.hpp"
 #include "commands/share_progress.hpp"
 #include "commands/table_input.hpp"
 #include "core/errors.hpp"
@@ -43,8 +44,7 @@ struct FitCommand {
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
   double tolerance = 1e-5;  // of lowering
-  bool swap = false;
-  bool json = false;
+  bool swap = false, force = false, json = false;
 };
 
 // Options of one regression are errors together with another one.
@@ -148,6 +148,14 @@ void require_output_folder(const std::filesystem::path& folder) {
     throw output_error(folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
 }
 
+// Where the fit goes, which must not be there yet, nor its plot.
+std::filesystem::path new_path(const FitCommand& command, const std::string& id) {
+  const std::filesystem::path path = command.folder / (id + ".json");
+  require_new(path, command.force);
+  require_new(command.plot, command.force);
+  return path;
+}
+
 void run_on(const MaterialTable& table, const std::string& bytes, const FitCommand& command,
             const Command& app) {
   require_material_options(command);
@@ -156,11 +164,12 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
   require_light(light, table.name);
   require_layers(command.options.regression.mlp.hidden, 6, 4);
   require_output_folder(command.folder);
+  new_path(command, command.options.id);
   const WorkflowFit fit = [&] {
     ShareProgress progress("fit", command.table.path);
     return fit_material_network(table, bytes, network_options(command, app), std::ref(progress));
   }();
-  const std::filesystem::path path = command.folder / (fit.id + ".json");
+  const std::filesystem::path path = new_path(command, fit.id);
   write_file(path, fit_to_json(fit));
   report(command, path, fit);
 }
@@ -181,13 +190,15 @@ void run_on(const Table& given, const std::string& bytes, const FitCommand& comm
   const Table table = command.swap ? swapped(given) : given;
   require_layers(command.options.regression.mlp.hidden, 2, 1);
   require_output_folder(command.folder);
+  const std::string& id = command.options.id;
+  const std::filesystem::path path =
+      new_path(command, id.empty() ? converter_id(table.source.model, table.target.model) : id);
   if (!command.plot.empty()) require_plot(command.plot);
   FittedTable fitted = [&] {
     ShareProgress progress("fit", table.source.model + " -> " + table.target.model);
     return fit_table(table, bytes, command.options, std::ref(progress));
   }();
   lower_if_possible(command, &fitted.fit);
-  const std::filesystem::path path = command.folder / (fitted.fit.id + ".json");
   write_file(path, fit_to_json(fitted.fit));
   if (!command.plot.empty())
     write_plot(command.plot, table, fitted.compared.empty() ? std::vector<Fit>{fitted.fit} : fitted.compared);
@@ -242,7 +253,8 @@ void add_output_options(Command& app, FitCommand& command) {
   app.add_option("-o,--output FOLDER", command.folder, "Folder for the fit, <id>.json");
   app.add_option("--id ID", command.options.id, "Id of the fit (default: <source>_to_<target>)");
   app.add_option("--plot FILE", command.plot,
-                 "Plot rows, fits and residuals to this SVG file (needs gnuplot)");
+                 "Plot rows, fits and residuals to this file, SVG or PNG by its name (needs gnuplot)");
+  add_force_flag(app, command.force);
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 

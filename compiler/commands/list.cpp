@@ -5,6 +5,7 @@
 #include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "commands/option_readers.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
@@ -15,7 +16,7 @@ namespace remap {
 namespace {
 
 struct ListOptions {
-  std::filesystem::path fit_folder = "fits";
+  std::filesystem::path fit_folder;
   bool models = false, json = false;
 };
 
@@ -83,7 +84,7 @@ void add_list_command(Command& app) {
   command->option_group("Input");
   command->add_flag("--models", options.models,
                     "List the models of the built-in renderer and their parameters");
-  command->add_option("--fits FOLDER", options.fit_folder, "Folder of fits");
+  add_fits_option(*command, options.fit_folder, "Folder of fits");
   command->option_group("Output");
   command->add_flag("--json", options.json, "Print the list as JSON to standard output");
   command->footer("Example:\n  remapc list --models");

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   remap::add_sample_command(app);
   remap::add_render_command(app);
   remap::add_check_command(app);
+  remap::add_export_command(app);
   remap::add_fit_command(app);
   remap::add_compare_command(app);
   remap::add_emit_command(app);

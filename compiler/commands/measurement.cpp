@@ -8,9 +8,9 @@
 #include "command_line/run_app.hpp"
 #include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
-#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
+#include "table/table_file.hpp"
 
 namespace remap {
 namespace {
@@ -65,7 +65,7 @@ void MeasurementOptions::add_table_options(Command& app, const std::string& tabl
   app.add_option("--target MODEL", pair.target, "Model to convert to")->required();
   app.option_group("Output");
   app.add_option("-o,--output FILE", output, table)->required();
-  app.add_flag("--force", force, "Overwrite the table");
+  add_force_flag(app, force);
   app.add_flag("--json", json, "Print a summary as JSON to standard output");
   app.add_flag("--quiet", quiet, "Print no progress and no summary");
 }
@@ -120,8 +120,7 @@ Measurement::Measurement(const MeasurementOptions& options) : options_(options) 
 }
 
 SweepExecution Measurement::start(const std::string& label, std::size_t rows) {
-  if (!options_.force && std::filesystem::exists(options_.output))
-    throw output_error(options_.output.string() + ": already exists (--force overwrites)");
+  require_new_table(options_.output, options_.force);
   create_parent(options_.output);
   const std::string models = label + " " + options_.pair.source + " -> " + options_.pair.target;
   progress_.emplace(models, rows, !options_.quiet);
@@ -134,7 +133,7 @@ SweepExecution Measurement::start(const std::string& label, std::size_t rows) {
 void Measurement::write(const std::string& table, const Comments& comments) {
   renderer_->watch(nullptr);
   progress_.reset();
-  write_file(options_.output, table);
+  write_plain_table(options_.output, table);
   light_ = light_match(comments);
   if (const auto remark = light_remark(light_))
     print_message("remapc", "warning: " + options_.output.string() + ": " + remark->text);

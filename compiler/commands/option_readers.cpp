@@ -2,10 +2,20 @@
 
 #include <sstream>
 
+#include "build/fit_folder.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 
 namespace remap {
+
+void add_fits_option(Command& app, std::filesystem::path& folder, const std::string& text) {
+  folder = default_fit_folder();
+  app.add_option("--fits FOLDER", folder, text)->default_text("fits, else the installed ones");
+}
+
+void add_force_flag(Command& app, bool& force) {
+  app.add_flag("--force", force, "Overwrite files that exist");
+}
 
 Reader<double> light_angle() {
   return {[](const std::string& option, const std::string& word) {

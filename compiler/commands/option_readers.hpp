@@ -11,6 +11,12 @@
 
 namespace remap {
 
+// Adds --fits, whose default is default_fit_folder().
+void add_fits_option(Command& app, std::filesystem::path& folder, const std::string& text);
+
+// Adds --force, without which require_new() (core/files.hpp) refuses to replace a result.
+void add_force_flag(Command& app, bool& force);
+
 // The angle of a light: `headlight`, or degrees from the camera.
 Reader<double> light_angle();
 

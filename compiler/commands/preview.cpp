@@ -9,6 +9,7 @@
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "renderer/image_file.hpp"
@@ -19,9 +20,9 @@ namespace {
 
 struct PreviewCommand {
   std::string fit;
-  std::filesystem::path fit_folder = "fits", output;
+  std::filesystem::path fit_folder, output;
   PreviewOptions options;
-  bool json = false;
+  bool force = false, json = false;
   RendererOptions renderers;
   std::string environment;  // empty: one light
   double exposure = 1.0;
@@ -102,6 +103,7 @@ void run_lit(const PreviewCommand& command, const Fit& fit) {
 
 void run(const PreviewCommand& command) {
   watch_interruptions();
+  require_new(command.output, command.force);
   if (!command.environment.empty()) return run_lit(command, find_fit(command.fit, command.fit_folder));
   const Fit fit = find_fit(command.fit, command.fit_folder);
   report(command, fit, make_preview(*make_renderers(command.renderers), fit, command.options));
@@ -139,11 +141,12 @@ void add_preview_command(Command& app) {
   });
   command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
   command->option_group("Input");
-  command->add_option("--fits FOLDER", options.fit_folder, "Folder where ids are looked up");
+  add_fits_option(*command, options.fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
   command->add_option(
       "-o,--output FILE", options.output,
       "PNG to write: a column per alpha; source, conversion, and their difference times four");
+  add_force_flag(*command, options.force);
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->option_group("Materials and pictures");
   command

@@ -2,6 +2,7 @@
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/renderer.hpp"
@@ -15,6 +16,7 @@ struct RenderOptions {
   std::map<std::string, std::vector<double>> settings;
   Scene scene;
   std::string output;
+  bool force = false;
   RendererOptions renderers;
 };
 
@@ -34,6 +36,7 @@ Material material_of(const ModelDescription& model,
 }
 
 void run(const RenderOptions& options) {
+  require_new(options.output, options.force);
   const auto renderer = make_renderers(options.renderers);
   const ModelDescription model = renderer->model(options.model);
   const Material material = material_of(model, options.settings);
@@ -67,6 +70,7 @@ void add_render_command(Command& app) {
       "Parameter of the model; may be repeated");
   command->option_group("Output");
   command->add_option("-o,--output FILE", options.output, "EXR file to write, linear float")->required();
+  add_force_flag(*command, options.force);
   command->option_group("Picture");
   command
       ->add_option("--light LIGHT", options.scene.light.angle, light_angle(),

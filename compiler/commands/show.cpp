@@ -8,6 +8,7 @@
 #include "command_line/run_app.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "commands/option_readers.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "lower/fit_file.hpp"
@@ -22,7 +23,7 @@ namespace remap {
 namespace {
 
 struct ShowOptions {
-  std::filesystem::path fit_folder = "fits";
+  std::filesystem::path fit_folder;
   std::string fit;
   bool json = false;
 };
@@ -329,7 +330,7 @@ void add_show_command(Command& app) {
   ShowOptions& options = set_work<ShowOptions>(*command, show);
   command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
   command->option_group("Input");
-  command->add_option("--fits FOLDER", options.fit_folder, "Folder where ids are looked up");
+  add_fits_option(*command, options.fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
   command->add_flag("--json", options.json, "Print the fit file itself");
   command->footer("Example:\n  remapc show mitsuba_ward_to_mitsuba_as");

@@ -3,32 +3,43 @@
 #include <utility>
 
 #include "command_line/command.hpp"
+#include "command_line/run_app.hpp"
 #include "core/files.hpp"
+#include "table/table_file.hpp"
 
 namespace remap {
+
+static void print(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) print_message("remapc", remark);
+}
 
 void TableInput::add_options(Command& app, bool is_required) {
   Option* table = app.add_option("table", path, "CSV table, of remapc sweep or of another program");
   if (is_required) table->required();
   app.option_group("Input");
-  app.add_option("--columns MAP", columns, columns_reader(),
-                 "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...");
+  app.add_option(
+      "--columns MAP", columns, columns_reader(),
+      "Names of columns in the file, OWN=FILE,...; sztrajman-2019, the published table, is recognised");
   app.add_option("--source MODEL", source, "Source model (default: as the table names it)");
   app.add_option("--target MODEL", target, "Target model (default: as the table names it)");
 }
 
 Table TableInput::read(std::string* bytes) const {
-  std::string content = read_file(path);
-  Table table = with_models(parse_table(content, path, columns));
-  if (bytes != nullptr) *bytes = std::move(content);
+  const std::string content = read_file(path);
+  const Csv csv = parse_table_file(content, path);
+  Table table = with_models(table_from_csv(csv, columns));
+  print(table.remarks);
+  if (bytes != nullptr) *bytes = whole_text(csv, content);
   return table;
 }
 
 AnyTable TableInput::read_any(std::string* bytes) const {
-  std::string content = read_file(path);
-  AnyTable table = parse_any_table(content, path, columns);
+  const std::string content = read_file(path);
+  const Csv csv = parse_table_file(content, path);
+  AnyTable table = any_table(csv, columns);
+  std::visit([](const auto& any) { print(any.remarks); }, table);
   if (Table* sweep = std::get_if<Table>(&table)) *sweep = with_models(std::move(*sweep));
-  if (bytes != nullptr) *bytes = std::move(content);
+  if (bytes != nullptr) *bytes = whole_text(csv, content);
   return table;
 }
 

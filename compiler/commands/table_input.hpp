@@ -16,8 +16,8 @@ struct TableInput {
   // `is_required`: whether the command needs a table.
   void add_options(Command& app, bool is_required = true);
 
-  // Reads the file once. `bytes`, if not null, receives its content. Throws kInput and kUsage as parse_table
-  // does; a table of named parameters is an error.
+  // Reads the file once. `bytes`, if not null, receives its whole_text(). Throws kInput and kUsage as
+  // parse_table does; a table of named parameters is an error.
   Table read(std::string* bytes = nullptr) const;
   // The same for a table of either form.
   AnyTable read_any(std::string* bytes = nullptr) const;

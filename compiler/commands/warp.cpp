@@ -6,6 +6,7 @@
 
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
+#include "commands/option_readers.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
@@ -30,7 +31,7 @@ struct WarpCommand {
   std::string distance;                              // empty: relative, plain where both are profiles
   bool exact = false;
   std::filesystem::path output, copy, report;
-  bool json = false;
+  bool force = false, json = false;
 };
 
 // The stroke pairs of all options, at least one.
@@ -221,6 +222,9 @@ void warp_tables(const WarpCommand& command) {
 }
 
 void run(const WarpCommand& command) {
+  for (const std::filesystem::path& path : {command.output, command.report}) require_new(path, command.force);
+  if (!command.copy.empty())
+    for (const char* name : kCopyNames) require_new(command.copy / name, command.force);
   if (is_tabulated_folder(command.source) || is_tabulated_folder(command.target))
     warp_tables(command);
   else
@@ -274,6 +278,7 @@ void add_warp_command(Command& app) {
   command->add_option(
       "--report FILE", options.report,
       "HTML page with pictures of materials, strokes, appearance spaces and result, and the diagnostics");
+  add_force_flag(*command, options.force);
   command->add_flag("--json", options.json, "Print the diagnostics as JSON to standard output");
   add_model_options(*command, options);
   command->footer(

@@ -11,7 +11,8 @@ using Convention = RoughnessConvention;
 double clamp01(double value) { return std::clamp(value, 0.0, 1.0); }
 
 std::string width_text(const ModelSide& side) {
-  return side.model + " has " + std::string(convention_name(side.roughness));
+  return (side.model.empty() ? "the table's model" : side.model) + " has " +
+         std::string(convention_name(side.roughness));
 }
 
 // A formula from a Phong exponent and a grey specular to perceptual roughness, which is sqrt(alpha).

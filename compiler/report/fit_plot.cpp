@@ -58,9 +58,9 @@ class Plot {
     }
   }
 
-  std::string script() {
+  std::string script(bool is_png) {
     write_data();
-    out_ << plot_style(1280, 1040)
+    out_ << plot_style(1280, 1040, is_png)
          << "set multiplot layout 2,2 margins 0.07,0.98,0.16,0.92 spacing 0.08,0.11 title "
          << quoted(fit_.source.model + " to " + fit_.target.model + ", " + std::to_string(rows_.size()) +
                    " rows of " + fit_.table.name)
@@ -182,7 +182,7 @@ class Plot {
   void residual_panel(const std::string& output, int column) {
     axes("Error of each fit in " + output, "alpha of " + fit_.source.model, "|fit - row|, " + output);
     out_ << "set logscale y\nset yrange [*:1e-6<*]\nset format y '10^{%T}'\n"
-         << "set key at graph 0.5,-0.17 center top Left reverse maxcols 1\nplot ";
+         << "set key at graph 0.5,-0.19 center top Left reverse maxcols 1\nplot ";
     for (std::size_t f = 0; f < fits_.size(); ++f) {
       const RowErrors errors = row_errors(fits_[f], rows_);
       const double rms = column == 2 ? errors.alpha.rms : errors.specular.rms;
@@ -202,11 +202,13 @@ class Plot {
   std::ostringstream out_;
 };
 
+bool is_png(const std::filesystem::path& path) { return path.extension() == ".png"; }
+
 }  // namespace
 
 void require_plot(const std::filesystem::path& path) {
-  if (path.extension() != ".svg")
-    throw Error(ErrorKind::kUsage, "plot: " + path.string() + ": the file name must end with .svg");
+  if (path.extension() != ".svg" && !is_png(path))
+    throw Error(ErrorKind::kUsage, "plot: " + path.string() + ": the file name must end with .svg or .png");
   require_gnuplot();
   create_parent(path);
 }
@@ -214,7 +216,7 @@ void require_plot(const std::filesystem::path& path) {
 void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<Fit>& fits) {
   const std::vector<Fit> drawn(
       fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(std::min(fits.size(), kPlotColors.size())));
-  write_svg(path, Plot(table, drawn).script());
+  write_drawing(path, Plot(table, drawn).script(is_png(path)));
 }
 
 std::string fit_label(const Fit& fit) {

@@ -76,14 +76,15 @@ void require_gnuplot() {
                                         ", install the package gnuplot-nox)");
 }
 
-std::string plot_style(int width, int height) {
-  return "set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
+std::string plot_style(int width, int height, bool is_png) {
+  return std::string("set terminal ") + (is_png ? "pngcairo" : "svg") + " size " + std::to_string(width) +
+         "," + std::to_string(height) +
          " enhanced font 'Helvetica,13' background rgb 'white'\n"
          "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
          "set tics textcolor rgb 'black'\n";
 }
 
-void write_svg(const std::filesystem::path& path, const std::string& script) {
+void write_drawing(const std::filesystem::path& path, const std::string& script) {
   const ScratchFolder folder;
   write_file(folder.file("script"), script);
   const int code = run(folder.file("script"), folder.file("output"), folder.file("complaints"));
@@ -94,7 +95,7 @@ void write_svg(const std::filesystem::path& path, const std::string& script) {
                 "plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
   const std::string picture = read_file(folder.file("output"));
   // gnuplot does not detect that a disk is full.
-  if (picture.find("</svg>") == std::string::npos)
+  if (picture.find("</svg>") == std::string::npos && picture.find("IEND") == std::string::npos)
     throw Error(ErrorKind::kOutput,
                 "plot: the output of gnuplot is incomplete (check the free space for temporary files)");
   write_file(path, picture);

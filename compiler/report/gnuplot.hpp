@@ -14,11 +14,12 @@ void require_gnuplot();
 inline constexpr std::array<const char*, 6> kPlotColors = {"#0072B2", "#D55E00", "#009E73",
                                                            "#CC79A7", "#E69F00", "#56B4E9"};
 
-// The gnuplot commands with which every plot starts: an SVG of `width` x `height` pixels with a light grid.
-std::string plot_style(int width, int height);
+// The gnuplot commands with which every plot starts: an SVG or PNG of `width` x `height` pixels with a light
+// grid.
+std::string plot_style(int width, int height, bool is_png = false);
 
-// Writes the SVG that gnuplot draws for `script`. Throws kOutput if the file cannot be written, or if gnuplot
-// cannot be started or fails, with the first line of its error message.
-void write_svg(const std::filesystem::path& path, const std::string& script);
+// Writes the SVG or PNG that gnuplot draws for `script`. Throws kOutput if the file cannot be written, or if
+// gnuplot cannot be started or fails, with the first line of its error message.
+void write_drawing(const std::filesystem::path& path, const std::string& script);
 
 }  // namespace remap

@@ -15,7 +15,7 @@ struct EnvironmentsCommand {
   bool plain = false;
   EnvironmentsOptions study;
   EnvironmentOptions environments;
-  std::filesystem::path fit_folder;  // empty: `fits` if that folder exists
+  std::filesystem::path fit_folder;  // empty: the default, if it is there
   OutputOptions output;
 };
 
@@ -75,7 +75,7 @@ void add_options(Command& app, EnvironmentsCommand& command) {
                "Also search for the parameters of least mean RMSE under these environments (`best`)");
   add_sampling_options(app, study);
   app.add_option("--fits", command.fit_folder,
-                 "Folder of the fits for the method `shipped`; default: fits, if it exists");
+                 "Folder of the fits for the method `shipped`; default: fits, else the installed ones");
   add_output_options(
       app, command.output, study.jobs,
       {"Write environments.csv, environments_summary.csv and environments.svg (needs gnuplot) to this folder",

@@ -3,12 +3,14 @@
 #include <iostream>
 #include <utility>
 
+#include "build/fit_folder.hpp"
 #include "command_line/run_app.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "report/gnuplot.hpp"
+#include "table/table_file.hpp"
 
 namespace remap {
 
@@ -49,8 +51,8 @@ void add_output_options(Command& app, OutputOptions& options, unsigned& jobs, co
 }
 
 std::filesystem::path fit_folder_of(const std::filesystem::path& given) {
-  const std::filesystem::path usual = "fits";
   if (!given.empty()) return given;
+  const std::filesystem::path usual = default_fit_folder();
   return std::filesystem::is_directory(usual) ? usual : std::filesystem::path();
 }
 
@@ -66,7 +68,7 @@ void create_folder(const OutputOptions& options) {
 std::vector<std::string> write_report(const OutputOptions& options, const StudyReport& report) {
   std::vector<std::string> names;
   for (const auto& [name, text] : report.tables) {
-    write_file(options.folder / name, text);
+    write_plain_table(options.folder / name, text);
     names.push_back(name);
   }
   for (const auto& [name, sheet] : report.sheets) {
@@ -74,7 +76,7 @@ std::vector<std::string> write_report(const OutputOptions& options, const StudyR
     names.push_back(name);
   }
   for (const auto& [name, script] : report.plots) try {
-      write_svg(options.folder / name, script);
+      write_drawing(options.folder / name, script);
       names.push_back(name);
     } catch (const Error& error) {
       print_message("remap-study", "warning: " + name + " was not drawn: " + error.what());

@@ -43,7 +43,7 @@ void add_sampling_options(Command& app, SphereSampling& sampling);
 // Adds `-o`, `--pictures`, `--jobs`, `--json` and `--quiet`. `options` and `jobs` must outlive the parsing.
 void add_output_options(Command& app, OutputOptions& options, unsigned& jobs, const OutputTexts& texts);
 
-// The folder of fits that the user named, else `fits`; empty if that does not exist.
+// The folder of fits that the user named, else the default; empty if that does not exist.
 std::filesystem::path fit_folder_of(const std::filesystem::path& given);
 
 // Throws kUsage if pictures are wanted without an output folder.

@@ -84,7 +84,8 @@ void add_reach_study(Command& app) {
       "Compare converted materials with the best that the target can do, over the whole range of the source");
   ReachCommand& options = set_work<ReachCommand>(*command, run);
   command->add_option("ID", options.ids, "Fits; default: all of the folder between Mitsuba models");
-  command->add_option("--fits", options.fit_folder, "Folder of the fits; default: fits, if it exists");
+  command->add_option("--fits", options.fit_folder,
+                      "Folder of the fits; default: fits, else the installed ones");
   command->add_flag(
       "--record", options.records,
       "Also write the figures to reach.csv in the folder of fits, from which remapc build reports them");

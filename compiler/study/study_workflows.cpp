@@ -17,7 +17,7 @@ struct WorkflowsCommand {
   WorkflowsOptions study;
   MaterialSetOptions materials;
   std::size_t family_count = 100000;
-  std::filesystem::path fit_folder;  // empty: `fits` if that folder exists
+  std::filesystem::path fit_folder;  // empty: the default, if it is there
   OutputOptions output;
 };
 
@@ -64,7 +64,7 @@ void add_options(Command& app, WorkflowsCommand& command) {
   app.add_option("--seed", command.materials.seed, "Seed of the random materials");
   add_sampling_options(app, study);
   app.add_option("--fits", command.fit_folder,
-                 "Folder of fits; their networks are compared, too; default: fits, if it exists");
+                 "Folder of fits; their networks are compared, too; default: fits, else the installed ones");
   add_output_options(
       app, command.output, study.jobs,
       {"Write workflows.csv, workflows_summary.csv and workflows.svg (needs gnuplot) to this folder",

@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kLongestComment = 5000, kShownText = 80;  // bytes
+constexpr std::size_t kShownText = 80;  // bytes
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '"')) text.remove_prefix(1);
@@ -58,17 +58,9 @@ void require_header(const Csv& csv) {
   }
 }
 
-void read_comment(std::string_view line, Csv* csv) {
-  const std::size_t colon = line.find(": ");
-  if (colon == std::string_view::npos || csv->comments.size() == kMostCsvComments) return;
-  // Comments reach fits and headers, which take no control characters.
-  csv->comments.emplace_back(plain(trimmed(line.substr(1, colon - 1)), kLongestComment),
-                             plain(trimmed(line.substr(colon + 2)), kLongestComment));
-}
-
 void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* csv) {
   if (csv->header.cells.empty()) {
-    if (line.front() == '#') return read_comment(line, csv);
+    if (line.front() == '#') return add_comment(line, &csv->comments);
     *delimiter = detect_delimiter(line);
     csv->header = {number, split_csv_line(line, *delimiter)};
     return require_header(*csv);
@@ -85,6 +77,14 @@ void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* 
 }
 
 }  // namespace
+
+void add_comment(std::string_view line, Comments* comments) {
+  const std::size_t colon = line.find(": ");
+  if (colon == std::string_view::npos || comments->size() == kMostCsvComments) return;
+  // Comments reach fits and headers, which take no control characters.
+  comments->emplace_back(plain(trimmed(line.substr(1, colon - 1)), kLongestComment),
+                         plain(trimmed(line.substr(colon + 2)), kLongestComment));
+}
 
 std::string Csv::comment(const std::string& key) const {
   for (const auto& [found, value] : comments)

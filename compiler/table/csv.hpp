@@ -15,6 +15,9 @@ namespace remap {
 // The lines `# key: value` of a table, in file order.
 using Comments = std::vector<std::pair<std::string, std::string>>;
 
+// Adds what the line `# key: value` says.
+void add_comment(std::string_view line, Comments* comments);
+
 // One cell of a line with its place, for messages.
 struct CsvCell {
   std::string_view text;
@@ -29,13 +32,14 @@ struct CsvLine {
 // The largest tables that are read: of what remapc sample writes at most, twice. A million rows take 300 MB
 // of memory while they are read.
 inline constexpr std::size_t kMostCsvRows = 2'000'000, kMostCsvColumns = 1000, kMostCsvComments = 1000;
-inline constexpr std::size_t kLongestCsvLine = 100'000;  // bytes
+inline constexpr std::size_t kLongestCsvLine = 100'000, kLongestComment = 5000;  // bytes
 
 struct Csv {
   std::string name;  // for messages
   Comments comments;
   CsvLine header;
   std::vector<CsvLine> lines;
+  std::vector<std::string> remarks;  // what a reader assumed, for the user
 
   // Returns the value of a comment; empty if there is no such comment.
   std::string comment(const std::string& key) const;

@@ -26,6 +26,7 @@ std::vector<std::size_t> places_of(const Csv& csv, const std::vector<std::string
 MaterialTable material_table_from_csv(const Csv& csv) {
   MaterialTable table;
   table.name = csv.name;
+  table.remarks = csv.remarks;
   for (const auto& comment : csv.comments)
     if (comment.first != kSourceColumnsComment && comment.first != kTargetColumnsComment)
       table.comments.push_back(comment);
@@ -70,7 +71,10 @@ std::string material_table_text(const MaterialTable& table) {
 }
 
 AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map) {
-  const Csv csv = parse_csv(text, name);
+  return any_table(parse_csv(text, name), map);
+}
+
+AnyTable any_table(const Csv& csv, const ColumnMap& map) {
   if (csv.comment(kSourceColumnsComment).empty()) return table_from_csv(csv, map);
   return material_table_from_csv(csv);
 }

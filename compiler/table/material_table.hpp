@@ -23,6 +23,7 @@ struct MaterialTable {
   Comments comments;                                        // without the two that list columns
   std::vector<std::string> source_columns, target_columns;  // base_color_r1, ..., roughness2
   std::vector<NamedRow> rows;
+  std::vector<std::string> remarks = {};  // what its reader assumed, for the user
 };
 
 // Parses what material_table_text writes and ignores other columns. Throws kInput with `name:line:column:`.
@@ -33,8 +34,10 @@ std::string material_table_text(const MaterialTable& table);
 // A table of either form: alpha and specular (remapc sweep), or named parameters (remapc sample).
 using AnyTable = std::variant<Table, MaterialTable>;
 
-// Parses CSV text once and reads it as the form that its comments declare: a comment source_columns makes it
-// a MaterialTable. `map` applies to a Table only. Throws as parse_table and parse_material_table do.
+// Reads CSV text that was parsed as the form that its comments declare: a comment source_columns makes it a
+// MaterialTable. `map` applies to a Table only. Throws as parse_table and parse_material_table do.
+AnyTable any_table(const Csv& csv, const ColumnMap& map);
+// The same from text.
 AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
 }  // namespace remap

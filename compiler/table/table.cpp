@@ -5,8 +5,6 @@
 #include <iterator>
 #include <limits>
 
-#include <openssl/evp.h>
-
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
@@ -24,12 +22,32 @@ constexpr double kSameLimit = 1e-8;  // relative: tables hold ten digits
 const std::array<std::string, 8> kColumns = {"alpha1",   "specular1", "alpha2", "specular2",
                                              "diffuse1", "diffuse2",  "error",  "status"};
 constexpr std::size_t kRequiredColumns = 4;
+constexpr const char* kPublished = "sztrajman-2019";
 constexpr std::size_t kDiffuse1 = 4, kDiffuse2 = 5, kError = 6, kStatus = 7;
+
+// Whether this is the table that was published with the paper, by its columns and the models in them.
+bool is_published(const Csv& csv) {
+  const auto holds = [&](std::string_view column, std::string_view word) {
+    const auto found = std::ranges::find(csv.header.cells, column, &CsvCell::text);
+    const auto place = static_cast<std::size_t>(found - csv.header.cells.begin());
+    return found != csv.header.cells.end() && std::ranges::all_of(csv.lines, [&](const CsvLine& line) {
+             return word.empty() || line.cells[place].text == word;
+           });
+  };
+  return holds("bsdf1", "Mitsuba-Ward") && holds("bsdf2", "Mitsuba-Pbr-AS") && holds("eta2", "") &&
+         !holds("specular2", "");
+}
 
 // Parses one table.
 class TableReader {
  public:
-  TableReader(const Csv& csv, const ColumnMap& map) : csv_(csv), map_(map) {}
+  TableReader(const Csv& csv, const ColumnMap& map) : csv_(csv), map_(map) {
+    table_.remarks = csv.remarks;
+    if (!map.columns.empty() || !is_published(csv)) return;
+    map_ = column_map(kPublished);
+    table_.remarks.push_back(csv.name + ": read as the table published with the paper (" + kPublished +
+                             "): mitsuba/ward to mitsuba/as, eta2 is F0");
+  }
 
   Table read() {
     table_.name = csv_.name;
@@ -60,6 +78,7 @@ class TableReader {
                 "has a column " + kColumns[source ? kDiffuse1 : kDiffuse2] + " but no column " +
                     kColumns[source ? kDiffuse2 : kDiffuse1] + " (both or neither are needed)");
     table_.has_diffuse = source;
+    table_.has_error = places_[kError] != kMissing;
   }
 
   [[noreturn]] void fail_without(const std::string& wanted, const std::vector<std::string>& found) const {
@@ -72,7 +91,12 @@ class TableReader {
       csv_.fail(csv_.header.number, 1,
                 "the header row has one column, \"" + found[0] +
                     "\" (separate columns by comma, tab or semicolon)");
-    csv_.fail(csv_.header.number, 1, "has no column " + wanted + suggestion(wanted, found));
+    std::string remedy = suggestion(wanted, found);
+    remedy.back() = ';';
+    csv_.fail(csv_.header.number, 1,
+              "has no column " + wanted + remedy + " --columns " + wanted +
+                  "=NAME reads another one, --columns " + kPublished +
+                  " the table published with the paper)");
   }
 
   void read_row(const CsvLine& line) {
@@ -89,7 +113,7 @@ class TableReader {
       row.diffuse1 = number(kDiffuse1);
       row.diffuse2 = number(kDiffuse2);
     }
-    row.error = places_[kError] == kMissing ? std::numeric_limits<double>::quiet_NaN() : number(kError);
+    row.error = table_.has_error ? number(kError) : std::numeric_limits<double>::quiet_NaN();
     if (places_[kStatus] != kMissing) row.status = read_status(csv_, line, line.cells[places_[kStatus]]);
     table_.rows.push_back(row);
   }
@@ -113,7 +137,7 @@ class TableReader {
   static constexpr std::size_t kMissing = std::numeric_limits<std::size_t>::max();
 
   const Csv& csv_;
-  const ColumnMap& map_;
+  ColumnMap map_;
   Table table_;
   std::vector<std::size_t> places_ = std::vector<std::size_t>(kColumns.size(), kMissing);
 };
@@ -143,7 +167,7 @@ RowStatus read_status(const Csv& csv, const CsvLine& line, const CsvCell& cell) 
 
 ColumnMap column_map(const std::string& text) {
   ColumnMap map;
-  if (text == "sztrajman-2019") {
+  if (text == kPublished) {
     map.columns = {{"specular2", "eta2"}};
     map.source = {"mitsuba/ward", RoughnessConvention::kAlpha, "specular"};
     map.target = {"mitsuba/as", RoughnessConvention::kAlpha, "f0"};
@@ -171,7 +195,8 @@ Table parse_table(std::string_view text, const std::string& name, const ColumnMa
 Table table_from_csv(const Csv& csv, const ColumnMap& map) { return TableReader(csv, map).read(); }
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
-  return parse_table(read_file(path), path.string(), map);
+  const std::string bytes = read_file(path);
+  return table_from_csv(parse_table_file(bytes, path), map);
 }
 
 RowStatus status_at(const TableRow& row, const TargetLimits& limits) {
@@ -213,34 +238,18 @@ std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const Domai
 std::string table_text(const Table& table) {
   std::string header;
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    if (!table.has_diffuse && (i == kDiffuse1 || i == kDiffuse2)) continue;
+    if ((!table.has_diffuse && (i == kDiffuse1 || i == kDiffuse2)) || (!table.has_error && i == kError))
+      continue;
     header += (i == 0 ? "" : ",") + kColumns[i];
   }
   CsvText csv(header, table.comments);
   for (const TableRow& row : table.rows) {
     std::vector<double> values = {row.alpha1, row.specular1, row.alpha2, row.specular2};
     if (table.has_diffuse) values.insert(values.end(), {row.diffuse1, row.diffuse2});
-    csv.add_row(values, row.error, status_name(row.status));
+    if (table.has_error) values.push_back(row.error);
+    csv.add_row(values, status_name(row.status));
   }
   return csv.text();
-}
-
-std::string file_sha256(const std::filesystem::path& path) {
-  return std::filesystem::is_regular_file(path) ? sha256(read_file(path)) : std::string();
-}
-
-std::string sha256(std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw Error(ErrorKind::kNumeric, "sha256: cannot compute the digest");
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (unsigned i = 0; i < length; ++i) {
-    text += kDigits[digest[i] >> 4];
-    text += kDigits[digest[i] & 15];
-  }
-  return text;
 }
 
 TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,

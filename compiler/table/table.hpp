@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lower/fit.hpp"
-#include "table/csv.hpp"
+#include "table/table_file.hpp"
 
 namespace remap {
 
@@ -56,8 +56,10 @@ struct Table {
   ModelSide source;
   ModelSide target;
   bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
+  bool has_error = true;     // else the errors of its rows are NaN, and not written
   std::vector<TableRow> rows;
-  TargetLimits limits;  // as the comments tell (find_limits)
+  TargetLimits limits;               // as the comments tell (find_limits)
+  std::vector<std::string> remarks;  // what its reader assumed, for the user
 };
 
 // The comments in which a sweep records the limits of its target.
@@ -89,7 +91,7 @@ struct ColumnMap {
 
 // Returns the column map of a preset, or of `own=file,own=file,...`. The preset `sztrajman-2019` is for the
 // table published with the paper, Mitsuba Ward to Ashikhmin-Shirley; its `eta2` holds F0, its `k2` is a
-// sentinel. Throws kUsage for an unknown preset or own column.
+// sentinel; it is recognised where no map is given. Throws kUsage for an unknown preset or own column.
 ColumnMap column_map(const std::string& text);
 
 // Parses CSV text: UTF-8, `#` comments, then a header row delimited by comma, tab or semicolon. The columns
@@ -115,16 +117,12 @@ bool is_inside(const TableRow& row, const Domain& domain);
 // Returns the `rows` whose source parameters lie in `domain`.
 std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const Domain& domain);
 
-// Formats a table as CSV: comments, header row, rows; the diffuse columns only if has_diffuse. Parsing the
+// Formats a table as CSV: comments, header row, rows; the diffuse columns only if has_diffuse,
+// the errors only if has_error. Parsing the
 // text gives the same numbers.
 std::string table_text(const Table& table);
 
 // Returns what a fit records of its table, whose file is `bytes`.
 TableRecord table_record(const std::filesystem::path& path, std::string_view bytes, const Comments& comments);
-
-// Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
-std::string sha256(std::string_view bytes);
-// Of a file; empty for a missing one.
-std::string file_sha256(const std::filesystem::path& path);
 
 }  // namespace remap

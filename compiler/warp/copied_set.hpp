@@ -1,6 +1,7 @@
 // Writes the exact copy of a warp to files: each texel of the source is copied from one template texel.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct CopiedTemplate {
   MapFrame frame;
   std::filesystem::path table;  // of a tabulated material: profiles.exr, profiles.csv or brdfs.txt
 };
+
+// The files of all kinds.
+inline constexpr std::array<const char*, 8> kCopyNames = {"diffuse.exr",  "specular.exr",      "alpha.exr",
+                                                          "profiles.exr", "index.exr",         "profiles.csv",
+                                                          "brdfs.txt",    "template_texel.exr"};
 
 // Writes float32 EXR files of the source's size to `folder`, with NaN in skipped texels:
 //   parameters         diffuse.exr, specular.exr, alpha.exr

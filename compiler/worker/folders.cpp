@@ -6,6 +6,7 @@
 #include <string>
 #include <unistd.h>
 
+#include "core/files.hpp"
 #include "core/process_mark.hpp"
 #include "remap/error.hpp"
 
@@ -61,11 +62,8 @@ fs::path own_worker_list() {
 }
 
 fs::path shipped_worker_list() {
-  std::error_code failure;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failure);
-  const fs::path installed = program.parent_path().parent_path() / REMAP_INSTALLED_WORKERS / "workers.json";
-  if (!failure && fs::exists(installed, failure)) return installed;
-  return fs::path(REMAP_SOURCE_WORKERS) / "workers.json";
+  const fs::path list = installed(REMAP_INSTALLED_WORKERS "/workers.json");
+  return list.empty() ? fs::path(REMAP_SOURCE_WORKERS) / "workers.json" : list;
 }
 
 PrivateFolder::PrivateFolder() {

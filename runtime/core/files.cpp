@@ -93,6 +93,18 @@ void commit_file(const fs::path& unfinished, const fs::path& path, Flush flush) 
   fail_to_write(path, reason);
 }
 
+void require_new(const fs::path& path, bool force) {
+  std::error_code ignored;
+  if (!force && fs::is_regular_file(path, ignored))
+    throw Error(ErrorKind::kOutput, path.string() + ": already exists (--force overwrites)");
+}
+
+fs::path installed(const fs::path& below) {
+  std::error_code failure;
+  const fs::path found = fs::read_symlink("/proc/self/exe", failure).parent_path().parent_path() / below;
+  return !failure && fs::exists(found, failure) ? found : fs::path();
+}
+
 void create_parent(const fs::path& path) {
   const fs::path parent = path.parent_path();
   if (parent.empty()) return;

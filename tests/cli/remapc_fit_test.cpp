@@ -36,7 +36,7 @@ TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it i
 TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[slow]") {
   const Session session;
   require_success(session.remapc(session.sweep("t.csv")));
-  const auto fit = [&](const Words& more) { return session.remapc("fit t.csv -o fits" + more); };
+  const auto fit = [&](const Words& more) { return session.remapc("fit t.csv --force -o fits" + more); };
   const auto kind = [&] {
     return kind_name(load_fit(session.path("fits/mitsuba_ward_to_mitsuba_as.json")).mapping);
   };
@@ -56,8 +56,8 @@ TEST_CASE("remapc fit: a fit that cannot be lowered is kept with a warning, and 
   require_success(session.remapc(session.sweep("t.csv")));
   const std::string path = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
   const auto fit = [&](const std::string& tolerance) {
-    return require_success(
-        session.remapc("fit t.csv --model parametric --form paper --lower " + tolerance + " -o fits"));
+    return require_success(session.remapc("fit t.csv --model parametric --form paper --lower " + tolerance +
+                                          " --force -o fits"));
   };
   CHECK(fit("1e-12").errors.find("warning: mitsuba_ward_to_mitsuba_as: neither texremap nor emit") !=
         std::string::npos);
@@ -78,6 +78,8 @@ TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plott
   session.write("exact.csv", made_table(12, 4));  // of the paper's form
   CHECK(session.remapc(session.fit("exact.csv") + "--plot exact.svg").exit_code == 0);
   CHECK(session.content("exact.svg").find("parametric paper, rms ") != std::string::npos);
+  require_success(session.remapc(session.fit("exact.csv") + "--force --plot exact.png"));
+  CHECK(session.content("exact.png").starts_with("\x89PNG"));
   std::string black = "# source: a/b\n# target: c/d\n" + kHeader;
   for (int i = 10; i < 40; ++i)
     for (const std::string specular : {"0.2", "0.5"})
@@ -117,6 +119,14 @@ TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "
   CHECK(json.output.find("\"fitted_from_this_table\": true") != std::string::npos);
   CHECK(json.output.find("\"name\": \"pbrt-v3\"") != std::string::npos);
   CHECK(json.output.find("does not apply: mitsuba/ward has alpha, not roughness") != std::string::npos);
+}
+
+TEST_CASE("remapc compare: a table without models is compared with formulas that need none") {
+  const Session session;
+  session.write("t.csv", kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
+  CHECK(require_success(session.remapc("compare t.csv --fits none"))
+            .output.find("pbrt-v3 (the table's model has alpha, not "
+                         "roughness)") != std::string::npos);
 }
 
 TEST_CASE("remapc compare: fits of one id are told apart by their files", "[slow]") {

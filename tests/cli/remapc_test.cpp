@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") {
   const Session session;
   ProcessResult result = require_success(session.remapc(session.sweep("t.csv")));
+  CHECK(session.content("t.csv").starts_with(kHeader));  // plain CSV
+  CHECK(session.content("t.csv.json").find("\"source\": \"mitsuba/ward\",\n") != std::string::npos);
   CHECK(result.errors.find("36 rows (36 ok)") != std::string::npos);
   CHECK(session.remapc("check t.csv").exit_code == 0);
   require_success(session.remapc(session.fit("t.csv")));
@@ -52,6 +54,34 @@ TEST_CASE("remapc eval --grid: prints what the interpreter gives over the domain
   const std::string file = session.path("new/grid.csv");
   CHECK(session.remapc("eval " + path + " --grid 3 -o " + file).output.empty());
   CHECK(read_file(file) == expected);
+}
+
+TEST_CASE("remapc: a result that exists is refused, and replaced with --force") {
+  const Session session;
+  session.write("t.csv", made_table(8, 3));
+  require_success(session.remapc(session.fit("t.csv")));
+  const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  require_success(session.remapc("emit " + fit + " -o ."));
+  require_success(session.remapc("emit " + fit + " -o ."));  // generated headers say that they are
+  for (const std::string name :
+       {"s.exr", "grid.csv", "p.png", "c.json", "plain.csv", "own/mitsuba_ward_to_mitsuba_as.hpp"})
+    session.write(name, "mine");
+  const auto check = [&](const Words& words, const std::string& name) {
+    const std::string before = session.content(name);
+    check_failure(session.remapc(words), 1, name + ": already exists (--force overwrites)");
+    CHECK(session.content(name) == before);
+    require_success(session.remapc(words + "--force"));
+    CHECK((session.content(name) != before || name.starts_with("fits")));
+  };
+  check(session.fit("t.csv"), "fits/mitsuba_ward_to_mitsuba_as.json");
+  check("emit " + fit + " -o own", "own/mitsuba_ward_to_mitsuba_as.hpp");
+  check("eval " + fit + " --grid 3 -o grid.csv", "grid.csv");
+  check("preview " + fit + " --resolution 16 -o p.png", "p.png");
+  check("chain mitsuba_ward_to_mitsuba_ggx mitsuba_ggx_to_cycles_2_7_ggx --id c -o . --fits " REMAP_SOURCE_DIR
+        "/fits",
+        "c.json");
+  check("export t.csv -o plain.csv", "plain.csv");
+  check("render --model mitsuba/ggx --set alpha=0.3 --set f0=0.9 --resolution 8 -o s.exr", "s.exr");
 }
 
 TEST_CASE("remapc list: a folder without fits says so") {

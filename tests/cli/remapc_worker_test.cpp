@@ -40,7 +40,7 @@ TEST_CASE("remapc sweep: a worker is the source, and the second run is from the 
   const std::size_t pictures = fake.pictures();
   CHECK_THAT(first.errors, Contains(std::to_string(pictures) + " pictures rendered and "));
   const std::string table = session.content("a.csv");
-  CHECK_THAT(table, Contains("# renderer: Fake 1; remapc "));
+  CHECK_THAT(session.content("a.csv.json"), Contains("\"renderer\": \"Fake 1; remapc "));
   CHECK_THAT(table, Contains("\n0.9,0.5,0.89999999"));  // the identity, to the float
   const ProcessResult second = require_success(session.remapc(sweep(fake, "b.csv")));
   CHECK_THAT(second.errors, Contains(", 0 pictures rendered and "));
@@ -142,9 +142,10 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Contains("warning: light" + words));
 
-  std::string table = session.content("a.csv");
-  table.erase(table.find("# light_accepted"), std::string("# light_accepted: yes\n").size());
-  session.write("b.csv", table);
+  session.write("b.csv", session.content("a.csv"));
+  std::string made = session.content("a.csv.json");
+  made.erase(made.find("\"light_accepted"), std::string("\"light_accepted\": \"yes\",").size());
+  session.write("b.csv.json", made);
   result = session.remapc("check --json b.csv");
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.output, Contains("\"kind\": \"light\"") && Contains("\"severity\": \"error\""));

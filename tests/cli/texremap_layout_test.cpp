@@ -277,6 +277,7 @@ TEST_CASE("texremap: maps of a folder by a name with * for that of the set") {
 
 TEST_CASE("texremap: layers of an EXR by their names, factors of every parameter, WebP") {
   const Session session;
+  for (const char* folder : {"in", "web"}) std::filesystem::create_directory(session.path(folder));
   session.make("in/wood_maps.exr",
                test_spec(kSize, kSize, {"rough.Y", "metal.Y", "base.R", "base.G", "base.B"}, OIIO::TypeHalf),
                noise);

@@ -71,7 +71,7 @@ inline void write_materials(const Session& session) {
 
 // Of wood and stone, into stony.json.
 inline ProcessResult run_warp(const Session& session, const Words& more) {
-  return session.remapc("warp wood stone -o stony.json" + more);
+  return session.remapc("warp wood stone --force -o stony.json" + more);
 }
 
 // The strokes of the first `pairs` corners.

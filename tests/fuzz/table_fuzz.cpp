@@ -4,7 +4,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return remap::read_or_refuse([&] {
-    const remap::AnyTable table = remap::parse_any_table(remap::text_of(data, size), "table.csv", {});
+    const auto text = remap::text_of(data, size);
+    if (text.starts_with("{")) remap::parse_metadata(text, "table.csv.json");
+    const remap::AnyTable table = remap::parse_any_table(text, "table.csv", {});
     std::visit([](const auto& any) { remap::check_table(any); }, table);
   });
 }

@@ -7,7 +7,7 @@ is missing.
 
     paper_match.py RESOLUTION TABLE...
 """
-import csv
+import json
 import math
 import sys
 
@@ -76,27 +76,26 @@ def best(picture, model, start, cosine, irradiance):
 
 
 def compare(path, resolution):
-    with open(path, encoding="utf-8") as file:
-        lines = list(file)
-    comments = dict(line[2:].strip().split(": ", 1) for line in lines if line.startswith("# "))
+    with open(path + ".json", encoding="utf-8") as file:
+        comments = json.load(file)
     model = {"mitsuba/ggx": ggx, "mitsuba/beckmann": beckmann}[comments["target"]]
     cosine, distance = sphere(resolution)
     irradiance = cosine / distance**2
     worst_alpha = worst_specular = worst_curve = 0.0
     rows = 0
     matches = {}
-    for row in csv.DictReader(line for line in lines if not line.startswith("#")):
-        alpha, specular = float(row["alpha1"]), float(row["specular1"])
+    for row in np.genfromtxt(path, names=True, delimiter=",", dtype=None, encoding="utf-8"):
+        alpha, specular = row["alpha1"], row["specular1"]
         if alpha < LEAST_ALPHA or row["status"] != "ok":
             continue
         if alpha not in matches:
             matches[alpha] = best(ward(alpha, cosine) * irradiance, model, alpha, cosine, irradiance)
         expected_alpha, slope = matches[alpha]
-        worst_alpha = max(worst_alpha, abs(float(row["alpha2"]) - expected_alpha))
-        worst_specular = max(worst_specular, abs(float(row["specular2"]) / (slope * specular) - 1.0))
+        worst_alpha = max(worst_alpha, abs(row["alpha2"] - expected_alpha))
+        worst_specular = max(worst_specular, abs(row["specular2"] / (slope * specular) - 1.0))
         if model is ggx:  # appendix A with 0.108 for the misprinted quartic coefficient
             curve = 1.135 * alpha - 0.766 * alpha**2 + 0.102 * alpha**3 + 0.108 * alpha**4
-            worst_curve = max(worst_curve, abs(float(row["alpha2"]) - curve))
+            worst_curve = max(worst_curve, abs(row["alpha2"] - curve))
         rows += 1
     print(f"{comments['target']}: {rows} rows, alpha within {worst_alpha:.2e}, specular within {worst_specular:.2e}"
           + (f", appendix A within {worst_curve:.2e}" if model is ggx else ""))

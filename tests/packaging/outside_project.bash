@@ -30,6 +30,29 @@ expect_exit 1 convert_map
 expect_output "lib/remap/images.so: file not found; it reads and writes images (install it with the programs, by cmake --install)"
 mv "$work/images.so" "$prefix/lib/remap"
 
+# The commands of README.md, and those that look fits up, work away from the tree, in a folder without fits.
+away=$(mktemp -d)
+trap 'rm -rf "$project" "$away"' EXIT
+{
+  echo 'set -euo pipefail'
+  sed -n '/^```sh$/,/^```$/{/^```/!p}' "$source_folder/README.md" |
+    sed "s| generated | $prefix/include/remap |; s| examples/| $prefix/share/remap/examples/|"
+  cat <<'COMMANDS'
+remapc list
+remapc show mitsuba_ward_to_mitsuba_as
+remapc preview mitsuba_ward_to_mitsuba_as --resolution 16
+remapc chain mitsuba_ward_to_mitsuba_ggx mitsuba_ggx_to_cycles_2_7_ggx -o mine
+remapc emit mitsuba_ward_to_mitsuba_as -o mine
+remapc eval mitsuba_ward_to_mitsuba_as "$tables/mitsuba_ward_to_mitsuba_as.csv"
+remapc compare "$tables/mitsuba_ward_to_mitsuba_as.csv"
+remapc export "$tables/mitsuba_ward_to_mitsuba_as.csv" -o plain.csv
+remap-study reach mitsuba_ward_to_mitsuba_as --materials 2
+COMMANDS
+} >"$work/commands"
+(cd "$away" && PATH=$prefix/bin:$PATH tables=$prefix/share/remap/fits/tables expect_exit 0 bash "$work/commands")
+expect_output "mitsuba_ward_to_mitsuba_as (series)"
+[[ ! -e $away/fits ]] || fail "a folder of fits was made"
+
 configure() {
   cmake -S "$project" -B "$project/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE=Release
@@ -72,7 +95,7 @@ while read -r include; do
   expect_exit 0 "$compiler" -std=c++20 -fsyntax-only -I "$prefix/include" -x c++ - <<<"$include"
 done <"$work/headers.txt"
 
-expect_exit 0 "$prefix/bin/remapc" fit "$source_folder/fits/tables/$id.csv" --model series --seed 2 -o "$project"
+expect_exit 0 "$prefix/bin/remapc" fit "$source_folder/fits/tables/$id.csv" --model series --seed 2 --force -o "$project"
 [[ $(own_fit) != "$shipped" ]] || fail "the fit was to be changed"
 expect_exit 0 cmake --build "$project/build"
 expect_close "$(second_row shipped)" "$shipped"

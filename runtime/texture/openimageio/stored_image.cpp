@@ -20,7 +20,7 @@ namespace {
 
 // The name of a lossy compression; empty for a lossless one.
 std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& format) {
-  if (format == "jpeg" || format == "hdr") return format;
+  if (format == "jpeg" || format == "hdr" || format == "webp") return format;
   const std::string compression = spec.get_string_attribute("Compression");
   for (const std::string_view lossy : {"dwaa", "dwab", "b44", "pxr24", "jpeg"}) {
     if (compression.starts_with(lossy)) return compression.substr(0, compression.find(':'));
@@ -205,7 +205,10 @@ void OpenedImage::open() {
 }
 
 void OpenedImage::find_planes() {
-  while (part_count_ < kMostParts && input_->seek_subimage(part_count_, 0)) ++part_count_;
+  // The WebP reader reads nothing after it was asked for a frame that is not there; of an animation the first
+  // counts.
+  const int most_parts = std::string_view(input_->format_name()) == "webp" ? 1 : kMostParts;
+  while (part_count_ < most_parts && input_->seek_subimage(part_count_, 0)) ++part_count_;
   (void)input_->geterror();
   if (part_ >= part_count_)
     fail("part " + std::to_string(part_) + " not found (number of parts: " + std::to_string(part_count_) +

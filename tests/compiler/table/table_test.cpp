@@ -8,6 +8,7 @@
 #include "core/files.hpp"
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace remap;
 
@@ -95,7 +96,9 @@ TEST_CASE("table: the published table loads by its preset and by a column map", 
           same.comments = mapped.comments;
           return same;
         }()));
-  CHECK_THROWS_WITH(read_table(path), Catch::Contains("has no column specular2 (did you mean specular1?)"));
+  const Table recognised = read_table(path);
+  CHECK(table_text(recognised) == table_text(preset));
+  CHECK(recognised.target.specular == "f0");
 }
 
 TEST_CASE("table: a bad number is reported with line and column") {
@@ -107,8 +110,51 @@ TEST_CASE("table: a bad number is reported with line and column") {
 }
 
 TEST_CASE("table: the error for a missing column names the nearest") {
-  CHECK_THROWS_WITH(parse("alpha1,specular1,width2,specular2\n1,2,3,4\n"),
-                    "t.csv:1:1: has no column alpha2 (did you mean alpha1?)");
+  CHECK_THROWS_WITH(
+      parse("alpha1,specular1,width2,specular2\n1,2,3,4\n"),
+      "t.csv:1:1: has no column alpha2 (did you mean alpha1?; --columns alpha2=NAME reads another one, "
+      "--columns sztrajman-2019 the table published with the paper)");
+}
+
+TEST_CASE("table: the published table is recognised by its columns and models, and says so") {
+  const std::string header = "\talpha1\talpha2\tspecular1\teta2\tk2\tbsdf1\tbsdf2\n",
+                    row = "0\t0.5\t0.4\t0.1\t0.08\t-100\tMitsuba-Ward\tMitsuba-Pbr-AS\n";
+  const Table table = parse(header + row);
+  CHECK(table.source.model == "mitsuba/ward");
+  CHECK(table.target.model == "mitsuba/as");
+  CHECK(table.rows[0].specular2 == 0.08);
+  REQUIRE(table.remarks.size() == 1);
+  CHECK_THAT(table.remarks[0], Catch::Contains("t.csv: read as the table published with the paper"));
+  std::string other = row;
+  other.replace(other.find("Ward"), 4, "Phong");
+  CHECK_THROWS_WITH(parse(header + row + other), Catch::Contains("--columns sztrajman-2019"));
+  CHECK(parse_table(header + row, "t.csv", column_map("specular2=k2")).remarks.empty());
+}
+
+TEST_CASE("table: a file is plain CSV; how it was made is beside it, and read back") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "t.csv").string();
+  const std::string rows = kHeader + "0.1,0.2,0.3,0.4,0,ok\n";
+  write_plain_table(path, "# source: a/b\n# note: \"c\": d\n" + rows);
+  CHECK(read_file(path) == rows);
+  const Table table = read_table(path);
+  CHECK(table.source.model == "a/b");
+  CHECK(table.comments == Comments{{"source", "a/b"}, {"note", "c\": d"}});
+  CHECK(table.remarks.empty());
+  CHECK(whole_text(parse_table_file(rows, path), rows) == "# source: a/b\n# note: c\": d\n" + rows);
+  write_file(path, rows + "0.2,0.2,0.3,0.4,0,ok\n");
+  REQUIRE(read_table(path).remarks.size() == 1);
+  CHECK_THAT(read_table(path).remarks[0], Catch::Contains("t.csv.json, which tells its models, has changed"));
+  write_file(path, "# source: c/d\n" + rows);  // its own comments hold
+  CHECK(read_table(path).source.model == "c/d");
+  CHECK_THROWS_WITH(require_new_table(path, false),
+                    Catch::Contains("t.csv: already exists (--force overwrites)"));
+  std::filesystem::remove(path);
+  CHECK_THROWS_WITH(require_new_table(path, false), Catch::Contains("t.csv.json: already exists"));
+  CHECK_NOTHROW(require_new_table(path, true));
+  CHECK_THROWS_WITH(parse_metadata("[1]", "t.csv.json"),
+                    Catch::Contains("t.csv.json: expected an object of texts"));
+  CHECK_THROWS_WITH(parse_metadata("{\"a\": 1}", "t.csv.json"), Catch::Contains("t.csv.json.a: expected"));
 }
 
 TEST_CASE("table: a wrong delimiter is recognised") {
