@@ -16,7 +16,8 @@ constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
 // Scattered rows: a column that ends within this share of the highest specular1 counts as reaching it.
 constexpr double kSameReach = 0.9;
-// Widths that were measured apart by less than this share, a few units of the last digit that tables hold, are one.
+// Widths that were measured apart by less than this share, a few units of the last digit that tables hold,
+// are one.
 constexpr double kSameWidth = 1e-9;
 
 // Maps each alpha1 to its column.

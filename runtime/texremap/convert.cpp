@@ -186,8 +186,8 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
     print_json_end(outcome);
   else if (options.json)
     print_json(outcome);
-  const std::string of_all =
-      " of " + std::to_string(outcome.reports.size() + list.left_out.size()) + " sets ";
+  const std::size_t all = outcome.reports.size() + list.left_out.size();
+  const std::string of_all = " of " + std::to_string(all) + (all == 1 ? " set " : " sets ");
   if (const std::size_t failed = outcome.failed_count(); failed > 0)
     throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed");
   if (!list.left_out.empty() && !options.allow_skips)

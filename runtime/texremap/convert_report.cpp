@@ -202,20 +202,20 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
     return;
   }
   const MapStatistics& counts = report.statistics;
-  const auto line = [&](std::size_t count, const std::string& what) {
-    if (count > 0) print_message(program, place + std::to_string(count) + what);
+  const auto line = [&](std::size_t count, const std::string& what, const char* noun = "texel") {
+    if (count > 0) print_message(program, place + counted(count, noun) + what);
   };
   const std::string by = outcome.list.is_tree ? "" : " by " + converter_text(outcome.chosen);
   if (counts.texel_count == 0) print_message(program, place + "copied: " + files_text(report));
-  line(counts.texel_count, " texels in " + seconds_text(report.seconds) + by + ": " + files_text(report));
+  line(counts.texel_count, " in " + seconds_text(report.seconds) + by + ": " + files_text(report));
   if (!report.left_behind.empty()) print_message(program, place + left_behind_text(report));
   print_confidence(program, place, outcome.chosen, report);
-  line(counts.out_of_domain_count, " texels outside " + outside_text(outcome.chosen) +
+  line(counts.out_of_domain_count, " outside " + outside_text(outcome.chosen) +
                                        ": roughness clamped, specular extrapolated in proportion");
-  line(counts.nan_count, " texels with NaN" + first_text(counts));
-  line(counts.infinite_count, " texels with infinite values" + first_text(counts));
-  line(counts.negative_count, " texels with negative values" + first_text(counts));
-  line(counts.clipped_count, " values clipped to [0, 1] by an integer pixel type");
+  line(counts.nan_count, " with NaN" + first_text(counts));
+  line(counts.infinite_count, " with infinite values" + first_text(counts));
+  line(counts.negative_count, " with negative values" + first_text(counts));
+  line(counts.clipped_count, " clipped to [0, 1] by an integer pixel type", "value");
 }
 
 void print_colors(const std::string& program, const Outcome& outcome) {
@@ -275,7 +275,7 @@ void print_summary(const std::string& program, const Outcome& outcome) {
                      " failed";
   if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
   if (!outcome.dry_run)
-    text += "; " + std::to_string(texels) + " texels in " + seconds_text(outcome.seconds) + ", " +
+    text += "; " + counted(texels, "texel") + " in " + seconds_text(outcome.seconds) + ", " +
             seconds_text(outcome.used.processor_seconds) + " of processor time";
   print_message(program, text);
 }

@@ -126,7 +126,7 @@ TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
   const Words words = maps("r.exr", "s.exr") + "--json --force --bad-texels";
   const ProcessResult kept = require_success(convert(session, words + "keep"));
   CHECK(nlohmann::json::parse(kept.output)["first_bad"] == std::vector<int>{6, 4});
-  CHECK_THAT(kept.errors, Contains("1 texels with NaN; first bad texel: (6, 4)"));
+  CHECK_THAT(kept.errors, Contains("1 texel with NaN; first bad texel: (6, 4)"));
   CHECK(std::isnan(session.image("out/s.exr").at(6, 4, 1)));
 
   require_success(convert(session, words + "clamp"));

@@ -176,7 +176,7 @@ TEST_CASE("texremap nights: sets that are found and not converted make the exit 
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.errors, Contains("skipped: in/deep/Robot: no roughness or glossiness map"));
   CHECK_THAT(result.errors, Contains("Robot_ReflectionGlossiness.png holds the square of glossiness"));
-  CHECK_THAT(result.last_error(), Contains("1 of 1 sets skipped") && Contains("--allow-skips"));
+  CHECK_THAT(result.last_error(), Contains("1 of 1 set skipped") && Contains("--allow-skips"));
   Words allowed = words;
   allowed.push_back("--allow-skips");
   CHECK(tree.texremap(allowed).exit_code == 0);
