@@ -285,6 +285,12 @@ Environment environment_for_preview(const std::string& name_or_file, double expo
 }
 
 LitPreview make_lit_preview(const Fit& fit, const Environment& environment, const LitPreviewOptions& wanted) {
+  for (const ModelSide* side : {&fit.source, &fit.target})
+    if (const std::vector<ModelDescription> known = make_builtin_renderer()->models();
+        std::ranges::none_of(known, [&](const ModelDescription& own) { return own.name == side->model; }))
+      throw Error(ErrorKind::kUsage, "--environment: shows models of the built-in renderer only, and " +
+                                         side->model +
+                                         " is none (leave it out: a light shows models of workers, too)");
   LitPreviewOptions options = wanted;
   fill(fit.domain, &options);
   require_options(options);

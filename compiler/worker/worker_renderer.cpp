@@ -115,8 +115,8 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
 Image WorkerRenderer::render(const Material& material, const Scene& scene) const {
   require_material(material, model(material.model));
   if (scene.shape != Shape::kSphere && !description_.meshes)
-    throw Error(ErrorKind::kUsage,
-                "worker " + entry_.name + ": renders spheres only, not a " + shape_name(scene.shape));
+    throw Error(ErrorKind::kUsage, "worker " + entry_.name + ": renders spheres only, not a " +
+                                       shape_name(scene.shape) + " (use --shape sphere)");
   const PictureRequest request = picture_request(material, scene);
   const Turn turn(*this, request);
   std::optional<Image> image = cached(request);

@@ -149,7 +149,13 @@ bool FolderJobs::has_given_width(const FoundSet& set) const {
 }
 
 void FolderJobs::add(FoundSet set) {
-  const std::vector<std::string> notes = choose_maps(set, workflow_.sources(), options_.prefer, own_width());
+  std::vector<std::string> notes = choose_maps(set, workflow_.sources(), options_.prefer, own_width());
+  const bool is_metallic =
+      !uses(set, is<Role::kMetallic>).empty() && !uses(set, is<Role::kBaseColor>).empty();
+  if (is_metallic && !workflow_.is_material())
+    notes.push_back(
+        place(set) + ": has base color and metallic, which " + workflow_.source_brdf +
+        " does not take: its specular is not that of the material (--from metallic converts it whole)");
   if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
     set = of_diffuse_alone(std::move(set));
   if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
@@ -180,7 +186,8 @@ bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std
   if (const MapName* pattern = pattern_of(parameter)) {
     const fs::path file = root_ / set.folder / named_after(pattern->file, set, number);
     if (!is_file(file)) {
-      fail(job.name + ": no " + shown(file.filename()) + ", which " + parameter_option(parameter) + " names");
+      fail(shown(job.name) + ": no " + shown(file.filename()) + ", which " + parameter_option(parameter) +
+           " names");
       return false;
     }
     job.request.parameters[parameter].source = MapName{file, pattern->channels};
@@ -192,8 +199,9 @@ bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std
   const FoundMap& map = set.maps[use.map];
   const std::optional<fs::path> file = file_of(map, tile);
   if (!file) {
-    fail(job.name + (number.empty() ? "" : ", tile " + number) + ": no " + std::string(role_name(use.role)) +
-         " map found (" + shown(map.path.filename()) + " lacks this tile)");
+    fail(shown(job.name) + (number.empty() ? "" : ", tile " + number) + ": no " +
+         std::string(role_name(use.role)) + " map found (" + shown(map.path.filename()) +
+         " lacks this tile)");
     return false;
   }
   job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};
@@ -205,7 +213,7 @@ bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std
 
 void FolderJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::string>& notes) {
   const std::string number = tile == 0 ? "" : std::to_string(tile);
-  ConversionJob job{place(set),
+  ConversionJob job{(root_ / set.folder / set.name).string(),
                     number,
                     defaults_,
                     options_.output / set.folder,
@@ -351,7 +359,7 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
   }
   for (const auto& [number, present] : tiles) {
     ConversionJob job = whole_set;
-    job.name = shown(tiled.front().file);
+    job.name = tiled.front().file.string();
     job.tile = std::to_string(number);
     job.names.after = "." + tiled.front().number_text(number);
     const std::vector<fs::path*> files = files_of(job);

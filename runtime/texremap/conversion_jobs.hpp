@@ -17,7 +17,7 @@ namespace remap {
 
 // One set of single files: a texture set, or one tile of it.
 struct ConversionJob {
-  std::string name;  // of the set, for messages
+  std::string name;  // path of the set, as bytes; messages use shown()
   std::string tile;  // number of the tile; empty where the set has no tiles
   TextureSetRequest request;
   std::filesystem::path folder, diagnosis_folder;  // where the results go

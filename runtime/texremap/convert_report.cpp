@@ -8,6 +8,7 @@
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
+#include "sets/folder_walk.hpp"
 #include "texremap/converter_text.hpp"
 
 namespace remap {
@@ -185,7 +186,7 @@ void print_confidence(const std::string& program, const std::string& place, cons
 void print_job(const std::string& program, const Outcome& outcome, const JobReport& report,
                bool failures_only) {
   if (failures_only && !report.failure) return;
-  std::string place = report.name.empty() ? "" : report.name + ": ";
+  std::string place = report.name.empty() ? "" : shown(report.name) + ": ";
   if (!report.tiles.empty()) place += counted(report.tiles.size(), outcome.list.tile_noun) + ": ";
   if (!failures_only)
     for (const std::string& warning : report.warnings) print_message(program, "warning: " + warning);

@@ -15,6 +15,7 @@
 #include "core/stopwatch.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
+#include "sets/folder_walk.hpp"
 #include "texremap/conversion_hash.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/journal.hpp"
@@ -448,7 +449,7 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
         runner.run(list.jobs[i], advance, report);
       } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::kInput,
-                    (report.inputs.empty() ? report.name : report.inputs.front().string()) +
+                    (report.inputs.empty() ? remap::shown(report.name) : report.inputs.front().string()) +
                         ": out of memory (use fewer --threads)");
       }
     } catch (const Error& error) {

@@ -156,7 +156,7 @@ TEST_CASE("worker: another shape is sent as a mesh to a worker that accepts mesh
 
   const WorkerRenderer sphere_only(session.entry(), session.settings());
   CHECK_THROWS_WITH(sphere_only.render(fake_material(), scene),
-                    "worker fake: renders spheres only, not a torus");
+                    "worker fake: renders spheres only, not a torus (use --shape sphere)");
 }
 
 TEST_CASE("worker: materials are checked before a request") {
