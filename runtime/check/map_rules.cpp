@@ -261,12 +261,12 @@ void metallic_greys(const CheckedMaterial& material, const TargetReader*, const 
     const double share = share_of_grey_areas(*plane, texels.columns, texels.rows);
     constexpr double kShare = 0.05;
     if (share < kShare) return;
-    findings.push_back(
-        {rule.name, Confidence::kPossible, material.maps[use.map].shown, channel_text(use),
-         "metallic is between 0.15 and 0.85 over areas of " + percent(share) +
-             " of the map; materials are metal or not, and greys belong to edges",
-         "if it was made from a specular map, make it again from the original: texremap convert DIR --from "
-         "gltf-specgloss --to gltf -o mended"});
+    findings.push_back({rule.name, Confidence::kPossible, material.maps[use.map].shown, channel_text(use),
+                        "metallic is between 0.15 and 0.85 over areas of " + percent(share) +
+                            " of the map; materials are metal or not, and greys belong to edges",
+                        "if it was made from a specular map, make it again from the original maps: texremap "
+                        "convert FOLDER --from "
+                        "gltf-specgloss --to gltf -o mended"});
   });
 }
 

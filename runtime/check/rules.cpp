@@ -9,19 +9,19 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kSpecular = {"KHR_materials_specular"sv,
-                                  "KHR_materials_ior"sv,
-                                  "KHR_materials_clearcoat"sv,
-                                  "KHR_materials_sheen"sv,
-                                  "KHR_materials_transmission"sv,
-                                  "KHR_materials_volume"sv,
-                                  "KHR_materials_iridescence"sv,
-                                  "KHR_materials_anisotropy"sv,
-                                  "KHR_materials_dispersion"sv,
-                                  "KHR_materials_diffuse_transmission"sv,
-                                  "KHR_materials_pbrSpecularGlossiness"sv};
+constexpr std::array kExtensions = {"KHR_materials_specular"sv,
+                                    "KHR_materials_ior"sv,
+                                    "KHR_materials_clearcoat"sv,
+                                    "KHR_materials_sheen"sv,
+                                    "KHR_materials_transmission"sv,
+                                    "KHR_materials_volume"sv,
+                                    "KHR_materials_iridescence"sv,
+                                    "KHR_materials_anisotropy"sv,
+                                    "KHR_materials_dispersion"sv,
+                                    "KHR_materials_diffuse_transmission"sv,
+                                    "KHR_materials_pbrSpecularGlossiness"sv};
 // All but the last; each reader that ignores less takes a part of the list.
-constexpr std::span kAllButSpecGloss = std::span(kSpecular).first(10);
+constexpr std::span kAllButSpecGloss = std::span(kExtensions).first(10);
 constexpr std::array kThree = {"KHR_materials_pbrSpecularGlossiness"sv};
 constexpr std::array kUnreal = {"KHR_materials_volume"sv, "KHR_materials_iridescence"sv,
                                 "KHR_materials_anisotropy"sv, "KHR_materials_dispersion"sv,
@@ -35,14 +35,12 @@ constexpr std::array kUsd = {"KHR_materials_sheen"sv,
                              "KHR_materials_diffuse_transmission"sv};
 
 constexpr std::array<TargetReader, 6> kReaders = {{
-    {"gltf", "a reader of core glTF 2.0", kSpecular, false, false, "glTF 2.0, 3.12: extensions are optional"},
-    {"unity", "Unity (glTFast, Lit shader)", kAllButSpecGloss, true, false,
-     "Unity glTFast, features: materials; Unity manual, Lit shader: a metallic map replaces the slider"},
-    {"unreal", "Unreal Engine (Interchange)", kUnreal, false, true,
-     "Unreal Engine 5.4 API reference, GLTF::FAsset::SupportedExtensions"},
-    {"godot", "Godot 4", kAllButSpecGloss, false, false, "Godot issue 83320; class reference, GLTFSpecGloss"},
-    {"threejs", "three.js (GLTFLoader)", kThree, false, false, "three.js r147 removed the extension"},
-    {"usd", "UsdPreviewSurface", kUsd, false, false, "UsdPreviewSurface specification, inputs"},
+    {"gltf", "a reader of core glTF 2.0", kExtensions},
+    {"unity", "Unity (glTFast, Lit shader)", kAllButSpecGloss, true},
+    {"unreal", "Unreal Engine (Interchange)", kUnreal, false, true},
+    {"godot", "Godot 4", kAllButSpecGloss},
+    {"threejs", "three.js (GLTFLoader)", kThree},
+    {"usd", "UsdPreviewSurface", kUsd},
 }};
 
 constexpr std::array<Rule, 20> kRules = {{

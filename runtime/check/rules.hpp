@@ -28,14 +28,13 @@ struct MaterialFinding {
   std::string mend;     // a command, or an edit of the file
 };
 
-// A program that files are checked for.
+// A program that files are checked for, by its documentation (docs/check.md has the links).
 struct TargetReader {
   std::string_view name;
   std::string_view title;
   std::span<const std::string_view> ignored;  // extensions of glTF materials that it does not read
   bool ignores_factors_beside_maps = false;   // of metallic and roughness
   bool wants_directx_normals = false;
-  std::string_view source;  // where that is documented
 };
 // `gltf` (the core alone), `unity`, `unreal`, `godot`, `threejs`, `usd`.
 std::span<const TargetReader> target_readers();

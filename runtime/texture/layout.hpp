@@ -51,14 +51,13 @@ Layout as_inputs();
 // One file each for roughness, colors and carried parameters.
 Layout separate();
 
-// What an engine or tool takes.
+// What an engine or tool takes, by its documentation (docs/presets.md has the links).
 struct Preset {
   std::string_view name;
   std::string_view model;   // of `--to`; empty where `layout` is all that the name means
   std::string_view layout;  // as layout_from() reads it; empty: separate
   std::string_view format;  // extension; empty: that of the inputs
   std::optional<PixelType> type;
-  std::string_view source;  // where the names and channels are documented
 };
 // `unity`, `unreal`, ... and the plain layouts `as-inputs`, `separate`, `orm`, `arm`, `specgloss`.
 std::span<const Preset> presets();
