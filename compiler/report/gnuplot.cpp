@@ -4,42 +4,15 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include "core/files.hpp"
+#include "core/plain_text.hpp"
+#include "core/scratch_folder.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
 namespace {
-
-// A temporary folder for script and output.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "remapc-plot-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorKind::kOutput, name + ": cannot be created: " + std::strerror(errno));
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string file(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-// Quotes `text` as one word of the shell.
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-  return word + "'";
-}
 
 // Runs `gnuplot argument` and returns its exit code, or -1 if a signal ended it.
 int run(const std::string& argument, const std::string& output, const std::string& complaints) {
@@ -69,7 +42,7 @@ std::string complaint(const std::string& text) {
 }  // namespace
 
 void require_gnuplot() {
-  const ScratchFolder folder;
+  const ScratchFolder folder("remapc-plot");
   const int code = run("--version", folder.file("output"), folder.file("complaints"));
   if (code != 0)
     throw Error(ErrorKind::kOutput, "plot: gnuplot --version failed (" + std::to_string(code) +
@@ -85,7 +58,7 @@ std::string plot_style(int width, int height, bool is_png) {
 }
 
 void write_drawing(const std::filesystem::path& path, const std::string& script) {
-  const ScratchFolder folder;
+  const ScratchFolder folder("remapc-plot");
   write_file(folder.file("script"), script);
   const int code = run(folder.file("script"), folder.file("output"), folder.file("complaints"));
   const std::string complaints = read_file(folder.file("complaints"));

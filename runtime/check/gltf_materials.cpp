@@ -1,10 +1,8 @@
 // Materials of glTF 2.0 files (.gltf, .glb), with the extensions of Khronos that say what a surface reflects.
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <cstring>
 #include <string_view>
-#include <system_error>
 
 #include "check/material.hpp"
 #include "core/base64.hpp"
@@ -54,21 +52,11 @@ constexpr std::array<TexturePlace, 16> kPlaces = {{
      Channels::kRed, true},
 }};
 
-std::string from_base64(std::string_view text, const std::string& place) {
-  std::string bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (const char letter : text) {
-    if (letter == '=') break;
-    const std::size_t digit = kBase64Digits.find(letter);
-    if (digit == std::string_view::npos) throw input_error(place + ": is not base64");
-    group = group << 6 | static_cast<std::uint32_t>(digit);
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes += static_cast<char>(group >> bits & 0xffu);
-  }
-  return bytes;
+// The bytes of a data URI in base64, whose text begins at `begin`.
+std::string bytes_of_uri(std::string_view uri, std::size_t begin, const std::string& place) {
+  auto bytes = from_base64<std::string>(uri.substr(begin));
+  if (!bytes) throw input_error(place + ": is not base64");
+  return *std::move(bytes);
 }
 
 // `a b` of `a%20b`.
@@ -117,17 +105,6 @@ GltfFile read_gltf(const fs::path& file) {
   }
   if (parts.json.empty()) throw input_error(shown(file) + ": has no JSON chunk");
   return parts;
-}
-
-// A folder for images that are part of assets; it is removed with the last copy of the result.
-std::shared_ptr<const fs::path> embedded_folder() {
-  std::string name = (fs::temp_directory_path() / "texremap-check-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw output_error(name + ": a folder cannot be made there");
-  return {new fs::path(name), [](const fs::path* made) {
-            std::error_code ignored;
-            fs::remove_all(*made, ignored);
-            delete made;
-          }};
 }
 
 class GltfMaterials {
@@ -224,17 +201,17 @@ class GltfMaterials {
     if (uri != nullptr && uri->text() != nullptr) {
       const std::size_t comma = uri->text()->find(";base64,");
       if (comma == std::string::npos) return std::nullopt;
-      bytes = from_base64(std::string_view(*uri->text()).substr(comma + 8), place);
+      bytes = bytes_of_uri(*uri->text(), comma + 8, place);
     } else {
       bytes = bytes_of_view(*entry, place);
     }
-    if (!found_.embedded) found_.embedded = embedded_folder();
+    if (!found_.embedded) found_.embedded = std::make_shared<const ScratchFolder>("texremap-check");
     const std::string extension = bytes.starts_with("\x89PNG")    ? ".png"
                                   : bytes.starts_with("\xff\xd8") ? ".jpg"
                                                                   : ".webp";
     const fs::path file =
-        *found_.embedded / (std::to_string(found_.materials.size()) + "_" + file_.stem().string() + "_" +
-                            std::to_string(image) + extension);
+        found_.embedded->file(std::to_string(found_.materials.size()) + "_" + file_.stem().string() + "_" +
+                              std::to_string(image) + extension);
     write_file(file, bytes, Flush::kNo);
     return embedded_.emplace(image, file).first->second;
   }
@@ -251,7 +228,7 @@ class GltfMaterials {
     if (!text.starts_with("data:"))
       known->second = read_file(file_.parent_path() / without_percents(text), kLargestAsset);
     else if (comma != std::string::npos)
-      known->second = from_base64(std::string_view(text).substr(comma + 8), place);
+      known->second = bytes_of_uri(text, comma + 8, place);
     return known->second;
   }
 

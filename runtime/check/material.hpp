@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scratch_folder.hpp"
 #include "sets/naming.hpp"
 #include "texture/image_layout.hpp"
 
@@ -94,7 +95,7 @@ struct FoundMaterials {
   std::vector<CheckedMaterial> materials;
   std::vector<std::string> problems;  // a message for each file or folder that cannot be read
   // Keeps images that are part of assets on disk while the materials are in use.
-  std::shared_ptr<const std::filesystem::path> embedded;
+  std::shared_ptr<const ScratchFolder> embedded;
 };
 
 // The materials of a folder, of a glTF or MTL file, or of a map alone. Throws kInput if `path` does not

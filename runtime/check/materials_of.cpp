@@ -85,17 +85,11 @@ void remove_used_by_assets(FoundMaterials& found) {
 void add_folder(const fs::path& folder, const Naming& naming, FoundMaterials& found) {
   DiscoveryOptions options;
   options.naming = &naming;
+  options.also = {"gltf", "glb", "mtl"};
   const Discovery discovery = find_sets(folder, options);
   for (const WalkProblem& problem : discovery.problems) found.problems.push_back(problem.message);
   for (const FoundSet& set : discovery.sets) add_set(folder, set, found);
-  std::vector<fs::path> assets;
-  std::error_code failure;
-  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failure),
-       end;
-       !failure && at != end; at.increment(failure))
-    if (is_asset(at->path()) && at->is_regular_file(failure)) assets.push_back(at->path());
-  std::ranges::sort(assets);
-  for (const fs::path& asset : assets) add_asset(asset, found);
+  for (const fs::path& asset : discovery.others) add_asset(folder / asset, found);
   remove_used_by_assets(found);
   add_neighbours(found);
   std::erase_if(found.materials, [](const CheckedMaterial& material) {

@@ -107,17 +107,6 @@ bool is_data_role(Role role) {
          role == Role::kHeight || role == Role::kCavity;
 }
 
-std::string shell_word(const std::string& text) {
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./=,:%+@").find(c) != std::string_view::npos;
-  };
-  if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string width_command(const CheckedMaterial& material, std::string_view encoding) {
   const bool is_specular = std::ranges::any_of(material.uses, [](const MaterialUse& use) {
     return use.role == Role::kSpecular || use.role == Role::kGlossiness;

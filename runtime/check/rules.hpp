@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "check/material.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 
@@ -63,8 +64,6 @@ Look factor_zero, factor_ignored, index_of_refraction, ignored_by_reader, expone
 // Base color, diffuse, specular; and what is stored as it is: widths, metallic, occlusion, normals, heights.
 bool is_color_role(Role role);
 bool is_data_role(Role role);
-// A word of the shell, in quotes where it needs them.
-std::string shell_word(const std::string& text);
 // A command that rewrites the roughness of a material from what its maps hold.
 std::string width_command(const CheckedMaterial& material, std::string_view encoding);
 

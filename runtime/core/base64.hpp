@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,27 @@ std::string base64(const Bytes& bytes) {
     for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kBase64Digits[group >> (18 - 6 * k) & 63u] : '=';
   }
   return text;
+}
+
+// The bytes of a text; none where a letter is no digit. Padding counts at the end of whole groups alone, and
+// may be missing.
+template <typename Bytes>
+std::optional<Bytes> from_base64(std::string_view text) {
+  if (text.size() % 4 == 0 && text.ends_with('=')) text.remove_suffix(text.ends_with("==") ? 2 : 1);
+  Bytes bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  std::uint32_t group = 0;
+  int bits = 0;
+  for (const char letter : text) {
+    const std::size_t digit = kBase64Digits.find(letter);
+    if (digit == std::string_view::npos) return std::nullopt;
+    group = group << 6 | static_cast<std::uint32_t>(digit);
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes.push_back(static_cast<typename Bytes::value_type>(group >> bits & 255u));
+  }
+  return bytes;
 }
 
 }  // namespace remap

@@ -19,4 +19,7 @@ bool is_plain_text(std::string_view text);
 // cut to at most `longest` bytes, the last three of which are `...` where something is missing.
 std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
 
+// `text` as one word of the shell, in quotes where it needs them.
+std::string shell_word(const std::string& text);
+
 }  // namespace remap

@@ -31,6 +31,11 @@ inline std::string padded_left(const std::string& text, std::size_t width) {
 // A share as `12 %`, rounded to two digits.
 inline std::string percent(double share) { return number_text(rounded(100.0 * share, 2)) + " %"; }
 
+// `1 set`, `2 sets`.
+inline std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 // `0.1, 0.2`.
 inline std::string listed(const std::vector<double>& values) {
   std::string text;

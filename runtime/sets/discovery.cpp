@@ -173,6 +173,7 @@ Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
   Walk walk = walk_images(root, options);
   Discovery discovery;
   discovery.problems = std::move(walk.problems);
+  discovery.others = std::move(walk.others);
   for (const ImageFolder& folder : walk.folders)
     add_sets(folder, folder.path.empty() ? last_name(root) : folder.path.filename().string(), naming,
              discovery);
@@ -182,6 +183,7 @@ Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
                    [&](const FoundSet& a, const FoundSet& b) { return key(a) < key(b); });
   const auto bytes = [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); };
   std::sort(discovery.unrecognised.begin(), discovery.unrecognised.end(), bytes);
+  std::sort(discovery.others.begin(), discovery.others.end(), bytes);
   std::sort(discovery.problems.begin(), discovery.problems.end(),
             [&](const WalkProblem& a, const WalkProblem& b) { return bytes(a.path, b.path); });
   return discovery;

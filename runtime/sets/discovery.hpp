@@ -65,6 +65,7 @@ struct DiscoveryOptions : WalkOptions {
 struct Discovery {
   std::vector<FoundSet> sets;                       // by folder and name, by bytes
   std::vector<std::filesystem::path> unrecognised;  // images that no habit matches; tiles as one pattern
+  std::vector<std::filesystem::path> others;        // files of WalkOptions::also, by bytes
   std::vector<WalkProblem> problems;                // folders and files that could not be read
 };
 

@@ -18,18 +18,22 @@ namespace {
 constexpr std::array<std::string_view, 11> kExtensions = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
                                                           "tga", "bmp", "hdr",  "tx",  "webp"};
 
-bool is_image_name(std::string_view name) {
+// Without the dot, in lower case; empty for none.
+std::string extension_of(std::string_view name) {
   const std::size_t dot = name.rfind('.');
-  if (dot == std::string_view::npos || dot == 0) return false;
-  const std::string extension = lower(name.substr(dot + 1));
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+  return dot == std::string_view::npos || dot == 0 ? "" : lower(name.substr(dot + 1));
+}
+
+bool holds(const auto& extensions, const std::string& extension) {
+  return std::ranges::find(extensions, extension) != extensions.end();
 }
 
 using FolderIdentity = std::pair<dev_t, ino_t>;
 
 class Walker {
  public:
-  Walker(const fs::path& root, const WalkOptions& options) : root_(root), recursive_(options.recursive) {
+  Walker(const fs::path& root, const WalkOptions& options)
+      : root_(root), recursive_(options.recursive), also_(options.also) {
     for (const fs::path& folder : options.excluded) {
       struct stat status {};
       if (::stat(folder.c_str(), &status) == 0) visited_.insert({status.st_dev, status.st_ino});
@@ -90,9 +94,12 @@ class Walker {
     const fs::file_status status = entry.status(failure);
     if (fs::is_directory(status)) {
       if (recursive_) (link ? links_ : folders_).insert(relative.string());
-    } else if (is_image_name(name)) {
-      if (fs::is_regular_file(status))
+    } else if (const std::string extension = extension_of(name);
+               holds(kExtensions, extension) || holds(also_, extension)) {
+      if (fs::is_regular_file(status) && holds(kExtensions, extension))
         folder.images.push_back(name);
+      else if (fs::is_regular_file(status))
+        walk_.others.push_back(relative);
       else if (failure || !fs::exists(status))
         add_problem(relative, failure ? failure.message() : "the link has no target");
       else
@@ -107,6 +114,7 @@ class Walker {
 
   fs::path root_;
   bool recursive_ = true;
+  const std::vector<std::string>& also_;
   bool root_was_read_ = false;
   std::set<FolderIdentity> visited_;
   std::set<std::string> folders_;  // not yet visited

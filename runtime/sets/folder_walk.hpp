@@ -14,6 +14,7 @@ std::string shown(const std::filesystem::path& path);
 struct WalkOptions {
   bool recursive = true;
   std::vector<std::filesystem::path> excluded;  // folders to skip, such as the one for results
+  std::vector<std::string> also;  // further extensions, without dot, of files that are listed apart
 };
 
 struct ImageFolder {
@@ -28,7 +29,9 @@ struct WalkProblem {
 };
 
 struct Walk {
-  std::vector<ImageFolder> folders;   // folders with images, in any order
+  std::vector<ImageFolder> folders;  // folders with images, in any order
+  std::vector<std::filesystem::path>
+      others;                         // files with an extension of `also`, relative to the root, in any order
   std::vector<WalkProblem> problems;  // in any order
 };
 

@@ -19,23 +19,9 @@ constexpr const char* kCopied = "copied";
 std::vector<std::uint8_t> read_base64(const Field& field) {
   const std::string text = field.text();
   field.require(text.size() % 4 == 0, "base64 in whole groups of four");
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  for (std::size_t i = 0; i < text.size(); i += 4) {
-    std::uint32_t group = 0;
-    std::size_t count = 3;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const bool pads =
-          text[i + k] == '=' && i + 4 == text.size() && (k == 3 || (k == 2 && text[i + 3] == '='));
-      const std::size_t digit = pads ? 0 : kBase64Digits.find(text[i + k]);
-      field.require(digit != std::string_view::npos, "base64 (A-Z a-z 0-9 + /)");
-      if (pads) --count;
-      group = group << 6 | static_cast<std::uint32_t>(digit);
-    }
-    for (std::size_t k = 0; k < count; ++k)
-      bytes.push_back(static_cast<std::uint8_t>(group >> (16 - 8 * k) & 255u));
-  }
-  return bytes;
+  auto bytes = from_base64<std::vector<std::uint8_t>>(text);
+  field.require(bytes.has_value(), "base64 (A-Z a-z 0-9 + /)");
+  return *std::move(bytes);
 }
 
 // The lowest byte of each number first.

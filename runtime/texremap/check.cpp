@@ -8,12 +8,14 @@
 
 #include "check/rules.hpp"
 #include "command_line/command.hpp"
+#include "command_line/help_text.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/parallel.hpp"
+#include "core/report_text.hpp"
 #include "sets/naming.hpp"
 #include "texremap/commands.hpp"
 
@@ -83,22 +85,10 @@ Json finding_json(const MaterialFinding& finding) {
           {"message", finding.message}, {"mend", finding.mend}};
 }
 
-// `text` in lines of at most `width` letters that begin with `before`.
-std::string wrapped(std::string_view text, std::size_t width, const std::string& before) {
-  std::string result;
-  while (!text.empty()) {
-    std::size_t end = text.size() <= width ? text.size() : text.rfind(' ', width);
-    if (end == std::string_view::npos) end = text.size();
-    result += before + std::string(text.substr(0, end)) + "\n";
-    text.remove_prefix(std::min(text.size(), end + 1));
-  }
-  return result;
-}
-
 void check(const CheckOptions& options) {
   const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
   FoundMaterials found;
-  std::vector<std::shared_ptr<const std::filesystem::path>> embedded;
+  std::vector<std::shared_ptr<const ScratchFolder>> embedded;
   for (const std::filesystem::path& path : options.paths) {
     FoundMaterials own = materials_of(path, naming);
     std::ranges::move(own.materials, std::back_inserter(found.materials));
@@ -138,9 +128,6 @@ void check(const CheckOptions& options) {
   }
   json["maps"] = maps;
   if (options.json) std::cout << json.dump(2) << '\n';
-  const auto counted = [](std::size_t n, const std::string& noun) {
-    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
-  };
   const std::string all = counted(looked.size(), "material") + ", " + counted(maps, "map");
   if (count > 0 || !problems.empty())
     throw input_error(all + ": " + counted(count, "finding") +
@@ -166,7 +153,7 @@ void add_check_command(Command& app) {
   command->add_flag("--quiet", options.quiet, "Print nothing but findings and errors");
   std::string text = "The exit code is 1 if anything looks wrong. Rules:\n";
   for (const Rule& rule : rules())
-    text += "  " + std::string(rule.name) + "\n" + wrapped(rule.sees, 73, "      ");
+    text += "  " + std::string(rule.name) + "\n      " + wrapped(rule.sees, 6) + "\n";
   command->footer(text + "\nExample:\n  texremap check assets\n  texremap check model.glb --for godot");
 }
 

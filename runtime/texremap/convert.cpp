@@ -198,9 +198,10 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
 }
 
 void convert(ConvertOptions options) {
-  std::optional<Discovery> sets = discovered_sets(options);
+  std::optional<Discovery> sets;
   std::string told;
   if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
+    sets = discovered_sets(options);
     const ToldSource source = told_source(options, sets);
     options.from = model_name().read("--from", source.model);
     told = source.note;
@@ -219,6 +220,7 @@ void convert(ConvertOptions options) {
            ": applies to nothing, because all maps are numbers (give a file, or remove this option)");
     convert_values(options, chosen, request);
   } else {
+    if (!sets) sets = discovered_sets(options);
     convert_maps_of(options, chosen, request, std::move(sets));
   }
 }

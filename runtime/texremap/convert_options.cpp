@@ -4,6 +4,7 @@
 
 #include "core/number_text.hpp"
 #include "remap/error.hpp"
+#include "sets/name_pieces.hpp"
 #include "texremap/commands.hpp"
 
 namespace remap {
@@ -103,9 +104,7 @@ Reader<std::vector<ColorSpaceWord>> color_spaces() {
 Reader<ModelName> model_name() {
   return {[](const std::string&, const std::string& word) -> ModelName {
             if (const ModelAlias* alias = find_alias(word)) return {std::string(alias->model), alias};
-            std::string small = word;
-            for (char& letter : small)
-              if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+            const std::string small = lower(word);
             return {find_workflow_model(small) != nullptr ? small : word, nullptr};
           },
           {}};

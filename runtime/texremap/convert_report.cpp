@@ -60,10 +60,6 @@ std::string first_text(const MapStatistics& counts) {
          std::to_string(counts.first_bad->y) + ")";
 }
 
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string seconds_text(double seconds) { return fixed(seconds, 2) + " s"; }
 
 std::string files_text(const JobReport& report) {

@@ -1,0 +1,37 @@
+// A folder for files that nobody needs after the work.
+#pragma once
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdlib.h>
+#include <string>
+
+#include "core/errors.hpp"
+
+namespace remap {
+
+// Made in the system's folder for such files, as `PREFIX-XXXXXX`; removed with all that is in it. The
+// constructor throws kOutput where it cannot be made.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const std::string& prefix) {
+    std::string name = (std::filesystem::temp_directory_path() / (prefix + "-XXXXXX")).string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw output_error(name + ": cannot be created: " + std::strerror(errno));
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace remap
