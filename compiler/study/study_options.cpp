@@ -45,6 +45,7 @@ void add_sampling_options(Command& app, SphereSampling& sampling) {
 void add_output_options(Command& app, OutputOptions& options, unsigned& jobs, const OutputTexts& texts) {
   app.add_option("-o,--output", options.folder, texts.folder);
   app.add_flag("--pictures", options.pictures, texts.pictures);
+  app.add_flag("--force", options.force, "Overwrite results that exist");
   app.add_option("--jobs", jobs, "Number of threads; 0: one per core. " + texts.jobs);
   app.add_flag("--json", options.json, texts.json);
   app.add_flag("--quiet", options.quiet, "Do not show progress");
@@ -61,8 +62,10 @@ void require_folder_for_pictures(const OutputOptions& options) {
     throw Error(ErrorKind::kUsage, "--pictures requires -o FOLDER");
 }
 
-void create_folder(const OutputOptions& options) {
-  if (!options.folder.empty()) create_parent(options.folder / "results");
+void prepare_folder(const OutputOptions& options, const std::string& name) {
+  if (options.folder.empty()) return;
+  create_parent(options.folder / "results");
+  require_new(options.folder / (name + ".csv"), options.force);  // every study writes this table
 }
 
 std::vector<std::string> write_report(const OutputOptions& options, const StudyReport& report) {

@@ -29,7 +29,7 @@ std::vector<Environment> read_environments(const EnvironmentOptions& options);
 
 struct OutputOptions {
   std::filesystem::path folder;  // of the results; empty: write nothing
-  bool pictures = false, json = false, quiet = false;
+  bool pictures = false, force = false, json = false, quiet = false;
 };
 
 // Help texts that differ between the studies.
@@ -40,7 +40,8 @@ struct OutputTexts {
 // Adds `--resolution` and `--samples`. `sampling` must outlive the parsing.
 void add_sampling_options(Command& app, SphereSampling& sampling);
 
-// Adds `-o`, `--pictures`, `--jobs`, `--json` and `--quiet`. `options` and `jobs` must outlive the parsing.
+// Adds `-o`, `--pictures`, `--force`, `--jobs`, `--json` and `--quiet`. `options` and `jobs` must outlive the
+// parsing.
 void add_output_options(Command& app, OutputOptions& options, unsigned& jobs, const OutputTexts& texts);
 
 // The folder of fits that the user named, else the default; empty if that does not exist.
@@ -49,13 +50,14 @@ std::filesystem::path fit_folder_of(const std::filesystem::path& given);
 // Throws kUsage if pictures are wanted without an output folder.
 void require_folder_for_pictures(const OutputOptions& options);
 
-// Creates the output folder. Throws kOutput if that fails.
-void create_folder(const OutputOptions& options);
+// Creates the output folder for the results of the study `name`. Throws kOutput if that fails, or if results
+// of it are there that `--force` does not give up.
+void prepare_folder(const OutputOptions& options, const std::string& name);
 
 // Runs `study` until it ends or is interrupted, and prints its progress under `name`.
 template <typename Options, typename Study>
 auto run_study(const std::string& name, Options& options, const OutputOptions& output, const Study& study) {
-  create_folder(output);
+  prepare_folder(output, name);
   watch_interruptions();
   Progress progress(name, progress_steps(options), !output.quiet);
   options.progress = [&] { progress.advance(); };

@@ -10,10 +10,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/plain_text.hpp"
 #include "remap/model.hpp"
 
 namespace CLI {
@@ -60,16 +62,25 @@ Reader<Value> one_of(const NamedValues<Value, Count>& table, const std::string& 
           names_of(table)};
 }
 
+// One of the entries of `table`, which lives as long as the program, by their field `name`.
+template <typename Entry>
+Reader<const Entry*> one_of(std::span<const Entry> table, const std::string& noun) {
+  std::vector<std::string> known;
+  for (const Entry& entry : table) known.emplace_back(entry.name);
+  return {[table, noun, known](const std::string& option, const std::string& word) {
+            const auto found = std::ranges::find(table, word, &Entry::name);
+            if (found == table.end()) fail_unknown(option, noun, word, known);
+            return &*found;
+          },
+          known};
+}
+
 // A list of what `item` reads, separated by commas.
 template <typename Value>
 Reader<std::vector<Value>> list_of(const Reader<Value>& item) {
   return {[read = item.read](const std::string& option, const std::string& words) {
             std::vector<Value> all;
-            for (std::size_t begin = 0; begin <= words.size();) {
-              const std::size_t end = std::min(words.find(',', begin), words.size());
-              all.push_back(read(option, words.substr(begin, end - begin)));
-              begin = end + 1;
-            }
+            for (const std::string& word : parts_between(words, ',')) all.push_back(read(option, word));
             return all;
           },
           item.choices};

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace remap {
 
@@ -18,6 +19,9 @@ bool is_plain_text(std::string_view text);
 // `text` with every byte and character that is_plain_text() refuses written as an escape (`\x1b`, `\u202e`),
 // cut to at most `longest` bytes, the last three of which are `...` where something is missing.
 std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
+
+// The parts of `text` between separators; one more than there are separators, so parts may be empty.
+std::vector<std::string> parts_between(std::string_view text, char separator);
 
 // `text` as one word of the shell, in quotes where it needs them.
 std::string shell_word(const std::string& text);

@@ -32,17 +32,6 @@ struct CheckOptions {
   bool quiet = false;
 };
 
-Reader<const TargetReader*> target_reader() {
-  std::vector<std::string> known;
-  for (const TargetReader& reader : target_readers()) known.emplace_back(reader.name);
-  return {[known](const std::string& option, const std::string& word) -> const TargetReader* {
-            for (const TargetReader& reader : target_readers())
-              if (reader.name == word) return &reader;
-            fail_unknown(option, "reader", word, known);
-          },
-          known};
-}
-
 Reader<std::vector<std::string>> rule_names() {
   std::vector<std::string> known;
   for (const Rule& rule : rules()) known.emplace_back(rule.name);
@@ -143,7 +132,7 @@ void add_check_command(Command& app) {
   CheckOptions& options = set_work<CheckOptions>(*command, check);
   command->add_option("PATH", options.paths, "Folders of texture sets and assets, glTF and MTL files, maps")
       ->required();
-  command->add_option("--for NAME", options.reader, target_reader(),
+  command->add_option("--for NAME", options.reader, one_of(target_readers(), "reader"),
                       "Also name what this reader ignores or takes otherwise");
   command->add_option("--ignore RULES", options.ignored, rule_names(),
                       "Rules to leave out, with commas between");

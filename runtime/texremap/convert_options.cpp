@@ -35,18 +35,6 @@ Reader<Layout> layout() {
           known};
 }
 
-Reader<const Preset*> preset() {
-  std::vector<std::string> known;
-  for (const Preset& preset : presets())
-    if (!preset.model.empty()) known.emplace_back(preset.name);
-  return {[known](const std::string& option, const std::string& word) -> const Preset* {
-            for (const Preset& preset : presets())
-              if (!preset.model.empty() && preset.name == word) return &preset;
-            fail_unknown(option, "preset", word, known);
-          },
-          known};
-}
-
 Reader<InstructionSet> instructions() {
   return {[](const std::string& option, const std::string& word) {
             return instruction_set_from_name(option, word);
@@ -191,7 +179,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
                   "Albedo=base_color' (default: as-inputs; separate between workflows)")
       ->tag(kChangesResults | kNeedsFiles);
   command
-      .add_option("--preset NAME", options.preset, preset(),
+      .add_option("--preset NAME", options.preset, one_of(engine_presets(), "preset"),
                   "Write what a tool takes: --to, --layout, --format and --type at once, where these are not "
                   "given")
       ->tag(kChangesResults | kNeedsFiles);

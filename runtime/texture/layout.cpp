@@ -5,6 +5,7 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -13,6 +14,7 @@ namespace {
 constexpr auto kRoughness = RoughnessConvention::kRoughness, kGlossiness = RoughnessConvention::kGlossiness;
 constexpr auto kEightBits = PixelType::kUint8;
 
+constexpr std::size_t kPlainLayouts = 5;  // the first presets
 constexpr std::array<Preset, 14> kPresets = {{
     {"as-inputs", "", "", "", {}},
     {"separate", "", "", "", {}},
@@ -62,16 +64,6 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(' ') - begin + 1));
 }
 
-std::vector<std::string> split(std::string_view text, char between) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(between, begin), text.size());
-    words.push_back(trimmed(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return words;
-}
-
 std::size_t channels_of(const LayoutContent& content) {
   const auto* own = std::get_if<LayoutParameter>(&content);
   return own != nullptr && is_color(own->parameter) ? 3 : 1;
@@ -86,8 +78,8 @@ LayoutFile file_from(const std::string& option, const std::string& text) {
                                        "' is no file of a layout (write NAME=CONTENT,..., as orm="
                                        "occlusion,roughness,metallic)");
   std::size_t channels = 0;
-  for (const std::string& word : split(std::string_view(text).substr(sign + 1), ',')) {
-    file.content.push_back(content_of(option, file.name, word));
+  for (const std::string& word : parts_between(std::string_view(text).substr(sign + 1), ',')) {
+    file.content.push_back(content_of(option, file.name, trimmed(word)));
     channels += channels_of(file.content.back());
   }
   if (channels != 1 && channels != 3 && channels != 4)
@@ -100,9 +92,9 @@ Layout layout_in(const std::string& option, const std::string& name, std::string
   Layout layout;
   layout.name = name;
   layout.keeps_names = name == "as-inputs";
-  if (!text.empty())
-    for (const std::string& file : split(text, ';'))
-      if (!file.empty()) layout.files.push_back(file_from(option, file));
+  for (const std::string& part : parts_between(text, ';'))
+    if (const std::string file = trimmed(part); !file.empty())
+      layout.files.push_back(file_from(option, file));
   for (const LayoutFile& file : layout.files)
     for (const LayoutContent& content : file.content)
       if (const auto* own = std::get_if<LayoutParameter>(&content); own != nullptr && own->width) {
@@ -148,6 +140,8 @@ Layout as_inputs() { return {"as-inputs", true, {}}; }
 Layout separate() { return {"separate", false, {}}; }
 
 std::span<const Preset> presets() { return kPresets; }
+
+std::span<const Preset> engine_presets() { return presets().subspan(kPlainLayouts); }
 
 Layout layout_from(const std::string& option, const std::string& text) {
   if (text.find('=') != std::string::npos) return layout_in(option, text, text);

@@ -61,6 +61,8 @@ struct Preset {
 };
 // `unity`, `unreal`, ... and the plain layouts `as-inputs`, `separate`, `orm`, `arm`, `specgloss`.
 std::span<const Preset> presets();
+// Those of them that name a model.
+std::span<const Preset> engine_presets();
 
 // A layout by the name of a preset, or in words: `MaskMap=metallic,occlusion,0,smoothness; Albedo=base_color`
 // lists files and, by channel, what they hold: roughness, glossiness or smoothness, metallic, occlusion,

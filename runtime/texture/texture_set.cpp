@@ -8,6 +8,7 @@
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -26,23 +27,13 @@ std::string listed(std::span<const std::string> names) {
   return text;
 }
 
-std::vector<std::string> split_at_commas(std::string_view text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    parts.emplace_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
-
 // The size from which a remark is made about an image that cannot be streamed.
 constexpr std::size_t kWholeImageWorthSaying = std::size_t{64} << 20;
 
 // None if one of the parts is not a number.
 std::optional<std::vector<float>> numbers(std::string_view text) {
   std::vector<float> values;
-  for (const std::string& part : split_at_commas(text)) {
+  for (const std::string& part : parts_between(text, ',')) {
     const auto number = parse_number(part);
     if (!number) return std::nullopt;
     values.push_back(static_cast<float>(*number));
@@ -312,7 +303,7 @@ std::variant<MapName, ConstantValues> parameter_source(std::string_view option, 
   if (colon == std::string_view::npos || colon == 0 || text.find('/', colon) != std::string_view::npos ||
       fs::exists(fs::path(text), none))
     return MapName{fs::path(text), {}};
-  const std::vector<std::string> channels = split_at_commas(text.substr(colon + 1));
+  const std::vector<std::string> channels = parts_between(text.substr(colon + 1), ',');
   const bool named = std::none_of(channels.begin(), channels.end(), [](auto& name) { return name.empty(); });
   if (!named || (channels.size() != 1 && channels.size() != 3))
     throw Error(ErrorKind::kUsage, std::string(option) + ": invalid channels in '" + std::string(text) +

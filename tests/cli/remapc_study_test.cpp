@@ -61,6 +61,9 @@ TEST_CASE("remap-study environments: writes tables and a summary", "[needs][slow
   check_plot(session, result, "environments.svg");
   for (const std::string name : {"sky", "overcast", "studio"})
     CHECK(contrast(session.path("study/spheres_" + name + ".png")) > 0.5f);
+  check_failure(session.study(small_study("-o study")), 1,
+                "study/environments.csv: already exists (--force overwrites)", "remap-study");
+  require_success(session.study(small_study("-o study --force")));
 }
 
 TEST_CASE("remap-study environments: --json has the means of each method and pair", "[slow]") {

@@ -113,6 +113,12 @@ TEST_CASE("parse JSON: a message does not repeat a text without end") {
                     "x.json: has 64 MB of JSON; at most 64 MB are read");
 }
 
+TEST_CASE("text: parts between separators may be empty") {
+  CHECK(parts_between("a,,b", ',') == std::vector<std::string>{"a", "", "b"});
+  CHECK(parts_between("", ',') == std::vector<std::string>{""});
+  CHECK(parts_between("a;", ';') == std::vector<std::string>{"a", ""});
+}
+
 TEST_CASE("JSON field: texts and names of fields hold no control characters") {
   for (const std::string bad : {"a\\nb", "a\\u0000b", "a\\u202eb", "a\\u0085b"}) {
     const auto json = parse_json("{\"text\": \"" + bad + "\", \"map\": {\"" + bad + "\": \"x\"}}", "x.json");
