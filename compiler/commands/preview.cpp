@@ -22,7 +22,7 @@ struct PreviewCommand {
   std::string fit;
   std::filesystem::path fit_folder, output;
   PreviewOptions options;
-  bool force = false, json = false;
+  bool bare = false, force = false, json = false;
   RendererOptions renderers;
   std::string environment;  // empty: one light
   double exposure = 1.0;
@@ -73,7 +73,8 @@ void print_figures(const std::vector<LitFigure>& figures) {
 
 // Writes and prints a preview of either kind.
 void report(const PreviewCommand& command, const Fit& fit, const auto& preview) {
-  if (!command.output.empty()) write_png(command.output, preview.sheet);
+  if (!command.output.empty())
+    write_png(command.output, command.bare ? preview.sheet : labelled(preview.sheet, preview.labels));
   if (!command.json) {
     std::cout << fit.source.model << " -> " << fit.target.model
               << (command.environment.empty() ? "" : " under " + command.environment) << ", specular";
@@ -146,6 +147,7 @@ void add_preview_command(Command& app) {
   command->add_option(
       "-o,--output FILE", options.output,
       "PNG to write: a column per alpha; source, conversion, and their difference times four");
+  command->add_flag("--no-labels", options.bare, "Write the pictures alone, without names and numbers");
   add_force_flag(*command, options.force);
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->option_group("Materials and pictures");

@@ -106,6 +106,20 @@ void fill(const Domain& domain, PreviewMaterials* options) {
   if (options->specular.empty()) options->specular = {0.5 * domain.specular.max};
 }
 
+std::string short_number(double value) { return number_text(rounded(value, 3)); }
+
+std::string short_list(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + short_number(value);
+  return text;
+}
+
+// The numbers of a source and of its conversion, a line each.
+std::string numbers_label(const std::vector<double>& specular, const PreviewedMaterial& material) {
+  return "alpha " + short_number(material.alpha) + "\n-> " + short_number(material.target_alpha) +
+         "\nspecular " + short_list(specular) + "\n-> " + short_list(material.target_specular);
+}
+
 constexpr std::size_t kColumns = 3;  // source, copied, converted
 
 // Background on each side of a picture, pixels.
@@ -252,9 +266,13 @@ Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOpti
   preview.sheet = contact_sheet(kRowsAShape * options.shapes.size(), options.alphas.size(), side);
   for (std::size_t s = 0; s < options.shapes.size(); ++s) {
     const Scene scene{side, options.samples_per_axis, options.light, 0, options.shapes[s]};
+    for (const std::string& row : {"source\n" + fit.source.model, "conversion\n" + fit.target.model,
+                                   "difference x " + short_number(kDifferenceGain)})
+      preview.labels.rows.push_back(shape_name(scene.shape) + "\n" + row);
     const std::vector<std::uint32_t> pixels = shape_pixels(scene.shape, side);
     for (std::size_t a = 0; a < options.alphas.size(); ++a) {
       PreviewFigure figure{converted(fit, options.specular, options.alphas[a]), scene.shape};
+      if (s == 0) preview.labels.columns.push_back(numbers_label(options.specular, figure));
       const Colors before =
           photograph(renderer, source, material_of(source, figure.alpha, options.specular), scene, pixels);
       const Colors after = photograph(
@@ -294,13 +312,18 @@ LitPreview make_lit_preview(const Fit& fit, const Environment& environment, cons
   LitPreviewOptions options = wanted;
   fill(fit.domain, &options);
   require_options(options);
-  LitPreview preview{options.specular, {}, contact_sheet(options.alphas.size(), kColumns, cell_of(options))};
+  LitPreview preview{
+      options.specular,
+      {},
+      contact_sheet(options.alphas.size(), kColumns, cell_of(options)),
+      {{"source\n" + fit.source.model, "copied\n" + fit.target.model, "converted\n" + fit.target.model}, {}}};
   const RadiancePyramid pyramid(std::span(&environment, 1));
   SphereSampling sampling;
   sampling.resolution = options.resolution * options.samples_per_axis;
   sampling.samples = options.directions;
   for (const double alpha : options.alphas) {
     preview.figures.push_back({converted(fit, options.specular, alpha), {}, {}});
+    preview.labels.rows.push_back(numbers_label(options.specular, preview.figures.back()));
     const SpherePictures pictures =
         render_spheres(pyramid, materials_of(fit, options, preview.figures.back()), sampling);
     show_row(pictures, options, preview.figures.size() - 1, &preview);

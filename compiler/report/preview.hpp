@@ -10,6 +10,7 @@
 #include "lower/fit.hpp"
 #include "renderer/renderer.hpp"
 #include "report/environment.hpp"
+#include "report/sheet_labels.hpp"
 
 namespace remap {
 
@@ -64,6 +65,7 @@ struct Preview {
   // One column for each alpha; for each shape one row of the source, one of the conversion and one of four
   // times their difference.
   Image sheet;
+  SheetLabels labels;  // models, and the numbers of source and conversion
 };
 
 // Four alphas in a geometric sequence over the part of 0.1 to 0.7 that the domain covers.
@@ -79,6 +81,7 @@ struct LitPreview {
   std::vector<LitFigure> figures;  // by alpha
   Image sheet;  // a row for each alpha; columns: source, numbers copied, numbers converted; a margin of a
                 // twentieth of the resolution around each picture
+  SheetLabels labels;
 };
 
 // The built-in environment of this name (sky, overcast, studio), or the one of this file; its mean luminance

@@ -8,6 +8,7 @@
 #include "core/report_text.hpp"
 #include "remap/version.hpp"
 #include "report/gnuplot.hpp"
+#include "report/sheet_labels.hpp"
 #include "table/csv.hpp"
 
 namespace remap {
@@ -227,8 +228,13 @@ StudyReport environments_report(const EnvironmentsOptions& options, const Enviro
                       {"environments_summary.csv", summary_csv(options, result)}},
                      {{"environments.svg", plot_script(options, result)}},
                      {}};
+  SheetLabels labels{{"source"}, {}};
+  for (const Method method : kMethods)
+    if (method != Method::kBest || options.least_error) labels.columns.push_back(method_name(method));
+  for (const StudyPair& pair : options.pairs) labels.rows.push_back(pair.source + "\n-> " + pair.target);
   for (std::size_t e = 0; e < result.sheets.size(); ++e)
-    report.sheets.emplace_back("spheres_" + options.environments[e].name + ".png", result.sheets[e]);
+    report.sheets.emplace_back("spheres_" + options.environments[e].name + ".png",
+                               labelled(result.sheets[e], labels));
   return report;
 }
 

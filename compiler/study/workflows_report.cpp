@@ -8,6 +8,7 @@
 #include "core/report_text.hpp"
 #include "remap/version.hpp"
 #include "report/gnuplot.hpp"
+#include "report/sheet_labels.hpp"
 #include "table/csv.hpp"
 
 namespace remap {
@@ -217,8 +218,12 @@ StudyReport workflows_report(const WorkflowsOptions& options, const WorkflowsRes
                      {}};
   for (const std::string& remark : remarks) report.summary += "Note: " + remark + ".\n";
   report.figures["remarks"] = remarks;
+  SheetLabels labels{{"source"}, result.sheet_materials};
+  const std::vector<std::string>& methods = result.comparisons.front().methods;
+  labels.columns.insert(labels.columns.end(), methods.begin(), methods.end());
   for (std::size_t e = 0; e < result.sheets.size(); ++e)
-    report.sheets.emplace_back("workflows_" + options.environments[e].name + ".png", result.sheets[e]);
+    report.sheets.emplace_back("workflows_" + options.environments[e].name + ".png",
+                               labelled(result.sheets[e], labels));
   return report;
 }
 

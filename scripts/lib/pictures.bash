@@ -33,7 +33,7 @@ lit_spheres() {
   shift 4
   local folder
   folder=$(mktemp --directory)
-  "$program" preview "$@" --json --force -o "$folder/spheres.png" >"$folder/figures.json"
+  "$program" preview "$@" --no-labels --json --force -o "$folder/spheres.png" >"$folder/figures.json"
   label_columns "$folder/spheres.png" "$result" "$source_label" "$target_label|numbers copied: $(percent_off "$folder/figures.json" 1)" \
     "$target_label|numbers converted: $(percent_off "$folder/figures.json" 2)"
   rm -r "$folder"

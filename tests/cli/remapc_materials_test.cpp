@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
+#include "support/test_image.hpp"
 
 using namespace remap;
 
@@ -65,5 +66,12 @@ TEST_CASE("remapc preview: writes pictures and figures of a committed fit", "[sl
       require_success(session.remapc("preview mitsuba_ward_to_mitsuba_ggx --fits " REMAP_SOURCE_DIR "/fits"
                                      " --alpha 0.2,0.5 --resolution 32 --json -o p.png"));
   CHECK(result.output.find("\"shape\": \"torus\"") != std::string::npos);
-  CHECK(std::filesystem::exists(session.path("p.png")));
+  const TestImage labelled = read_image(session.path("p.png"));
+  require_success(session.remapc("preview mitsuba_ward_to_mitsuba_ggx --fits " REMAP_SOURCE_DIR "/fits"
+                                 " --alpha 0.2,0.5 --resolution 32 --no-labels -o bare.png"));
+  const TestImage bare = read_image(session.path("bare.png"));
+  CHECK(bare.spec.width == 2 * 32);
+  CHECK(bare.spec.height == 6 * 32);
+  CHECK(labelled.spec.width > bare.spec.width);
+  CHECK(labelled.spec.height > bare.spec.height);
 }

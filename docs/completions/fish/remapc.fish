@@ -191,6 +191,7 @@ complete -c remapc -n '__fish_seen_subcommand_from show' -s h -l help -d 'Show t
 complete -c remapc -n '__fish_seen_subcommand_from show' -a "(remapc list 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')"
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l fits -r -F -d 'Folder where ids are looked up'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -s o -l output -r -F -d 'PNG to write: a column per alpha'
+complete -c remapc -n '__fish_seen_subcommand_from preview' -l no-labels -d 'Write the pictures alone, without names and numbers'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l force -d 'Overwrite files that exist'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l json -d 'Print the figures as JSON to standard output'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l alpha -x -d 'Alphas of the source, comma-separated'
