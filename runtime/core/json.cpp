@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base64.hpp"
+
 namespace remap {
 namespace {
 
@@ -141,12 +143,28 @@ class JsonBuilder {
   }
   static Library library_value_of(const Json::Object& fields) {
     Library object = Library::object();
-    for (const auto& [key, value] : fields) object[key] = library_value(value);
+    for (const auto& [key, value] : fields) {
+      object[key] = library_value(value);
+      if (const Json bytes = lost_bytes(value); !bytes.is_null())
+        object[key + "_base64"] = library_value(bytes);
+    }
     return object;
   }
   template <typename Scalar>
   static Library library_value_of(const Scalar& value) {
     return value;
+  }
+
+  // The bytes of a text, or of a list's texts, of which one is no UTF-8; else null.
+  static Json lost_bytes(const Json& value) {
+    if (const std::string* text = value.text()) return is_utf8(*text) ? Json() : Json(base64(*text));
+    const Json::List* entries = value.entries();
+    const auto is_lost = [](const Json& entry) { return entry.text() != nullptr && !is_utf8(*entry.text()); };
+    if (entries == nullptr || std::ranges::none_of(*entries, is_lost)) return {};
+    Json all = Json::list();
+    for (const Json& entry : *entries)
+      all.push_back(entry.text() != nullptr ? Json(base64(*entry.text())) : Json());
+    return all;
   }
 
   // Values of a list move when it grows, but not while one of them is open.

@@ -80,8 +80,9 @@ class Json {
   std::size_t size() const;
   bool empty() const { return size() == 0; }
 
-  // The text: on one line, or with `indent` spaces for each level. Text that is not UTF-8 has replacement
-  // characters.
+  // The text: on one line, or with `indent` spaces for each level. Text that is not UTF-8, as names
+  // of files may be, has replacement characters; beside such a field `path`, or a list with such texts,
+  // `path_base64` holds the bytes.
   std::string dump(int indent = -1) const;
 
  private:

@@ -113,6 +113,14 @@ TEST_CASE("parse JSON: a message does not repeat a text without end") {
                     "x.json: has 64 MB of JSON; at most 64 MB are read");
 }
 
+TEST_CASE("JSON: the bytes of texts that are no UTF-8 stand beside them") {
+  const Json lost = {
+      {"path", "caf\xe9"}, {"inputs", Json::list({"a", "\xff", nullptr})}, {"name", "caf\xc3\xa9"}};
+  CHECK(lost.dump() ==
+        "{\"path\":\"caf\xef\xbf\xbd\",\"path_base64\":\"Y2Fm6Q==\",\"inputs\":[\"a\",\"\xef\xbf\xbd\",null],"
+        "\"inputs_base64\":[\"YQ==\",\"/w==\",null],\"name\":\"caf\xc3\xa9\"}");
+}
+
 TEST_CASE("text: parts between separators may be empty") {
   CHECK(parts_between("a,,b", ',') == std::vector<std::string>{"a", "", "b"});
   CHECK(parts_between("", ',') == std::vector<std::string>{""});
