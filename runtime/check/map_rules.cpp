@@ -7,7 +7,7 @@
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "sets/name_pieces.hpp"
+#include "texture/normal_green.hpp"
 
 namespace remap::look {
 namespace {
@@ -84,12 +84,8 @@ enum class Orientation { kUnknown, kOpenGl, kDirectX };
 
 Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, const TargetReader* reader) {
   if (material.kind == MaterialKind::kGltf) return Orientation::kOpenGl;
-  const std::string name = lower(map.name);
-  const auto has = [&](std::string_view word) { return name.find(word) != std::string::npos; };
-  if (has("directx") || has("_dx") || has("-dx") || has("normaldx") || has("nor_dx"))
-    return Orientation::kDirectX;
-  if (has("opengl") || has("_gl") || has("-gl") || has("normalgl") || has("nor_gl"))
-    return Orientation::kOpenGl;
+  if (const auto stated = stated_green(map.name))
+    return stated->green == NormalGreen::kUp ? Orientation::kOpenGl : Orientation::kDirectX;
   if (reader != nullptr) return reader->wants_directx_normals ? Orientation::kDirectX : Orientation::kOpenGl;
   return Orientation::kUnknown;
 }

@@ -265,10 +265,12 @@ void FolderJobs::place_others(const FoundSet& set, int tile, ConversionJob& job)
     const fs::path source = root_ / *file;
     if (std::any_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
       continue;
-    if (options_.copy_others)
-      job.copies.push_back({source, ""});
-    else
+    if (!options_.copy_others)
       job.left_behind.push_back(source);
+    else if (std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end())
+      job.copies.push_back(copied_normals(source, options_.preset, job.notes));
+    else
+      job.copies.push_back({source, "", ""});
   }
 }
 

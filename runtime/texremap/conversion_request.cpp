@@ -7,6 +7,7 @@
 
 #include "core/nearest_name.hpp"
 #include "remap/error.hpp"
+#include "sets/folder_walk.hpp"
 
 namespace remap {
 namespace {
@@ -176,9 +177,33 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Workfl
                   parameter_option(parameter) +
                       ": cannot be converted without a workflow (give a file to copy it, or "
                       "set --from-workflow)");
-    files.push_back({map->file, std::string(parameter_name(parameter))});
+    files.push_back({map->file, std::string(parameter_name(parameter)), ""});
   }
   return files;
+}
+
+CopiedFile copied_normals(const std::filesystem::path& source, const Preset* preset,
+                          std::vector<std::string>& notes) {
+  CopiedFile copy{source, "", ""};
+  if (preset == nullptr || !preset->normals) return copy;
+  const std::string reads = std::string(preset->name) + " reads it " +
+                            (*preset->normals == NormalGreen::kUp ? "upwards" : "downwards");
+  const std::optional<StatedGreen> stated = stated_green(source.filename().string());
+  if (!stated) {
+    if (*preset->normals == NormalGreen::kDown)
+      notes.push_back(shown(source) +
+                      ": green is not turned, because the name does not say where it points, and " + reads +
+                      " (write GL or DX into the name, as wood_NormalGL.png)");
+    return copy;
+  }
+  std::error_code ignored;
+  if (stated->green == *preset->normals ||
+      std::filesystem::exists(source.parent_path() / stated->turned_name, ignored))
+    return copy;
+  notes.push_back(shown(source) + ": green is turned in the copy " + shown(stated->turned_name) +
+                  ", because " + reads);
+  copy.turned_name = stated->turned_name;
+  return copy;
 }
 
 namespace {

@@ -17,6 +17,11 @@ namespace remap {
 TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow);
 // The files to copy with the one set that the options name.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
+// The copy of a normal map of a folder. Where its name says that green points another way than the preset
+// reads it, green is turned, unless the folder has that map as well. Adds to `notes` what is done, and where
+// a name says nothing to a preset that reads green downwards.
+CopiedFile copied_normals(const std::filesystem::path& source, const Preset* preset,
+                          std::vector<std::string>& notes);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
 // The roughness of a set before the conversion.
 struct WidthSource {

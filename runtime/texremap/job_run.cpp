@@ -247,7 +247,12 @@ class FinishedCopies {
  public:
   FinishedCopies() = default;
   void add(const PlannedCopy& copy) {
-    files_.emplace_back(copy_unfinished(copy.source, copy.path), copy.path);
+    if (copy.turns_green) {
+      turned_.push_back(turned_copy(copy.source, copy.path));
+      files_.emplace_back(turned_.back()->finished_file(), copy.path);
+    } else {
+      files_.emplace_back(copy_unfinished(copy.source, copy.path), copy.path);
+    }
   }
   ~FinishedCopies() {
     std::error_code ignored;
@@ -261,6 +266,7 @@ class FinishedCopies {
 
  private:
   std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_;
+  std::vector<std::unique_ptr<NewImage>> turned_;  // which remove their files unless these were renamed
 };
 
 // Gives the finished files of a set, and its copies, their names. They are on the disk before; the lock of

@@ -13,27 +13,30 @@ namespace {
 
 constexpr auto kRoughness = RoughnessConvention::kRoughness, kGlossiness = RoughnessConvention::kGlossiness;
 constexpr auto kEightBits = PixelType::kUint8;
+constexpr auto kGreenUp = NormalGreen::kUp;
 
 constexpr std::size_t kPlainLayouts = 5;  // the first presets
 constexpr std::array<Preset, 14> kPresets = {{
-    {"as-inputs", "", "", "", {}},
-    {"separate", "", "", "", {}},
-    {"orm", "", "orm=occlusion,roughness,metallic", "", {}},
-    {"arm", "", "arm=occlusion,roughness,metallic", "", {}},
-    {"specgloss", "", "specular_glossiness=specular,glossiness", "", {}},
+    {"as-inputs", "", "", "", {}, {}},
+    {"separate", "", "", "", {}, {}},
+    {"orm", "", "orm=occlusion,roughness,metallic", "", {}, {}},
+    {"arm", "", "arm=occlusion,roughness,metallic", "", {}, {}},
+    {"specgloss", "", "specular_glossiness=specular,glossiness", "", {}, {}},
     {"gltf", "gltf", "baseColor=base_color; occlusionRoughnessMetallic=occlusion,roughness,metallic", "png",
-     kEightBits},
+     kEightBits, kGreenUp},
     {"unity", "unity",
      "BaseMap=base_color; MetallicSmoothness=metallic,metallic,metallic,smoothness; Occlusion=occlusion",
-     "png", kEightBits},
+     "png", kEightBits, kGreenUp},
     {"unity-hdrp", "unity-hdrp", "BaseMap=base_color; MaskMap=metallic,occlusion,0,smoothness", "png",
-     kEightBits},
-    {"unreal", "unreal", "T_*_BC=base_color; T_*_ORM=occlusion,roughness,metallic", "png", kEightBits},
-    {"godot", "godot", "albedo=base_color; orm=occlusion,roughness,metallic", "png", kEightBits},
-    {"threejs", "three", "baseColor=base_color; orm=occlusion,roughness,metallic", "png", kEightBits},
-    {"blender", "blender", "", "png", kEightBits},
-    {"usd", "usd", "", "png", kEightBits},
-    {"marmoset", "marmoset", "", "png", kEightBits},
+     kEightBits, kGreenUp},
+    {"unreal", "unreal", "T_*_BC=base_color; T_*_ORM=occlusion,roughness,metallic", "png", kEightBits,
+     NormalGreen::kDown},
+    {"godot", "godot", "albedo=base_color; orm=occlusion,roughness,metallic", "png", kEightBits, kGreenUp},
+    {"threejs", "three", "baseColor=base_color; orm=occlusion,roughness,metallic", "png", kEightBits,
+     kGreenUp},
+    {"blender", "blender", "", "png", kEightBits, kGreenUp},
+    {"usd", "usd", "", "png", kEightBits, kGreenUp},
+    {"marmoset", "marmoset", "", "png", kEightBits, {}},
 }};
 
 // The words of a layout, with what they mean.

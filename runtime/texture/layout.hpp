@@ -11,6 +11,7 @@
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
 #include "remap/pixels.hpp"
+#include "texture/normal_green.hpp"
 
 namespace remap {
 
@@ -58,6 +59,7 @@ struct Preset {
   std::string_view layout;  // as layout_from() reads it; empty: separate
   std::string_view format;  // extension; empty: that of the inputs
   std::optional<PixelType> type;
+  std::optional<NormalGreen> normals;  // how it reads green of normal maps, where its documentation says so
 };
 // `unity`, `unreal`, ... and the plain layouts `as-inputs`, `separate`, `orm`, `arm`, `specgloss`.
 std::span<const Preset> presets();

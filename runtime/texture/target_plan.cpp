@@ -243,7 +243,7 @@ std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first)
 }
 
 // Adds a copy unless a file of this name is already written or copied.
-void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
+void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bool turns_green = false) {
   const auto is_there = [&](const auto& result) { return result.path == path; };
   if (std::any_of(plan.maps.begin(), plan.maps.end(), is_there) ||
       std::any_of(plan.copies.begin(), plan.copies.end(), is_there))
@@ -251,7 +251,7 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
   std::error_code ignored;
   if (!fs::is_regular_file(source, ignored))
     throw Error(ErrorKind::kInput, source.string() + ": cannot be copied: not a readable file");
-  plan.copies.push_back({source, path, {}});
+  plan.copies.push_back({source, path, {}, turns_green});
 }
 
 // A file that holds one parameter.
@@ -431,14 +431,16 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
         part.changes.colors = color_storage(set, *color, choice);
   std::erase_if(plan.maps, [&](const PlannedMap& map) {
     const std::optional<fs::path> file = repeated_file(set, map, choice);
-    if (file) plan.copies.push_back({*file, map.path, map.parts});
+    if (file) plan.copies.push_back({*file, map.path, map.parts, false});
     return file.has_value();
   });
   for (const CopiedFile& file : choice.copies) {
     const bool keeps_name = file.name.empty() || choice.layout.keeps_names;
-    const std::string name = keeps_name ? file.source.filename().string()
-                                        : named(file.name, choice.names) + file.source.extension().string();
-    add_copy(file.source, choice.folder / name, plan);
+    const bool turns = !file.turned_name.empty();
+    const std::string name = turns        ? file.turned_name
+                             : keeps_name ? file.source.filename().string()
+                                          : named(file.name, choice.names) + file.source.extension().string();
+    add_copy(file.source, choice.folder / name, plan, turns);
   }
   require_safe(plan, set, choice);
   return plan;

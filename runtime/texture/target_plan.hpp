@@ -18,17 +18,20 @@ struct PlannedMap {
   std::vector<TargetPart> parts;
 };
 
-// A file of the material that is not converted but copied byte for byte.
+// A file of the material that is not converted but copied, byte for byte unless its green is turned.
 struct CopiedFile {
   std::filesystem::path source;
   // Of the copy, without extension, in layouts that name their files; empty to keep the name of the file.
   std::string name;
+  // Of a normal map whose green is turned in the copy: the name of the copy.
+  std::string turned_name;
 };
 struct PlannedCopy {
   std::filesystem::path source;
   std::filesystem::path path;
   std::vector<TargetPart>
       parts;  // of a result that repeats the source; empty for files that are not converted
+  bool turns_green = false;
 };
 
 struct TargetPlan {

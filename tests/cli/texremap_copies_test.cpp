@@ -120,3 +120,35 @@ TEST_CASE("texremap copies: each tile copies the same tile of other maps") {
   CHECK(same_bytes(session, "d.1002.png", "out/diffuse.1002.png"));
   CHECK(session.image("out/orm.1002.png").at(2, 3, 0) == session.image("ao.1002.png").at(2, 3, 0));
 }
+
+TEST_CASE(
+    "texremap copies: a preset turns green of normal maps whose names say that it points the other way") {
+  const Session session;
+  for (const std::string name :
+       {"wood_BaseColor.png", "wood_Normal_OpenGL.png", "tin_BaseColor.png", "tin_Normal.png",
+        "oak_BaseColor.png", "oak_NormalGL.png", "oak_NormalDX.png"})
+    write_map(session, "in/" + name, {"R", "G", "B"});
+  for (const std::string set : {"wood", "tin", "oak"})
+    for (const std::string map : {"Roughness", "Metallic"})
+      write_map(session, "in/" + set + "_" + map + ".png", {"Y"});
+  const Words words = "convert in --from metallic --copy-others --preset";
+  const ProcessResult down = require_success(session.texremap(words + "unreal -o unreal"));
+  CHECK_THAT(down.errors,
+             Contains("wood_Normal_OpenGL.png: green is turned in the copy wood_Normal_DirectX.png, because "
+                      "unreal reads it downwards") &&
+                 Contains("tin_Normal.png: green is not turned, because the name does not say"));
+  CHECK_FALSE(fs::exists(session.path("unreal/wood_Normal_OpenGL.png")));
+  const TestImage before = session.image("in/wood_Normal_OpenGL.png"),
+                  after = session.image("unreal/wood_Normal_DirectX.png");
+  CHECK(after.at(3, 5, 0) == before.at(3, 5, 0));
+  CHECK(after.at(3, 5, 1) == Approx(1.0f - before.at(3, 5, 1)));
+  CHECK(same_bytes(session, "in/tin_Normal.png", "unreal/tin_Normal.png"));
+  for (const std::string name : {"oak_NormalGL.png", "oak_NormalDX.png"})
+    CHECK(same_bytes(session, "in/" + name, "unreal/" + name));
+
+  const ProcessResult up = require_success(session.texremap(words + "gltf -o gltf"));
+  CHECK_THAT(up.errors, !Contains("green"));
+  CHECK(same_bytes(session, "in/wood_Normal_OpenGL.png", "gltf/wood_Normal_OpenGL.png"));
+  CHECK_THAT(require_success(session.texremap(words + "unreal -o planned --dry-run")).output,
+             Contains("green turned"));
+}
