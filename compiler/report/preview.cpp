@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "lower/interpreter.hpp"
 #include "measure/parameter_roles.hpp"
 #include "measure/sweep.hpp"
@@ -108,10 +109,9 @@ void fill(const Domain& domain, PreviewMaterials* options) {
 
 std::string short_number(double value) { return number_text(rounded(value, 3)); }
 
-std::string short_list(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + short_number(value);
-  return text;
+std::string short_list(std::vector<double> values) {
+  for (double& value : values) value = rounded(value, 3);
+  return listed(values);
 }
 
 // The numbers of a source and of its conversion, a line each.

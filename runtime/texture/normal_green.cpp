@@ -48,7 +48,7 @@ void for_bands(ImageReader& image, const auto& work) {
   }
 }
 
-// Calls `work(values)` for the values of a channel in a band, which it may change.
+// Calls `work(view, row, values)` for each row of a channel in a band.
 void for_values(std::byte* texels, int row_count, const ImageLayout& layout, std::size_t channel,
                 const auto& work) {
   const ChannelView view = channel_view(texels, layout, channel);
@@ -56,8 +56,7 @@ void for_values(std::byte* texels, int row_count, const ImageLayout& layout, std
   for (std::size_t y = 0; y < static_cast<std::size_t>(row_count); ++y) {
     const Segment row{0, y, values.size()};
     load(view, row, values.data());
-    work(values);
-    store(view, row, values.data());
+    work(view, row, values);
   }
 }
 
@@ -65,9 +64,10 @@ bool has_negative(ImageReader& image) {
   bool found = false;
   for_bands(image, [&](int, int count, std::byte* texels) {
     for (std::size_t c = 0; c < image.layout().channels.size(); ++c)
-      for_values(texels, count, image.layout(), c, [&](const std::vector<float>& values) {
-        found = found || std::ranges::any_of(values, [](float value) { return value < 0.0f; });
-      });
+      for_values(texels, count, image.layout(), c,
+                 [&](const ChannelView&, const Segment&, const std::vector<float>& values) {
+                   found = found || std::ranges::any_of(values, [](float value) { return value < 0.0f; });
+                 });
   });
   return found;
 }
@@ -101,9 +101,11 @@ std::unique_ptr<NewImage> turned_copy(const std::filesystem::path& from, const s
       image.select_level(level);
       turned->select(static_cast<int>(part), level);
       for_bands(image, [&](int first, int count, std::byte* texels) {
-        for_values(texels, count, image.layout(), green, [&](std::vector<float>& values) {
-          for (float& value : values) value = whole - value;
-        });
+        for_values(texels, count, image.layout(), green,
+                   [&](const ChannelView& view, const Segment& row, std::vector<float>& values) {
+                     for (float& value : values) value = whole - value;
+                     store(view, row, values.data());
+                   });
         turned->write_rows(first, count, texels);
       });
     }
