@@ -19,6 +19,7 @@ namespace {
 constexpr std::int64_t kFormat = 1;
 constexpr std::string_view kCostFirst = "{\"cost\":";
 constexpr std::size_t kLongestHead = 1 << 16;
+constexpr const char* kChanged = "is incomplete, or was changed since it was written (texremap index again)";
 
 // Whether a conversion may read the channels: of a map of normals or heights none does.
 bool is_read(const FoundMap& map) {
@@ -90,6 +91,14 @@ Json head_json(const ManifestHead& head) {
           {"bytes", head.bytes},       {"cost", head.cost},       {"hash", head.hash}};
 }
 
+// Of what the first line says, but for the hash itself; the other lines are added.
+ContentHash hash_of_head(ManifestHead head) {
+  head.hash.clear();
+  ContentHash hash;
+  hash.add(head_json(head).dump());
+  return hash;
+}
+
 class ManifestReader {
  public:
   explicit ManifestReader(const fs::path& path) : path_(path), file_(path, std::ios::binary) {
@@ -101,6 +110,7 @@ class ManifestReader {
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw input_error(path_.string() + ": " + what); }
   ManifestHead read_head();
+  void read_lines(const Part& part, Manifest& manifest, ContentHash& hash);
   void add_set(const std::string& line, Manifest& manifest) const;
   void add_rest(const std::string& line, Manifest& manifest) const;
   std::uint64_t cost_in(const std::string& line) const;
@@ -118,7 +128,10 @@ ManifestHead ManifestReader::read_head() {
   const Field field(json, path_.string());
   ManifestHead head;
   head.version = field["version"].text();
-  if (field["remap_manifest"].count() != kFormat || head.version != kVersion)
+  if (const std::int64_t format = field["remap_manifest"].count(); format != kFormat)
+    refuse("is of format " + std::to_string(format) + ", this texremap reads format " +
+           std::to_string(kFormat) + " (texremap index again)");
+  if (head.version != kVersion)
     refuse("is of version " + head.version + " of texremap, this is " + kVersion + " (texremap index again)");
   head.root = field["root"].any_text();
   head.names = field["names"].text();
@@ -133,8 +146,7 @@ ManifestHead ManifestReader::read_head() {
 std::uint64_t ManifestReader::cost_in(const std::string& line) const {
   std::uint64_t cost = 0;
   const char* const begin = line.data() + kCostFirst.size();
-  if (std::from_chars(begin, line.data() + line.size(), cost).ec != std::errc())
-    refuse("was changed since it was written (texremap index again)");
+  if (std::from_chars(begin, line.data() + line.size(), cost).ec != std::errc()) refuse(kChanged);
   return cost;
 }
 
@@ -187,7 +199,17 @@ void ManifestReader::add_rest(const std::string& line, Manifest& manifest) const
 
 Manifest ManifestReader::read(const Part& part) {
   Manifest manifest{read_head(), {}, {}};
-  ContentHash hash;
+  ContentHash hash = hash_of_head(manifest.head);
+  try {
+    read_lines(part, manifest, hash);
+  } catch (const Error&) {
+    refuse(kChanged);  // a line that makes no sense is not one that was written
+  }
+  if (hash.hex() != manifest.head.hash) refuse(kChanged);
+  return manifest;
+}
+
+void ManifestReader::read_lines(const Part& part, Manifest& manifest, ContentHash& hash) {
   std::uint64_t before = 0;
   for (std::string line; std::getline(file_, line);) {
     hash.add(line);
@@ -202,9 +224,6 @@ Manifest ManifestReader::read(const Part& part) {
     }
     before += cost;
   }
-  if (hash.hex() != manifest.head.hash)
-    refuse("is incomplete, or was changed since it was written (texremap index again)");
-  return manifest;
 }
 
 }  // namespace
@@ -238,7 +257,7 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
     for (const WalkProblem& problem : found.problems)
       take(Json({{"problem", problem.message}}).dump() + '\n');
   };
-  ContentHash hash;
+  ContentHash hash = hash_of_head(head);
   make_lines([&](const std::string& line) { hash.add(std::string_view(line).substr(0, line.size() - 1)); });
   head.hash = hash.hex();
   NewFile manifest(file);

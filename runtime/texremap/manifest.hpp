@@ -35,7 +35,7 @@ struct ManifestHead {
   std::size_t set_count = 0, file_count = 0;
   std::uintmax_t bytes = 0;  // of all files
   std::uint64_t cost = 0;    // bytes of the maps that a conversion may read, and kCostOfFile for each
-  std::string hash;          // of the lines that follow
+  std::string hash;          // of the rest of this line, and of those that follow
 };
 
 struct Manifest {

@@ -50,6 +50,7 @@ class ReportMerger {
   MergedReport merged_;
   std::map<std::string, std::string> first_;  // what the first report says of its run
   Part first_part_;
+  std::size_t lines_of_part_ = 0;                         // about sets, in the report that is being read
   std::unordered_map<std::string, std::size_t> part_of_;  // of a set or result, by its name
   std::map<std::string, std::pair<std::size_t, std::string>>
       twice_;  // by a pair of parts: how many, the first
@@ -122,8 +123,15 @@ void ReportMerger::add_set(const Part& part, const Field& set) {
 
 void ReportMerger::add(const Part& part, const Field& line, std::string_view text) {
   if (line.contains("part")) compare(part, line["part"]);
-  if (line.contains("summary")) merged_.processor_seconds += line["summary"]["processor_seconds"].number();
+  if (line.contains("summary")) {
+    const Field summary = line["summary"];
+    merged_.processor_seconds += summary["processor_seconds"].number();
+    const std::int64_t stated = summary["sets"].count() + summary["left_out"].count();
+    if (stated != static_cast<std::int64_t>(lines_of_part_))
+      throw input_error(name_of(part) + kPartReport + ": is incomplete");
+  }
   const bool is_set = line.contains("set"), is_left_out = line.contains("left_out");
+  lines_of_part_ += is_set || is_left_out;
   if (is_set) add_set(part, line["set"]);
   if (is_left_out) {
     const bool is_failure = line["left_out"].flag("is_failure");
@@ -137,6 +145,7 @@ void ReportMerger::read(const Part& part) {
   const std::string name = name_of(part) + kPartReport;
   std::ifstream file(folder_ / name, std::ios::binary);
   std::string line, last;
+  lines_of_part_ = 0;
   try {
     while (std::getline(file, line)) {
       last = line;

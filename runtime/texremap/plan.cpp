@@ -96,13 +96,14 @@ class ConvertWords {
  public:
   explicit ConvertWords(const std::vector<std::string>& words)
       : words_(words), command_("The options of texremap convert", "texremap convert") {
+    for (const std::string& word : words)
+      for (const char* own : {"--manifest", "--part", "--threads", "--resume", "--dry-run", "--json"})
+        if (word.substr(0, word.find('=')) == own) refuse(own);
     add_convert_options(command_, options_);
     run_words(command_, words);
     options_.given = command_.given();
     apply_preset(options_);
-    for (const char* own : {"--manifest", "--part", "--threads", "--resume", "--dry-run", "--json", "DIR"})
-      if (options_.is_given(own))
-        throw usage_error(std::string(own) + ": is written by texremap plan itself (remove it after --)");
+    if (options_.is_given("DIR")) refuse("DIR");
     if (options_.output.empty())
       throw usage_error("--output is required after -- (the folder of the results)");
   }
@@ -112,6 +113,10 @@ class ConvertWords {
   std::vector<std::string> for_jobs() const;
 
  private:
+  [[noreturn]] static void refuse(const std::string& own) {
+    throw usage_error(own + ": is written by texremap plan itself (remove it after --)");
+  }
+
   const std::vector<std::string>& words_;
   Command command_;
   ConvertOptions options_;

@@ -14,6 +14,17 @@ std::string shell_line(const std::vector<std::string>& words) {
   return text;
 }
 
+// A folder and a file name in a line #SBATCH. sbatch(1) replaces %, and takes words as a shell does.
+std::string log_line(const std::filesystem::path& folder, const std::string& name) {
+  std::string text;
+  for (const char c : folder.string()) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+    if (c == '%') text += '%';
+  }
+  return "#SBATCH --output=\"" + text + "/" + name + "\"\n";
+}
+
 // As a plan writes them: themselves, or parameters of a template.
 struct PlannedPaths {
   std::string program, manifest, tree, output, report;
@@ -42,7 +53,7 @@ std::vector<std::string> merge_words(const PlannedPaths& paths) {
 
 PlanFiles slurm_files(const PlannedFarm& farm) {
   const PlannedPaths paths = paths_of(farm);
-  const std::string log = (farm.folder / "log").string();
+  const std::filesystem::path log = farm.folder / "log";
   const std::string threads = std::to_string(farm.threads);
   std::string convert = "#!/bin/sh\n#SBATCH --job-name=texremap\n#SBATCH --array=1-" +
                         std::to_string(farm.parts) + "\n#SBATCH --ntasks=1\n";
@@ -50,7 +61,7 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
   convert +=
       "#SBATCH --mem=" + std::to_string(farm.memory_megabytes) +
       "M\n#SBATCH --time=" + std::to_string(farm.minutes) +
-      "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output=" + log + "/%a.txt\n\n" +
+      "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n" + log_line(log, "%a.txt") + "\n" +
       shell_line(convert_words(farm, paths, "auto/" + std::to_string(farm.parts))) +
       "\ncode=$?\n"
       "# 75: a full disk, or storage that did not answer. The part goes on where it ended.\n"
@@ -58,9 +69,8 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
       "  scontrol requeue \"${SLURM_ARRAY_JOB_ID}_${SLURM_ARRAY_TASK_ID}\" && sleep 60  # ended by it\n"
       "fi\n"
       "exit \"$code\"\n";
-  const std::string merge =
-      "#!/bin/sh\n#SBATCH --job-name=texremap-merge\n#SBATCH --ntasks=1\n#SBATCH --output=" + log +
-      "/merge.txt\n\n" + shell_line(merge_words(paths)) + "\n";
+  const std::string merge = "#!/bin/sh\n#SBATCH --job-name=texremap-merge\n#SBATCH --ntasks=1\n" +
+                            log_line(log, "merge.txt") + "\n" + shell_line(merge_words(paths)) + "\n";
   // Parts may be given, as in `submit.sh 3,17`: those to do again.
   const std::string submit =
       "#!/bin/sh\n# Submits all parts, or those of its argument (3,17-19), and after them the merge.\n"
@@ -68,7 +78,8 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
       shell_word(farm.folder.string()) +
       "\nmkdir -p \"$here/log\"\n"
       "array=$(sbatch --parsable ${1:+--array=\"$1\"} \"$here/convert.sbatch\")\n"
-      "sbatch --parsable --dependency=afterany:\"${array%%;*}\" \"$here/merge.sbatch\"\n";
+      "merge=$(sbatch --parsable --dependency=afterany:\"${array%%;*}\" \"$here/merge.sbatch\")\n"
+      "echo \"parts: job ${array%%;*}, merge: job ${merge%%;*}\"\n";
   return {{{"convert.sbatch", convert}, {"merge.sbatch", merge}, {"submit.sh", submit}},
           "sh " + shell_word((farm.folder / "submit.sh").string())};
 }
@@ -84,10 +95,22 @@ PlanFiles commands_files(const PlannedFarm& farm) {
               shell_word((farm.folder / "merge.sh").string())};
 }
 
-// A parameter of a template that is a path, which farms translate to where a worker sees it.
-Json path_parameter(const std::string& name, const std::string& object, const std::string& flow,
-                    const std::string& value) {
-  return {{"name", name}, {"type", "PATH"}, {"objectType", object}, {"dataFlow", flow}, {"default", value}};
+// A parameter of a template that is a path, which farms translate to where a worker sees it. Its value stands
+// in a file beside the template: a default must not be absolute.
+Json path_parameter(const std::string& name, const std::string& object, const std::string& flow) {
+  return {{"name", name}, {"type", "PATH"}, {"objectType", object}, {"dataFlow", flow}};
+}
+
+std::string file_uri(const std::filesystem::path& path) {
+  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  std::string uri = "file://";
+  for (const char c : path.string())
+    if (kPlain.find(c) != std::string_view::npos)
+      uri += c;
+    else
+      uri += std::string("%") + "0123456789ABCDEF"[static_cast<unsigned char>(c) / 16] +
+             "0123456789ABCDEF"[static_cast<unsigned char>(c) % 16];
+  return uri;
 }
 
 // A command without a shell: each word is an argument. A stopped one has time to leave nothing half done.
@@ -120,18 +143,21 @@ PlanFiles openjd_files(const PlannedFarm& farm) {
   const Json merge = {{"name", "Merge"},
                       {"dependencies", Json::list({{{"dependsOn", "Convert"}}})},
                       {"script", script_json(merge_words(paths))}};
-  const Json json = {
-      {"specificationVersion", "jobtemplate-2023-09"},
-      {"name", "texremap"},
-      {"parameterDefinitions",
-       Json::list({{{"name", "Program"}, {"type", "STRING"}, {"default", farm.program}},
-                   path_parameter("Manifest", "FILE", "IN", farm.manifest.string()),
-                   path_parameter("Tree", "DIRECTORY", "IN", farm.tree.string()),
-                   path_parameter("Output", "DIRECTORY", "INOUT", farm.output.string()),
-                   path_parameter("Report", "FILE", "OUT", (farm.folder / "report.jsonl").string())})},
-      {"steps", Json::list({convert, merge})}};
-  return {{{"template.json", json.dump(2) + "\n"}},
-          "openjd run " + shell_word((farm.folder / "template.json").string())};
+  const Json json = {{"specificationVersion", "jobtemplate-2023-09"},
+                     {"name", "texremap"},
+                     {"parameterDefinitions",
+                      Json::list({{{"name", "Program"}, {"type", "STRING"}, {"default", farm.program}},
+                                  path_parameter("Manifest", "FILE", "IN"),
+                                  path_parameter("Tree", "DIRECTORY", "IN"),
+                                  path_parameter("Output", "DIRECTORY", "INOUT"),
+                                  path_parameter("Report", "FILE", "OUT")})},
+                     {"steps", Json::list({convert, merge})}};
+  const PlannedPaths own = paths_of(farm);
+  const Json values = {
+      {"Manifest", own.manifest}, {"Tree", own.tree}, {"Output", own.output}, {"Report", own.report}};
+  return {{{"template.json", json.dump(2) + "\n"}, {"parameters.json", values.dump(2) + "\n"}},
+          "openjd run " + shell_word((farm.folder / "template.json").string()) + " --job-param " +
+              shell_word(file_uri(farm.folder / "parameters.json"))};
 }
 
 }  // namespace

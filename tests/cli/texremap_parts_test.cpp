@@ -74,7 +74,8 @@ TEST_CASE("texremap parts: the union of the parts is what one process makes") {
     const ProcessResult result = part(tree, std::to_string(i) + "/4");
     INFO(result.errors);
     REQUIRE(result.exit_code == 0);
-    for (const auto& set : tree_report(result.output)["sets"]) {
+    const nlohmann::json report = tree_report(result.output);
+    for (const auto& set : report["sets"]) {
       names.insert(set["name"].get<std::string>());
       ++count;
     }
@@ -169,6 +170,14 @@ TEST_CASE("texremap parts: a part that is not run, or is of another run, is name
   summary = merged(tree, 1);
   CHECK_THAT(summary["problems"].dump(),
              Contains("is the report of another part") && Contains("the same set"));
+  // A report that lost a line.
+  for (const char* which : {"1/3", "2/3", "3/3"}) CHECK(part(tree, which, "--resume").exit_code == 0);
+  merged(tree, 0);
+  std::string report = tree.content(reports + "/part-0002-of-0003.jsonl");
+  const std::size_t line = report.find("{\"set\"");
+  write_file(tree.path(reports + "/part-0002-of-0003.jsonl"),
+             report.erase(line, report.find('\n', line) + 1 - line));
+  CHECK_THAT(merged(tree, 1)["problems"].dump(), Contains("part-0002-of-0003") && Contains("is incomplete"));
   CHECK_THAT(tree.texremap("merge-reports in").errors, Contains("holds no report of a part"));
 }
 
@@ -177,8 +186,8 @@ TEST_CASE("texremap parts: schedulers tell the part by their variables") {
   write_library(tree);
   index(tree);
   const auto note = [&](const std::string& environment, const std::string& which) {
-    const ProcessResult result = tree.run(Words("env " + environment) + REMAP_TEXREMAP + kOfManifest +
-                                          Words("out --dry-run --part " + which));
+    const ProcessResult result = tree.run(Words("/usr/bin/env " + environment) + REMAP_TEXREMAP +
+                                          kOfManifest + Words("out --dry-run --part " + which));
     const std::string begin = "texremap: note: ";
     const std::size_t at = result.errors.find(begin), stop = result.errors.find('\n', at);
     const std::size_t place = result.errors.find(" is part ");
@@ -212,12 +221,12 @@ TEST_CASE("texremap parts: a manifest that does not fit is refused, and nothing 
   write_library(tree);
   index(tree);
   const std::string good = tree.content("sets.jsonl");
-  const auto refused = [&](const std::string& message, const Words& more = {}) {
-    const ProcessResult result = tree.texremap(kOfManifest + "out" + more);
+  const auto refused = [&](const std::string& message, const std::string& output = "out") {
+    const ProcessResult result = tree.texremap(kOfManifest + output);
     INFO(result.errors);
     CHECK(result.exit_code != 0);
     CHECK_THAT(result.errors, Contains(message));
-    CHECK_FALSE(exists(tree, "out"));
+    CHECK_FALSE(exists(tree, output));
   };
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -226,6 +235,12 @@ TEST_CASE("texremap parts: a manifest that does not fit is refused, and nothing 
   };
   with("s0_rough", "s0_rougg");
   refused("was changed since it was written");
+  with("\"sets\":8", "\"sets\":7");
+  refused("was changed since it was written");
+  with("\"root\":\"", "\"root\":\"/elsewhere");
+  refused("was changed since it was written");
+  with("\"remap_manifest\":1", "\"remap_manifest\":2");
+  refused("is of format 2, this texremap reads format 1");
   write_file(tree.path("sets.jsonl"), good.substr(0, good.size() - 40));
   refused("is incomplete");
   write_file(tree.path("sets.jsonl"), good.substr(0, good.find('\n') + 1));
@@ -237,7 +252,7 @@ TEST_CASE("texremap parts: a manifest that does not fit is refused, and nothing 
   fs::remove(tree.path("sets.jsonl"));
   refused("cannot be read");
   write_file(tree.path("sets.jsonl"), good);
-  refused("lies in", "--force -o in/out");
+  refused("lies in", "in/out");
 }
 
 TEST_CASE("texremap parts: files that are gone or have another size fail their set alone") {
@@ -262,7 +277,7 @@ TEST_CASE("texremap parts: storage that does not answer is asked again, a full o
   write_library(tree);
   index(tree);
   const auto with_faults = [&](const std::string& name, int count, int code) {
-    return tree.run(Words("env LD_PRELOAD=" REMAP_FAULTY_STORAGE " FAULT_NAME=" + name +
+    return tree.run(Words("/usr/bin/env LD_PRELOAD=" REMAP_FAULTY_STORAGE " FAULT_NAME=" + name +
                           " FAULT_COUNT=" + std::to_string(count) + " FAULT_CODE=" + std::to_string(code)) +
                     REMAP_TEXREMAP + kOfManifest + Words("out --part 1/1 --json --resume"));
   };
@@ -297,12 +312,12 @@ TEST_CASE("texremap parts: plans name every part, and refuse what would fail in 
   int count = 0;
   for (std::string line; std::getline(lines, line); ++count) {
     write_file(tree.path("line.sh"), line + "\n");
-    const ProcessResult result = tree.run("sh line.sh");
+    const ProcessResult result = tree.run("/bin/sh line.sh");
     INFO(line << "\n" << result.errors);
     CHECK(result.exit_code == 0);
   }
   CHECK(count == 3);
-  CHECK(tree.run("sh plan/merge.sh").exit_code == 0);
+  CHECK(tree.run("/bin/sh plan/merge.sh").exit_code == 0);
   CHECK(results_in(tree, "o u t").size() == 18);
   CHECK(exists(tree, "plan/report.jsonl"));
   CHECK_THAT(tree.texremap(plan_words + options).errors, Contains("already exists (--force overwrites)"));

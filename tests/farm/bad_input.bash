@@ -107,7 +107,7 @@ refuses_manifest "of another format" "edited.jsonl: is " '1s/"remap_manifest":1/
 refuses_manifest "a letter of a name" "edited.jsonl: is incomplete, or was changed" '$s/prop00003_s/prop00004_s/'
 refuses_manifest "a size" "edited.jsonl: is incomplete, or was changed" '$s/"bytes":./"bytes":9/'
 refuses_manifest "a cost" "edited.jsonl: is incomplete, or was changed" '3s/"cost":./"cost":9/'
-refuses_manifest "a cost that is none" "edited.jsonl: was changed" '2s/"cost":./"cost":x/'
+refuses_manifest "a cost that is none" "edited.jsonl: is incomplete, or was changed" '2s/"cost":./"cost":x/'
 refuses_manifest "the hash" "edited.jsonl: is incomplete, or was changed" '1s/"hash":"./"hash":"x/'
 refuses_manifest "the number of sets" "edited.jsonl: " '1s/"sets":4/"sets":5/'
 refuses_manifest "the whole cost" "edited.jsonl: " '1s/"cost":./"cost":9/'
@@ -117,7 +117,7 @@ refuses_manifest "a set less" "edited.jsonl: is incomplete, or was changed" '$d'
 refuses_manifest "no line" "edited.jsonl: is no manifest" 'd'
 refuses_manifest "no header" "edited.jsonl: is no manifest" '1d'
 refuses_manifest "Windows' ends of lines" "edited.jsonl: " 's/$/\r/'
-refuses_manifest "of a tree that is elsewhere" "/nowhere" '1s/"root":"[^"]*"/"root":"\/nowhere"/'
+refuses_manifest "the root" "edited.jsonl: is incomplete, or was changed" '1s/"root":"[^"]*"/"root":"\/nowhere"/'
 for bytes in 5 50 500; do
   head -c "-$bytes" sets.jsonl >cut.jsonl
   refuses "manifest: $bytes bytes less" 1 "cut.jsonl: is incomplete" "${convert[@]}" --manifest cut.jsonl --part 1/2 -o out
@@ -187,7 +187,7 @@ merge_refuses "parts of two conversions" "options --type half"
 cp -r whole out && sed -i '$d' "$second"
 merge_refuses "a report without its end" "part-0002-of-0002.jsonl: is incomplete"
 cp -r whole out && sed -i 3d "$second"
-merge_refuses "a set in no report" "1 set"
+merge_refuses "a set in no report" "part-0002-of-0002.jsonl: is incomplete"
 cp -r whole out && truncate -s -700 "$second"
 merge_refuses "a report that is cut" "part-0002-of-0002.jsonl"
 cp -r whole out && : >"$second"
