@@ -71,9 +71,9 @@ void add_index_command(Command& app) {
   command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
   command->footer(
       "Example:\n"
-      "  texremap index assets -o sets.jsonl\n"
-      "  texremap convert --manifest sets.jsonl --part 1/4 --from unity --to gltf -o converted\n"
-      "  texremap merge-reports converted");
+      "  texremap index assets -o sets\n"
+      "  texremap convert --manifest sets --part 1/4 --from unity --to gltf -o out\n"
+      "  texremap merge-reports out");
 }
 
 }  // namespace remap

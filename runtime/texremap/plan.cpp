@@ -256,7 +256,7 @@ void add_plan_command(Command& app) {
       "A few sets are converted to a temporary folder, which tells time and memory. Standard output has the "
       "line that submits the plan.\n\n"
       "Example:\n"
-      "  texremap plan slurm --manifest sets.jsonl -o plan -- --from unity --to gltf -o converted\n"
+      "  texremap plan slurm --manifest sets -o plan -- --from unity --to gltf -o out\n"
       "  sh plan/submit.sh");
 }
 
