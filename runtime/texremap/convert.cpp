@@ -177,11 +177,11 @@ void warn_of_encoding(const ConvertOptions& options, const JobList& list, const 
 }
 
 // The sets that the manifest lists for this run. DIR becomes the root of the tree.
-Manifest listed_sets(ConvertOptions& options) {
+SetManifest listed_sets(ConvertOptions& options) {
   if (!options.names.empty())
     throw usage_error("--names cannot be used with --manifest (give it to texremap index)");
   const Part all;
-  Manifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
+  SetManifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
   if (options.folder.empty()) options.folder = manifest.head.root;
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.folder, ignored))
@@ -204,7 +204,7 @@ struct CheckedConversion {
 CheckedConversion checked(ConvertOptions& options) {
   CheckedConversion conversion;
   if (!options.manifest.empty()) {
-    Manifest listed = listed_sets(options);
+    SetManifest listed = listed_sets(options);
     conversion.manifest = listed.head;
     conversion.sets = std::move(listed.found);
   }

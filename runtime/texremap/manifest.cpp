@@ -105,14 +105,14 @@ class ManifestReader {
     require_regular_file(path);
     if (!file_) throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
   }
-  Manifest read(const Part& part);
+  SetManifest read(const Part& part);
 
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw input_error(path_.string() + ": " + what); }
   ManifestHead read_head();
-  void read_lines(const Part& part, Manifest& manifest, ContentHash& hash);
-  void add_set(const std::string& line, Manifest& manifest) const;
-  void add_rest(const std::string& line, Manifest& manifest) const;
+  void read_lines(const Part& part, SetManifest& manifest, ContentHash& hash);
+  void add_set(const std::string& line, SetManifest& manifest) const;
+  void add_rest(const std::string& line, SetManifest& manifest) const;
   std::uint64_t cost_in(const std::string& line) const;
 
   const fs::path& path_;
@@ -150,7 +150,7 @@ std::uint64_t ManifestReader::cost_in(const std::string& line) const {
   return cost;
 }
 
-void ManifestReader::add_set(const std::string& line, Manifest& manifest) const {
+void ManifestReader::add_set(const std::string& line, SetManifest& manifest) const {
   const std::string place = path_.string();
   const Json json = parse_json(line, place);
   const Field field(json, place);
@@ -188,7 +188,7 @@ void ManifestReader::add_set(const std::string& line, Manifest& manifest) const 
   manifest.found.sets.push_back(std::move(set));
 }
 
-void ManifestReader::add_rest(const std::string& line, Manifest& manifest) const {
+void ManifestReader::add_rest(const std::string& line, SetManifest& manifest) const {
   const Json json = parse_json(line, path_.string());
   const Field field(json, path_.string());
   if (field.contains("problem"))
@@ -197,8 +197,8 @@ void ManifestReader::add_rest(const std::string& line, Manifest& manifest) const
     manifest.found.unrecognised.emplace_back(field["unrecognised"].any_text());
 }
 
-Manifest ManifestReader::read(const Part& part) {
-  Manifest manifest{read_head(), {}, {}};
+SetManifest ManifestReader::read(const Part& part) {
+  SetManifest manifest{read_head(), {}, {}};
   ContentHash hash = hash_of_head(manifest.head);
   try {
     read_lines(part, manifest, hash);
@@ -209,7 +209,7 @@ Manifest ManifestReader::read(const Part& part) {
   return manifest;
 }
 
-void ManifestReader::read_lines(const Part& part, Manifest& manifest, ContentHash& hash) {
+void ManifestReader::read_lines(const Part& part, SetManifest& manifest, ContentHash& hash) {
   std::uint64_t before = 0;
   for (std::string line; std::getline(file_, line);) {
     hash.add(line);
@@ -275,6 +275,6 @@ std::size_t part_of_set(std::uint64_t cost_before, std::uint64_t cost, const Man
   return std::min(static_cast<std::size_t>(place), count - 1) + 1;
 }
 
-Manifest read_manifest(const fs::path& file, const Part& part) { return ManifestReader(file).read(part); }
+SetManifest read_manifest(const fs::path& file, const Part& part) { return ManifestReader(file).read(part); }
 
 }  // namespace remap

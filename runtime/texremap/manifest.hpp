@@ -38,7 +38,7 @@ struct ManifestHead {
   std::string hash;          // of the rest of this line, and of those that follow
 };
 
-struct Manifest {
+struct SetManifest {
   ManifestHead head;
   // The sets of the part that was asked for, with the sizes of their files. Problems, and images of no set,
   // belong to part 1.
@@ -57,6 +57,6 @@ ManifestHead write_manifest(const std::filesystem::path& file, const std::filesy
 
 // Reads a part of a manifest. Throws kInput, with what to do, if the file is none, incomplete, changed since
 // it was written, or of another version of the program.
-Manifest read_manifest(const std::filesystem::path& file, const Part& part);
+SetManifest read_manifest(const std::filesystem::path& file, const Part& part);
 
 }  // namespace remap

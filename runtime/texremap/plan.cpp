@@ -46,7 +46,7 @@ struct Measured {
 };
 
 // The largest set, and others evenly spread over the sets by their cost.
-Discovery sample_of(const Manifest& manifest) {
+Discovery sample_of(const SetManifest& manifest) {
   std::vector<std::size_t> order(manifest.costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return manifest.costs[i]; });
@@ -57,7 +57,7 @@ Discovery sample_of(const Manifest& manifest) {
   return sample;
 }
 
-Measured measured(const Manifest& manifest, ConvertOptions options) {
+Measured measured(const SetManifest& manifest, ConvertOptions options) {
   const ScratchFolder scratch("texremap-plan");
   options.manifest = scratch.file("sets.jsonl");
   options.output = scratch.file("out");
@@ -77,7 +77,7 @@ Measured measured(const Manifest& manifest, ConvertOptions options) {
           static_cast<double>(resource_use().peak_memory_bytes)};
 }
 
-std::uint64_t highest_cost_of_part(const Manifest& manifest, std::size_t count) {
+std::uint64_t highest_cost_of_part(const SetManifest& manifest, std::size_t count) {
   std::vector<std::uint64_t> parts(count, 0);
   std::uint64_t before = 0;
   for (const std::uint64_t cost : manifest.costs) {
@@ -157,7 +157,7 @@ int rounded_up(double value, int step) { return static_cast<int>(std::ceil(value
 
 void plan(const PlanOptions& options) {
   const ConvertWords words(options.words);
-  const Manifest manifest = read_manifest(options.manifest, Part());
+  const SetManifest manifest = read_manifest(options.manifest, Part());
   if (manifest.costs.empty()) throw input_error(options.manifest.string() + ": lists no set");
   ConvertOptions conversion = words.options();
   conversion.manifest = options.manifest;
