@@ -54,13 +54,30 @@ TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the sam
   const FakeSession fake;
   require_success(session.remapc(sweep(fake, "whole.csv")));
   const std::size_t pictures = fake.pictures();
-  auto broken = sweep(fake, "a.csv", "die' --after '28", "other");
+  auto broken = sweep(fake, "a.csv", "die' --of 'all' --after '" + std::to_string(pictures + 28), "other");
   broken += "--jobs 1";
   check_failure(session.remapc(broken), 1, "died with signal 9; last lines of its log: ");
   CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
   require_success(session.remapc(sweep(fake, "a.csv", "", "other")));
   CHECK(session.content("a.csv") == session.content("whole.csv"));
   CHECK(fake.pictures() == 2 * pictures);  // none of them twice
+}
+
+TEST_CASE("remapc sweep: workers that are lost are replaced, and said and counted", "[slow]") {
+  const Session session;
+  const FakeSession fake;
+  require_success(session.remapc(sweep(fake, "whole.csv") + "--no-cache"));
+  const std::size_t pictures = fake.pictures();
+  const ProcessResult result =
+      require_success(session.remapc(sweep(fake, "a.csv", "die' --after '20") +
+                                     "--no-cache --json --worker-folder ." + "--worker-processes 1"));
+  CHECK(session.content("a.csv") == session.content("whole.csv"));
+  CHECK(fake.pictures() == 2 * pictures);
+  CHECK_THAT(result.output, Contains("\"workers_lost\": " + std::to_string((pictures - 1) / 20)));
+  CHECK_THAT(result.errors, Contains("remapc: warning: worker fake, request fake/ggx alpha ") &&
+                                Contains("(another process renders the picture)"));
+  for (const auto& entry : std::filesystem::directory_iterator(session.path(".")))
+    CHECK_FALSE(entry.path().filename().string().starts_with("remap-pictures-"));
 }
 
 TEST_CASE("remapc sweep: no worker stays behind when it is interrupted, or killed") {
