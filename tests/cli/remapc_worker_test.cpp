@@ -24,6 +24,14 @@ Words sweep(const FakeSession& fake, const std::string& table, const std::string
          Words{"--worker", "fake=" + fake.command(fault), "--cache", cache, "-o", table};
 }
 
+// Left by --worker-folder in the session's folder.
+std::ptrdiff_t folders_of_pictures(const Session& session) {
+  const std::filesystem::directory_iterator entries(session.path("."));
+  return std::count_if(begin(entries), end(entries), [](const auto& entry) {
+    return entry.path().filename().string().starts_with("remap-pictures-");
+  });
+}
+
 // Until the workers have made `count` pictures.
 void wait_for_pictures(const FakeSession& fake, std::size_t count) {
   for (int i = 0; i < 1200 && fake.pictures() < count; ++i)
@@ -76,21 +84,25 @@ TEST_CASE("remapc sweep: workers that are lost are replaced, and said and counte
   CHECK_THAT(result.output, Contains("\"workers_lost\": " + std::to_string((pictures - 1) / 20)));
   CHECK_THAT(result.errors, Contains("remapc: warning: worker fake, request fake/ggx alpha ") &&
                                 Contains("(another process renders the picture)"));
-  for (const auto& entry : std::filesystem::directory_iterator(session.path(".")))
-    CHECK_FALSE(entry.path().filename().string().starts_with("remap-pictures-"));
+  CHECK(folders_of_pictures(session) == 0);
 }
 
 TEST_CASE("remapc sweep: no worker stays behind when it is interrupted, or killed") {
   for (const int signal : {SIGINT, SIGKILL}) {
     const Session session;
     const FakeSession fake;
-    auto arguments = sweep(fake, "a.csv", "hang' --after '4");
+    auto arguments = sweep(fake, "a.csv", "hang' --after '4") + "--worker-folder .";
     Process process = session.start(REMAPC_PROGRAM + arguments);
     wait_for_pictures(fake, 4);
     process.send(signal);
     const ProcessResult result = process.wait();
     if (signal == SIGINT) CHECK_THAT(result.errors, Contains("interrupted"));
     CHECK(fake.nobody_is_left());
+    if (signal == SIGKILL) {
+      CHECK(folders_of_pictures(session) == 1);
+      const PrivateFolder next(session.path("."));
+    }
+    CHECK(folders_of_pictures(session) == 0);
   }
 }
 

@@ -4,8 +4,8 @@
 //   fake_worker [--fault NAME] [--after N] [--of all] [--version TEXT] [--log FILE]
 //
 // The fault strikes at the picture after the first N of this process, or of all processes of the log. To the
-// log go a line for each picture, the process ids of the worker and of its children, and at the start of each
-// worker the number of those that run.
+// log go two lines for each picture (its file, its parameters), the process ids of the worker and of its
+// children, and at the start of each worker the number of those that run.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -199,7 +199,13 @@ bool misbehave(const json& request) {
     std::ofstream(request.at("image").get<std::string>()) << "half";
     std::exit(0);
   }
-  if (has_fault("hang")) std::this_thread::sleep_for(std::chrono::hours(1));
+  if (has_fault("launcher")) {  // ends what it has started elsewhere
+    std::signal(SIGTERM, [](int) {
+      log_line("told to end");
+      std::_Exit(0);
+    });
+  }
+  if (has_fault("hang") || has_fault("launcher")) std::this_thread::sleep_for(std::chrono::hours(1));
   if (has_fault("garbage")) std::cout << "Saved: picture.exr" << std::endl;
   if (has_fault("wrong-id")) std::cout << json{{"id", request.at("id").get<int>() + 1}} << std::endl;
   if (has_fault("refuse"))
@@ -229,6 +235,7 @@ void render(const json& request) {
   if (misbehave(request)) return;
   const remap::Image image = picture(request);
   const std::string path = (has_fault("elsewhere") ? "/proc" : "") + request.at("image").get<std::string>();
+  log_line("file " + path);
   std::ofstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("cannot write " + path);
   file.write(reinterpret_cast<const char*>(image.values.data()),

@@ -1,5 +1,6 @@
 // Failing workers: their error messages, and that no process or file remains.
 #include <map>
+#include <set>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -55,6 +56,8 @@ TEST_CASE("worker: the error for one that dies has its request and the end of it
 TEST_CASE("worker: one that hangs is killed after the timeout, with its children") {
   const FakeSession session;
   CHECK_THAT(render_error(session, "hang", 0.5), Contains(kPlace + "no answer within 0.5 s"));
+  CHECK_THAT(render_error(session, "launcher", 0.5), Contains("no answer within 0.5 s"));
+  CHECK(session.log_lines("told").size() == 3);
   CHECK(session.nobody_is_left());
 }
 
@@ -120,6 +123,8 @@ TEST_CASE("worker: those that are lost cost nothing but their processes") {
     const std::size_t lost = renderer.pictures().lost_workers;
     CHECK(lost >= 2);
     CHECK(session.pictures() == 12);
+    const std::vector<std::string> files = session.log_lines("file");
+    CHECK(std::set(files.begin(), files.end()).size() == 12);  // a name of its own each
     CHECK(session.log_lines("process").size() <= 2 + lost);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("worker fake, request fake/ggx alpha ") &&
