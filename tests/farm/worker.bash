@@ -1,5 +1,5 @@
-# Workers of remapc as steps of Slurm: `--worker "NAME=srun ..."` gives the table of a local worker, and a step, a node or remapc
-# itself that dies costs no more than the pictures that were being rendered.
+# Workers of remapc as steps of Slurm: `--worker "NAME=srun ..."` gives the table of a local worker. A step that is cancelled or hangs,
+# or a node that is lost, costs the sweep nothing but time; remapc itself that dies, no more than the pictures that were being rendered.
 #
 #   worker.bash REMAPC SOURCES
 set -uo pipefail
@@ -12,6 +12,7 @@ readonly by_srun="example=srun -N1 -n1 $worker"
 readonly sweep=(sweep --source example/blinn-phong --target mitsuba/ggx --roughness-range 0.1,0.6 --roughness-samples 12
   --specular-range 0,0.1 --specular-samples 3 --resolution 128)
 cd "$farm"
+mkdir pictures
 
 kept_pictures() { find cache -type f 2>/dev/null | wc -l; }
 
@@ -22,31 +23,58 @@ no_steps() { no_jobs && [[ -z $(squeue --noheader --steps) ]]; }
 is_the_table() { cmp local.csv "$1"; }
 
 # A sweep that keeps its pictures.
-readonly cached=("$remapc" "${sweep[@]}" --worker "$by_srun" --cache cache --force -o table.csv)
+readonly cached=("$remapc" "${sweep[@]}" --worker "$by_srun" --worker-folder pictures --worker-timeout 8 --cache cache --force
+  -o table.csv)
 
-# interrupted TITLE COMMAND...: the command meets a sweep that has begun; another sweep finishes what is left.
-interrupted() {
+# met TITLE COMMAND...: the command meets a sweep that has begun. Its exit code is then $code.
+met() {
   local -r title=$1
-  local code=0 kept
+  code=0
   shift
   rm -rf cache table.csv*
-  "${cached[@]}" >interrupted.txt 2>&1 &
+  "${cached[@]}" >met.txt 2>&1 &
   sweep_pid=$!
   wait_until 20 has_begun || echo "no pictures" >&2
   "$@"
   wait "$sweep_pid" 2>/dev/null || code=$?
-  kept=$(kept_pictures)
-  echo "$title: exit code $code, $kept pictures kept: $(tail -n 1 interrupted.txt | cut -c 1-200)"
-  check "$title: pictures are kept" test "$kept" -ge 10
+  echo "$title: exit code $code, $(kept_pictures) pictures kept: $(tail -n 1 met.txt | cut -c 1-200)"
   check "$title: no step runs on" wait_until 30 no_steps
-  [[ $code == 0 || $code == 137 ]] || check "$title: it is told" grep -q "worker example, request" interrupted.txt
-  check "$title: another sweep ends well" "${cached[@]}"
-  check "$title: its table" is_the_table table.csv
 }
 
-kill_step() { scancel --signal=KILL "$(squeue --noheader --steps --format=%i | head -n 1)"; }
+is_said() {
+  grep -q "warning: worker example, request .* (another process renders the picture)" met.txt && grep -q " lost, " met.txt
+}
+
+# survived TITLE COMMAND...: the sweep goes on, says what it has lost, and leaves nothing.
+survived() {
+  met "$@"
+  check "$1: the sweep goes on" test "$code" == 0
+  check "$1: it is said" is_said
+  check "$1: its table" is_the_table table.csv
+  check "$1: the folder of pictures is empty" test -z "$(ls -A pictures)"
+}
+
+# ended TITLE COMMAND...: another sweep finishes what is left, and clears up.
+ended() {
+  met "$@"
+  check "$1: pictures are kept" test "$(kept_pictures)" -ge 10
+  check "$1: another sweep ends well" "${cached[@]}"
+  check "$1: its table" is_the_table table.csv
+  check "$1: the folder of pictures is empty" test -z "$(ls -A pictures)"
+}
+
+a_step() { squeue --noheader --steps --format=%i | head -n 1; }
+
+kill_step() { scancel --signal=KILL "$(a_step)"; }
+
+stop_step() { scancel --signal=STOP "$(a_step)"; }
+
+# The whole job of srun.
+cancel_job() { scancel "$(squeue --noheader --states=RUNNING --format=%i | head -n 1)"; }
 
 kill_remapc() { kill -9 "$sweep_pid"; }
+
+interrupt_remapc() { kill -TERM "$sweep_pid"; }
 
 lose_a_node() {
   local node
@@ -67,11 +95,33 @@ $(printf '%q ' "$remapc" "${sweep[@]}" --worker "example=srun --exact -N1 -n1 $w
 SBATCH
 check "steps in an allocation" sbatch --wait allocation.sbatch
 check "steps in an allocation: the same table" is_the_table allocation.csv
-interrupted "a step is killed" kill_step
-interrupted "a node is lost" lose_a_node
-interrupted "remapc is killed" kill_remapc
-# Pictures are handed over in /dev/shm, which another machine does not share.
-"$remapc" "${sweep[@]}" --no-cache -o other.csv \
-  --worker "example=srun -N1 -n1 unshare --mount sh -c 'mount -t tmpfs none /dev/shm; exec $worker'" >other.txt 2>&1
-echo "a worker that sees another /dev/shm: exit code $?: $(tail -n 1 other.txt | cut -c 1-250)"
+survived "a step is killed" kill_step
+survived "a job is cancelled" cancel_job
+survived "a step hangs" stop_step
+survived "a node is lost" lose_a_node
+ended "remapc is killed" kill_remapc
+ended "remapc is interrupted" interrupt_remapc
+
+# Another machine does not share /dev/shm.
+readonly elsewhere="example=srun -N1 -n1 unshare --mount sh -c 'mount -t tmpfs none /dev/shm; exec $worker'"
+is_refused() {
+  ! "$remapc" "${sweep[@]}" --no-cache -o other.csv --worker "$elsewhere" 2>other.txt &&
+    grep "No such file or directory.*--worker-folder FOLDER" other.txt
+}
+check "a worker elsewhere needs a folder" is_refused
+check "a worker elsewhere" "$remapc" "${sweep[@]}" --no-cache -o other.csv --worker "$elsewhere" --worker-folder pictures
+check "a worker elsewhere: the same table" is_the_table other.csv
+
+# A licence for each process of a sweep.
+most_steps() {
+  local count most=0
+  "$@" >capped.txt 2>&1 &
+  while kill -0 $! 2>/dev/null; do
+    count=$(squeue --noheader --steps --format=%i | wc -l)
+    ((count <= most)) || most=$count
+  done
+  wait $! && echo "at most $most steps at once" && ((most == 1))
+}
+check "one process at once" most_steps "$remapc" "${sweep[@]}" --worker "$by_srun" --worker-processes 1 --jobs 4 --no-cache -o one.csv
+check "one process at once: the same table" is_the_table one.csv
 end_farm
