@@ -254,6 +254,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
                                                                  : as_inputs();
   choice.extension = options.format;
   choice.type = options.type;
+  choice.compression_level = options.compression;
   choice.diagnosis_folder = options.diagnose;
   if (!options.diagnose.empty()) {
     choice.diagnoses = {MaskChannel{}};

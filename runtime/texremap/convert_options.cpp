@@ -28,6 +28,15 @@ Reader<std::vector<float>> factors() {
   return {[](const std::string& option, const std::string& word) { return parse_factors(option, word); }, {}};
 }
 
+Reader<int> compression_level() {
+  return {[](const std::string& option, const std::string& word) {
+            if (word.size() != 1 || word[0] < '1' || word[0] > '9')
+              throw usage_error(option + ": " + word + " is no level (1, fast, to 9, small)");
+            return word[0] - '0';
+          },
+          {}};
+}
+
 Reader<Layout> layout() {
   std::vector<std::string> known;
   for (const Preset& preset : presets()) known.emplace_back(preset.name);
@@ -204,6 +213,12 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command
       .add_option("--type NAME", options.type, one_of(kWrittenTypes, "pixel type"),
                   "Pixel type of the results")
+      ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_option(
+          "--compression LEVEL", options.compression, compression_level(),
+          "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
+          "PNG files)")
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_option(

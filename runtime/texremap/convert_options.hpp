@@ -82,6 +82,7 @@ struct ConvertOptions {
   const Preset* preset = nullptr;
   std::string format;
   std::optional<PixelType> type;
+  std::optional<int> compression;  // level
   std::optional<RoughnessConvention> output_encoding;
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;

@@ -113,6 +113,7 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   results.insert(results.end(), other.results.begin(), other.results.end());
   was_done = was_done && other.was_done;
   has_8_bits = has_8_bits || other.has_8_bits;
+  has_compression_level = has_compression_level || other.has_compression_level;
   if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
   if (!passes_later(failure_code)) failure_code = other.failure_code;
   for (const auto& [note, count] : other.colors) colors[note] += count;

@@ -74,7 +74,7 @@ struct JobReport {
   std::optional<std::string> failure;
   int failure_code = 0;     // errno of the call that failed, or 0
   bool was_done = false;    // by the earlier run that this one resumes
-  bool has_8_bits = false;  // a result does
+  bool has_8_bits = false, has_compression_level = false;  // a result does
   MapStatistics statistics;
   double seconds = 0.0;           // sum over all tiles, even where tiles ran in parallel
   std::uintmax_t bytes_read = 0;  // sizes of the files on disk

@@ -106,10 +106,14 @@ FinishedFile finished_file(const std::filesystem::path& path, const std::filesys
   return {path, std::filesystem::file_size(content), hash_of_file(content)};
 }
 
-void require_8_bits(bool has_8_bits) {
-  if (!has_8_bits)
-    throw Error(ErrorKind::kUsage,
-                "--dither: applies to nothing, because no result has 8 bits (remove this option)");
+// Refuses options that apply to none of the results.
+void require_effect(const ConvertOptions& options, const JobReport& report) {
+  if (options.dither && !report.has_8_bits)
+    throw usage_error("--dither: applies to nothing, because no result has 8 bits (remove this option)");
+  if (options.compression && !report.has_compression_level)
+    throw usage_error(
+        "--compression: applies to nothing, because no result is PNG, or EXR or TIFF with zip (remove this "
+        "option)");
 }
 
 WidthSource width_source(const TextureSet& set) {
@@ -373,7 +377,9 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   for (const TargetMap& target : targets)
     for (const Channel& channel : target.writer->layout().channels)
       report.has_8_bits = report.has_8_bits || channel.type == PixelType::kUint8;
-  if (options_.dither && !is_tree_) require_8_bits(report.has_8_bits);
+  for (const TargetMap& target : targets)
+    report.has_compression_level |= target.writer->layout().has_compression_level;
+  if (!is_tree_) require_effect(options_, report);
   PassOptions pass = pass_;
   pass.target_convention = width;
   pass.progress = progress;
@@ -525,10 +531,14 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
   });
   std::vector<JobReport> reports = sets.reports();
   const auto is_converted = [](const JobReport& report) { return !report.failure && !report.was_done; };
-  if (options.dither && !options.dry_run && !options.part &&
-      std::any_of(reports.begin(), reports.end(), is_converted))
-    require_8_bits(std::any_of(reports.begin(), reports.end(),
-                               [](const JobReport& report) { return report.has_8_bits; }));
+  if (!options.dry_run && !options.part && std::any_of(reports.begin(), reports.end(), is_converted)) {
+    JobReport all;
+    for (const JobReport& report : reports) {
+      all.has_8_bits |= report.has_8_bits;
+      all.has_compression_level |= report.has_compression_level;
+    }
+    require_effect(options, all);
+  }
   return reports;
 }
 

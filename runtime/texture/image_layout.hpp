@@ -31,6 +31,7 @@ struct ImageLayout {
   int tile_height = 0;                      // 0 for a file that is stored by rows
   std::string format;                       // name in OpenImageIO: "openexr", "tiff", "png", "jpeg", ...
   std::string lossy_compression;            // empty for a lossless file
+  bool has_compression_level = false;       // its compression takes a level
   std::optional<Transfer> tagged_transfer;  // of colors, where the file has a tag for it
 
   std::size_t row_bytes() const noexcept { return static_cast<std::size_t>(width) * texel_bytes; }
@@ -67,6 +68,7 @@ struct ImageChanges {
   std::optional<PixelType> type;                     // of all channels
   std::optional<std::vector<std::string>> channels;  // new channels, all of the type of the first old one
   std::optional<ColorStorage> colors;                // none: all channels are data
+  std::optional<int> compression_level;              // 1 (fast) to 9 (small), of a compression that takes one
   Metadata metadata;                                 // added; TIFF and JPEG hold it in the tag Software
 };
 

@@ -93,6 +93,7 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
 ImageChanges changes_of(const TargetChoice& choice) {
   ImageChanges changes;
   changes.type = choice.type;
+  changes.compression_level = choice.compression_level;
   changes.metadata = choice.metadata;
   return changes;
 }

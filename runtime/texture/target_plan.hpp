@@ -55,8 +55,9 @@ struct TargetChoice {
   bool colors_stay_grey = true;          // colors that are grey in the set stay grey in a separate file
   std::vector<TargetChannel> diagnoses;  // the mask and measures: a grey map each, in a folder of its own
   std::filesystem::path diagnosis_folder;
-  std::string extension;          // of all files; empty for those of the inputs
-  std::optional<PixelType> type;  // of all files
+  std::string extension;                 // of all files; empty for those of the inputs
+  std::optional<PixelType> type;         // of all files
+  std::optional<int> compression_level;  // of all files that take one
   ResultNames names;
   Layout layout = as_inputs();
   // Whose stored values stay as they are. A result that would repeat a file is a copy of it.

@@ -2,6 +2,7 @@
 // else the input.
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -168,6 +169,32 @@ TEST_CASE("texremap: --type chooses the pixel type, and clipped values are count
   const TestImage out = session.image("out/s.tif");
   CHECK(out.spec.format == OIIO::TypeUInt8);
   check_converted(session.image("r.exr"), session.image("s.exr"), session.image("out/r.tif"), out);
+}
+
+TEST_CASE("texremap: --compression changes sizes and no texel, and is refused where nothing has a level") {
+  const Session session;
+  for (const std::string extension : {"png", "tif", "exr"}) {
+    session.write_pair(extension);
+    const std::string roughness = "r." + extension, specular = "s." + extension;
+    std::uintmax_t last = std::numeric_limits<std::uintmax_t>::max();
+    std::vector<float> texels;
+    for (const std::string level : {"1", "9"}) {
+      require_success(
+          session.convert(roughness, specular, "--force --format " + extension + " --compression " + level));
+      const std::uintmax_t size = fs::file_size(session.path("out/" + specular));
+      INFO(extension << " " << level);
+      CHECK(size < last);
+      last = size;
+      const std::vector<float> now = session.image("out/" + specular).values;
+      if (!texels.empty()) CHECK(now == texels);
+      texels = now;
+    }
+  }
+  session.write_pair("tga");
+  const ProcessResult result = session.convert("r.tga", "s.tga", "--compression 3");
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.errors, Contains("applies to nothing"));
+  CHECK_FALSE(fs::exists(session.path("out/r.tga")));
 }
 
 TEST_CASE("texremap: a constant specular becomes a map of the same size") {

@@ -31,6 +31,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l layout -x -a 'a
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l preset -x -a 'gltf unity unity-hdrp unreal godot threejs blender usd marmoset' -d 'Write what a tool takes: --to, --layout, --format and --type at once, where these are not given'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l format -x -d 'File extension of the results: exr, tif, png, ...'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l type -x -a 'uint8 uint16 half float' -d 'Pixel type of the results'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l compression -x -d '1'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l output-color-space -x -d 'How colors are written: srgb or linear, or per map'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l only -x -a 'roughness specular' -d 'Write only this parameter'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l copy-others -d 'With DIR, also copy the maps that are not converted'

@@ -31,6 +31,9 @@ std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std
 OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
 
 // Throws kInput if a channel has an unsupported type.
+// Whether the compression takes a level: that of PNG, and zip of EXR and TIFF.
+bool has_compression_level(const OIIO::ImageSpec& spec, const std::string& format);
+
 ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
                       const std::filesystem::path& path);
 

@@ -123,6 +123,14 @@ void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
   if (format == "targa") suit_targa(spec);
 }
 
+void choose_compression_level(OIIO::ImageSpec& spec, const std::string& format, int level) {
+  if (!has_compression_level(spec, format)) return;
+  if (format == "png")
+    spec.attribute("png:compressionLevel", level);
+  else
+    spec.attribute("Compression", "zip:" + std::to_string(level));
+}
+
 // Tags the colors of a new file. One that stores them as the file that it follows keeps that file's tag.
 // glTF and most readers take the colors of PNG for sRGB and ignore its gamma, so data has no tag, and linear
 // colors have one only because they were asked for.
@@ -187,6 +195,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   tag_colors(spec, format, *stored, follows, changes, metadata);
   if (format != model_format) leave_coding_behind(spec, output);
   suit_format(spec, format);
+  if (changes.compression_level) choose_compression_level(spec, format, *changes.compression_level);
   note_metadata(spec, format, metadata);
   return spec;
 }

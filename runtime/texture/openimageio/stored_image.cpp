@@ -114,6 +114,13 @@ OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec) {
   return spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(OIIO::TypeUnknown);
 }
 
+bool has_compression_level(const OIIO::ImageSpec& spec, const std::string& format) {
+  if (format == "png") return true;
+  const std::string compression = spec.get_string_attribute("Compression", "zip");
+  return (format == "openexr" || format == "tiff") &&
+         (compression == "zip" || compression.starts_with("zip:"));
+}
+
 ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, const fs::path& path) {
   ImageLayout layout;
   layout.width = spec.width;
@@ -124,6 +131,7 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
   layout.tile_height = spec.tile_width > 0 ? spec.tile_height : 0;
   layout.format = format;
   layout.lossy_compression = lossy_compression(spec, format);
+  layout.has_compression_level = has_compression_level(spec, format);
   layout.tagged_transfer = tagged_transfer(spec);
   for (int c = 0; c < spec.nchannels; ++c) {
     const std::string name = spec.channel_name(c);
