@@ -1,0 +1,47 @@
+// Assets and what lies beside them, as files.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "assets/gltf_asset.hpp"
+#include "core/open_file.hpp"
+
+namespace remap {
+
+// The bytes of a file that stays open: it is read to its end even where its name is given to another.
+class FileSource final : public ByteSource {
+ public:
+  // Throws kInput unless `path` leads to a regular file that can be read.
+  explicit FileSource(const std::filesystem::path& path);
+
+  std::uint64_t size() const override { return size_; }
+  std::string read(std::uint64_t begin, std::size_t count) const override;
+
+ private:
+  std::filesystem::path path_;
+  OpenFile file_;
+  std::uint64_t size_ = 0;
+};
+
+// Writes a result, a megabyte at a time, complete or not at all. Throws kOutput.
+void write_pieces(const std::filesystem::path& path, const std::vector<AssetPiece>& pieces,
+                  const ByteSource& source);
+
+// A file that the asset names, and its copy.
+struct ResourceCopy {
+  std::filesystem::path from, to;
+};
+
+struct ResourcePlan {
+  std::vector<ResourceCopy> copies;   // that are missing beside the result
+  std::vector<std::string> warnings;  // files that the asset names and that are not there
+};
+
+// What must be copied so that `output` finds the files that `input` names; nothing in one folder. Throws
+// kInput for a name that leads out of the folder of the asset or to the asset itself, kOutput where another
+// file has the name of a copy, unless `force`.
+ResourcePlan plan_resources(const std::filesystem::path& input, const std::filesystem::path& output,
+                            const std::vector<AssetResource>& resources, bool force);
+
+}  // namespace remap
