@@ -1,6 +1,7 @@
 #include "assets/gltf_asset.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -103,17 +104,20 @@ class ViewCheck {
 }  // namespace
 
 AssetConversion convert_asset(const ByteSource& source, const std::string& place,
-                              const SpecGlossOptions& options) {
+                              const SpecGlossOptions& options, const AssetResources* resources) {
   const GltfContainer container = read_container(source, place);
   const SpannedJson json(container.json, place);
   AssetConversion conversion;
-  conversion.result = convert_specgloss(json, place, options);
   conversion.warnings = container.notes;
   for (const std::string& warning : ViewCheck(json, container, place).run())
     conversion.warnings.push_back(warning);
+  std::optional<AssetParts> parts;
+  if (resources != nullptr) parts.emplace(AssetParts{container, source, *resources});
+  conversion.result = convert_specgloss(json, place, options, parts ? &*parts : nullptr);
   for (const std::string& warning : conversion.result.warnings) conversion.warnings.push_back(warning);
   conversion.resources = resources_of(json);
-  if (conversion.result.changed) conversion.pieces = with_json(container, conversion.result.json, place);
+  if (conversion.result.changed)
+    conversion.pieces = with_json(container, conversion.result.json, conversion.result.appended, place);
   return conversion;
 }
 

@@ -25,8 +25,10 @@ struct AssetConversion {
 };
 
 // Reads and converts a file of either form. Throws kInput, beginning with `place`, for a container or a text
-// that cannot be read, and for views that lie outside of their buffers; kOutput as with_json().
+// that cannot be read, and for views that lie outside of their buffers; kOutput as with_json(). Without
+// `resources`, materials with textures fail.
 AssetConversion convert_asset(const ByteSource& source, const std::string& place,
-                              const SpecGlossOptions& options = {});
+                              const SpecGlossOptions& options = {},
+                              const AssetResources* resources = nullptr);
 
 }  // namespace remap

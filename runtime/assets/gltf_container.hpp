@@ -57,10 +57,11 @@ struct AssetPiece {
 // kInput, beginning with `place`, for a container that is cut off or whose lengths contradict each other.
 GltfContainer read_container(const ByteSource& source, const std::string& place);
 
-// The file with other JSON: chunks stay where they are, in their order. Throws kOutput, beginning with
-// `place`, for 4 GiB or more, which a container cannot hold.
+// The file with other JSON: chunks stay in their order, and `appended` follows the binary one, from a
+// multiple of four bytes. Throws kOutput, beginning with `place`, for 4 GiB or more, which a container cannot
+// hold.
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
-                                  const std::string& place);
+                                  const std::string& appended, const std::string& place);
 
 // The length of a result.
 std::uint64_t size_of(const std::vector<AssetPiece>& pieces);

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "assets/specgloss_material.hpp"
+#include "assets/specgloss_textures.hpp"
 #include "assets/text_edits.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -56,33 +58,7 @@ bool is_one_of(std::string_view name, const auto& names) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// A factor from 0 to 1, as the file writes it or as it is clamped.
-struct FactorText {
-  double value = 1.0;
-  std::string text = "1";
-};
-
-// A spec-gloss material as the file describes it.
-struct SpecGlossMaterial {
-  SpanValue material, extension;  // its object, and the object of spec-gloss
-  std::array<FactorText, 4> diffuse;
-  std::array<FactorText, 3> specular;
-  FactorText glossiness;
-  bool is_unlit = false;
-
-  SpecGlossFactors factors() const {
-    return {{diffuse[0].value, diffuse[1].value, diffuse[2].value},
-            {specular[0].value, specular[1].value, specular[2].value},
-            glossiness.value};
-  }
-};
-
-// What makes one material fail and lets the others go on.
-struct MaterialFailure {
-  std::string reason;
-};
-
-[[noreturn]] void fail_material(const std::string& reason) { throw MaterialFailure{reason}; }
+[[noreturn]] void fail_material(const std::string& reason) { throw input_error(reason); }
 
 // Reads the factors of one object, and notes those that it clamps.
 class FactorReader {
@@ -133,6 +109,8 @@ SpecGlossMaterial read_material(SpanValue material, AssetMaterial& report) {
   factors.read("diffuseFactor", read.diffuse);
   factors.read("specularFactor", read.specular);
   factors.read("glossinessFactor", read.glossiness);
+  read.diffuse_texture = read.extension["diffuseTexture"];
+  read.specgloss_texture = read.extension["specularGlossinessTexture"];
   read.is_unlit = static_cast<bool>(extensions[kUnlit]);
   return read;
 }
@@ -163,8 +141,6 @@ std::string list_text(const std::vector<std::string>& entries) {
   return "[" + text + "]";
 }
 
-std::string float_text(float value) { return number_text(decimal_value(value)); }
-
 // Arithmetic of floats moves a color by less.
 constexpr double kSameFactor = 1e-6;
 
@@ -175,12 +151,7 @@ std::string base_text(float base, const FactorText& diffuse, const FactorText& s
   return float_text(base);
 }
 
-// The factors of core glTF as the file will hold them.
-struct CoreTexts {
-  std::array<std::string, 4> base_color;
-  std::string metallic, roughness;
-};
-
+// The texts of a material without textures.
 CoreTexts core_texts(const SpecGlossMaterial& read, const MetalRoughFactors& result, bool keeps_diffuse) {
   CoreTexts texts;
   for (std::size_t c = 0; c < 3; ++c)
@@ -189,18 +160,24 @@ CoreTexts core_texts(const SpecGlossMaterial& read, const MetalRoughFactors& res
   texts.base_color[3] = read.diffuse[3].text;
   texts.metallic = float_text(result.metallic);
   texts.roughness = float_text(result.roughness);
+  texts.has_metal = result.metallic > 0.0f;
+  texts.residual = static_cast<double>(result.residual);
   return texts;
 }
 
 std::string becomes_text(const CoreTexts& texts, const SpecGlossMaterial& read, bool is_exact) {
-  std::string text =
-      "base color " + texts.base_color[0] + " " + texts.base_color[1] + " " + texts.base_color[2];
-  if (read.diffuse[3].value < 1.0) text += ", alpha " + texts.base_color[3];
+  const bool keeps_texture =
+      !texts.base_texture.empty() && read.diffuse_texture && texts.base_texture == read.diffuse_texture.raw();
+  std::string text = "base color ";
+  if (!texts.base_texture.empty()) text += keeps_texture ? "diffuse map times " : "map times ";
+  text += texts.base_color[0] + " " + texts.base_color[1] + " " + texts.base_color[2];
+  if (texts.base_color[3] != "1") text += ", alpha " + texts.base_color[3];
   if (read.is_unlit) return text + ", unlit";
   text += ", metallic " + texts.metallic + ", roughness " + texts.roughness;
+  if (!texts.metal_rough_texture.empty()) text += is_exact ? " times map" : ", both times map";
   if (is_exact)
-    text += ", specular color " + read.specular[0].text + " " + read.specular[1].text + " " +
-            read.specular[2].text;
+    text += std::string(", specular color ") + (texts.specular_texture.empty() ? "" : "map times ") +
+            read.specular[0].text + " " + read.specular[1].text + " " + read.specular[2].text;
   return text;
 }
 
@@ -220,8 +197,14 @@ std::optional<std::size_t> pointed_material(std::string_view pointer) {
 
 class SpecGlossEditor {
  public:
-  SpecGlossEditor(const SpannedJson& json, const std::string& place, const SpecGlossOptions& options)
-      : json_(json), root_(json.root()), place_(place), options_(options), edits_(json) {}
+  // `asset` may be null: then no material with textures is converted.
+  SpecGlossEditor(const SpannedJson& json, const std::string& place, const SpecGlossOptions& options,
+                  const AssetParts* asset)
+      : json_(json), root_(json.root()), place_(place), options_(options), edits_(json) {
+    if (asset == nullptr) return;
+    images_.emplace(json, asset->container, asset->source, asset->resources, place_, edits_);
+    textures_.emplace(*images_, options.prior, options.instructions);
+  }
 
   SpecGlossResult result() {
     require_gltf();
@@ -232,8 +215,13 @@ class SpecGlossEditor {
     if (!materials_.empty()) {
       convert_factors();
       count_colored();
-      for (auto& [index, read] : materials_) write(read, result_.materials[index]);
+      for (Planned& planned : materials_) write(planned, result_.materials[planned.index]);
       update_extension_lists();
+    }
+    if (images_) {
+      images_->finish();
+      result_.appended = images_->appended();
+      result_.files = std::move(images_->files());
     }
     result_.changed = !edits_.empty();
     result_.touched = edits_.touched();
@@ -242,6 +230,13 @@ class SpecGlossEditor {
   }
 
  private:
+  // A material that is converted.
+  struct Planned {
+    std::size_t index = 0;
+    SpecGlossMaterial read;
+    std::optional<CoreTexts> texts;  // none before convert_factors()
+  };
+
   void require_gltf() {
     const SpanValue version = root_["asset"]["version"];
     const std::optional<std::string> text = version.text();
@@ -276,13 +271,15 @@ class SpecGlossEditor {
       report.name = all[i]["name"].text().value_or("");
       if (!all[i]["extensions"][kSpecGlossExtension]) continue;
       try {
-        SpecGlossMaterial read = read_material(all[i], report);
-        require_convertible(read, i);
-        materials_.emplace_back(i, std::move(read));
+        Planned planned{i, read_material(all[i], report), {}};
+        require_convertible(planned.read, i);
+        convert_textures(planned, report);
+        materials_.push_back(std::move(planned));
         report.state = MaterialState::kConverted;
-      } catch (const MaterialFailure& failure) {
+      } catch (const Error& error) {
+        if (error.kind() != ErrorKind::kInput) throw;
         report.state = MaterialState::kFailed;
-        report.failure = failure.reason;
+        report.failure = plain(error.what(), 500);
       }
     }
   }
@@ -297,11 +294,13 @@ class SpecGlossEditor {
         if (extensions[name])
           fail_material("has " + std::string(name) +
                         " already, which the exact form needs (use --profile core)");
-    const bool has_texture = read.extension["diffuseTexture"] || read.extension["specularGlossinessTexture"];
-    if (has_texture && !read.is_unlit)
-      fail_material(
-          "has textures, which are not converted inside of assets yet (convert the maps by --diffuse, "
-          "--specular and --glossiness)");
+  }
+
+  void convert_textures(Planned& planned, AssetMaterial& report) {
+    SpecGlossMaterial& read = planned.read;
+    if (read.is_unlit || (!read.diffuse_texture && !read.specgloss_texture)) return;
+    if (!textures_) fail_material("has textures, and no library of images is given");
+    planned.texts = is_exact(read) ? textures_->exact(read) : textures_->core(read, report.warnings);
   }
 
   bool is_exact(const SpecGlossMaterial& read) const {
@@ -310,19 +309,29 @@ class SpecGlossEditor {
   // Whether base color is diffuse as it stands.
   bool keeps_diffuse(const SpecGlossMaterial& read) const { return is_exact(read) || read.is_unlit; }
 
+  // Materials without textures, all at once.
   void convert_factors() {
+    std::vector<Planned*> planned;
     std::vector<SpecGlossFactors> sources;
-    for (const auto& [index, read] : materials_) sources.push_back(read.factors());
-    const std::vector<MetalRoughFactors> results = projected(sources, options_.prior, options_.instructions);
-    for (std::size_t i = 0; i < materials_.size(); ++i) {
-      const SpecGlossMaterial& read = materials_[i].second;
-      AssetMaterial& report = result_.materials[materials_[i].first];
+    for (Planned& material : materials_)
+      if (!material.texts) {
+        planned.push_back(&material);
+        sources.push_back(material.read.factors());
+      }
+    std::vector<MetalRoughFactors> results = projected(sources, options_.prior, options_.instructions);
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+      const SpecGlossMaterial& read = planned[i]->read;
+      if (keeps_diffuse(read)) {
+        for (std::size_t c = 0; c < 3; ++c)
+          results[i].base_color[c] = static_cast<float>(sources[i].diffuse[c]);
+        results[i].metallic = results[i].residual = 0.0f;
+      }
+      planned[i]->texts = core_texts(read, results[i], keeps_diffuse(read));
+      if (read.is_unlit && read.diffuse_texture)
+        planned[i]->texts->base_texture = std::string(read.diffuse_texture.raw());
+      AssetMaterial& report = result_.materials[planned[i]->index];
       report.source = sources[i];
       report.result = results[i];
-      if (!keeps_diffuse(read)) continue;
-      for (std::size_t c = 0; c < 3; ++c)
-        report.result->base_color[c] = static_cast<float>(sources[i].diffuse[c]);
-      report.result->metallic = report.result->residual = 0.0f;
     }
   }
 
@@ -332,13 +341,11 @@ class SpecGlossEditor {
     for (const SpanValue& mesh : root_["meshes"].children())
       for (const SpanValue& primitive : mesh["primitives"].children())
         if (primitive["attributes"]["COLOR_0"]) count_uses(primitive, counts);
-    for (const auto& [index, read] : materials_) {
-      AssetMaterial& report = result_.materials[index];
-      if (counts[index] > 0 && report.result->metallic > 0.0f)
-        report.warnings.push_back("vertex colors of " + std::to_string(counts[index]) +
-                                  (counts[index] == 1 ? " primitive" : " primitives") +
-                                  " tinted its diffuse color and now tint its reflection, too");
-    }
+    for (const Planned& planned : materials_)
+      if (const std::size_t count = counts[planned.index]; count > 0 && planned.texts->has_metal)
+        result_.materials[planned.index].warnings.push_back(
+            "vertex colors of " + std::to_string(count) + (count == 1 ? " primitive" : " primitives") +
+            " tinted its diffuse color and now tint its reflection, too");
   }
 
   static void count_uses(SpanValue primitive, std::vector<std::size_t>& counts) {
@@ -353,12 +360,13 @@ class SpecGlossEditor {
     for (const std::size_t index : used) ++counts[index];
   }
 
-  void write(const SpecGlossMaterial& read, AssetMaterial& report) {
-    const CoreTexts texts = core_texts(read, *report.result, keeps_diffuse(read));
-    report.becomes = becomes_text(texts, read, is_exact(read));
+  void write(const Planned& planned, AssetMaterial& report) {
+    const SpecGlossMaterial& read = planned.read;
+    report.becomes = becomes_text(*planned.texts, read, is_exact(read));
+    report.residual = planned.texts->residual;
     note_extensions(read, report);
-    write_core(read, texts, report);
-    write_extensions(read);
+    write_core(read, *planned.texts, report);
+    write_extensions(read, *planned.texts);
   }
 
   // Members of core in their order; those with empty texts go.
@@ -366,13 +374,12 @@ class SpecGlossEditor {
 
   // Replaces the fallback's textures and factors, and keeps what else it holds.
   void write_core(const SpecGlossMaterial& read, const CoreTexts& texts, AssetMaterial& report) {
-    const SpanValue texture = read.extension["diffuseTexture"];
     const CoreMembers members = {
         {{"baseColorFactor", list_text({texts.base_color.begin(), texts.base_color.end()})},
-         {"baseColorTexture", texture ? std::string(texture.raw()) : ""},
+         {"baseColorTexture", texts.base_texture},
          {"metallicFactor", texts.metallic},
          {"roughnessFactor", texts.roughness},
-         {"metallicRoughnessTexture", ""}}};
+         {"metallicRoughnessTexture", texts.metal_rough_texture}}};
     const SpanValue extras = read.extension["extras"];
     if (const SpanValue core = read.material[kCoreMember]) {
       for (const auto& [name, text] : members) put(core, name, text);
@@ -412,7 +419,7 @@ class SpecGlossEditor {
         edits_.append_member(kept, member.key(), std::string(member.raw()));
   }
 
-  void write_extensions(const SpecGlossMaterial& read) {
+  void write_extensions(const SpecGlossMaterial& read, const CoreTexts& texts) {
     const SpanValue extensions = read.material["extensions"];
     converted_.insert(read.extension.index());
     std::size_t repeated = 0;
@@ -432,7 +439,9 @@ class SpecGlossEditor {
     edits_.remove_members(extensions, kSpecGlossExtension);
     const std::string color =
         list_text({read.specular[0].text, read.specular[1].text, read.specular[2].text});
-    edits_.append_member(extensions, kSpecularExtension, "{\"specularColorFactor\":" + color + "}");
+    const std::string texture =
+        texts.specular_texture.empty() ? "" : ",\"specularColorTexture\":" + texts.specular_texture;
+    edits_.append_member(extensions, kSpecularExtension, "{\"specularColorFactor\":" + color + texture + "}");
     // An index of 0 means an F0 of 1, which the color then multiplies (KHR_materials_ior).
     edits_.append_member(extensions, kIorExtension, "{\"ior\":0}");
     adds_extensions_ = true;
@@ -482,9 +491,11 @@ class SpecGlossEditor {
   const SpecGlossOptions& options_;
   TextEdits edits_;
   SpecGlossResult result_;
-  std::vector<std::pair<std::size_t, SpecGlossMaterial>> materials_;  // that are converted, by their index
-  std::set<std::size_t> animated_;                                    // indices of materials
-  std::set<std::size_t> converted_;                                   // values of spec-gloss that go
+  std::optional<GltfImages> images_;
+  std::optional<SpecGlossTextures> textures_;
+  std::vector<Planned> materials_;
+  std::set<std::size_t> animated_;   // indices of materials
+  std::set<std::size_t> converted_;  // values of spec-gloss that go
   bool adds_extensions_ = false;
 };
 
@@ -499,8 +510,8 @@ std::size_t SpecGlossResult::count(MaterialState state) const {
 }
 
 SpecGlossResult convert_specgloss(const SpannedJson& json, const std::string& place,
-                                  const SpecGlossOptions& options) {
-  return SpecGlossEditor(json, place, options).result();
+                                  const SpecGlossOptions& options, const AssetParts* asset) {
+  return SpecGlossEditor(json, place, options, asset).result();
 }
 
 }  // namespace remap

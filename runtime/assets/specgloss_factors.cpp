@@ -1,7 +1,6 @@
 #include "assets/specgloss_factors.hpp"
 
 #include <cstddef>
-#include <memory>
 
 namespace remap {
 namespace {
@@ -15,14 +14,14 @@ std::array<Row, Count> rows_of(std::size_t count) {
   return rows;
 }
 
-std::unique_ptr<Converter> projection(double prior, InstructionSet set) {
+}  // namespace
+
+std::unique_ptr<Converter> specgloss_projection(double prior, InstructionSet set) {
   WorkflowStages stages{find_workflow_model("gltf-specgloss")->end, find_workflow_model("gltf")->end};
   stages.width = RoughnessConvention::kRoughness;
   stages.prior = prior;
   return make_workflow_converter(stages, set);
 }
-
-}  // namespace
 
 float roughness_of(double glossiness) { return static_cast<float>(1.0 - glossiness); }
 
@@ -46,7 +45,7 @@ std::vector<MetalRoughFactors> projected(const std::vector<SpecGlossFactors>& ma
   out[Parameter::kBaseColor] = {{base[0].data(), base[1].data(), base[2].data()}, 3};
   out[Parameter::kMetallic] = {{metallic.data()}, 1};
   out[Parameter::kResidual] = {{residual.data()}, 1};
-  projection(prior, set)->convert(count, in, out);
+  specgloss_projection(prior, set)->convert(count, in, out);
   std::vector<MetalRoughFactors> results(count);
   for (std::size_t i = 0; i < count; ++i)
     results[i] = {{base[0][i], base[1][i], base[2][i]}, metallic[i], roughness[i], residual[i]};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "remap/converter.hpp"
@@ -24,6 +25,9 @@ struct MetalRoughFactors {
   float roughness = 1.0f;
   float residual = 0.0f;  // what metal-rough cannot represent (Parameter::kResidual)
 };
+
+// From gltf-specgloss to gltf, with roughness at both ends.
+std::unique_ptr<Converter> specgloss_projection(double prior, InstructionSet set);
 
 // 1 - glossiness, rounded once.
 float roughness_of(double glossiness);

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "sets/folder_walk.hpp"
+#include "texture/image_library.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -33,7 +34,7 @@ bool put(std::FILE* file, const AssetPiece& piece, const ByteSource& source) {
   return true;
 }
 
-bool have_same_bytes(const fs::path& a, const fs::path& b) {
+bool are_same_files(const fs::path& a, const fs::path& b) {
   const FileSource first(a), second(b);
   if (first.size() != second.size()) return false;
   for (std::uint64_t at = 0; at < first.size(); at += kCopiedAtOnce) {
@@ -41,10 +42,6 @@ bool have_same_bytes(const fs::path& a, const fs::path& b) {
     if (first.read(at, count) != second.read(at, count)) return false;
   }
   return true;
-}
-
-fs::path folder_of_asset(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
 }  // namespace
@@ -69,6 +66,17 @@ std::string FileSource::read(std::uint64_t begin, std::size_t count) const {
     done += static_cast<std::size_t>(got);
   }
   return bytes;
+}
+
+fs::path folder_of_asset(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+const ImageCodec& FolderResources::codec() const { return image_library().codec(); }
+
+bool have_same_bytes(const fs::path& file, std::string_view bytes) {
+  const FileSource source(file);
+  return source.size() == bytes.size() && source.read(0, bytes.size()) == bytes;
 }
 
 void write_pieces(const fs::path& path, const std::vector<AssetPiece>& pieces, const ByteSource& source) {
@@ -114,7 +122,7 @@ ResourcePlan plan_resources(const fs::path& input, const fs::path& output,
     }
     if (is_same_folder || same_file(source, target)) continue;
     if (fs::is_regular_file(target, ignored)) {
-      if (have_same_bytes(source, target)) continue;
+      if (are_same_files(source, target)) continue;
       require_new(target, force);
     }
     plan.copies.push_back({source, target});

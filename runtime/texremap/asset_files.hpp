@@ -2,6 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "assets/gltf_asset.hpp"
@@ -23,6 +27,25 @@ class FileSource final : public ByteSource {
   OpenFile file_;
   std::uint64_t size_ = 0;
 };
+
+// Files in the folder of an asset, and the image library of the program.
+class FolderResources final : public AssetResources {
+ public:
+  explicit FolderResources(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  std::unique_ptr<ByteSource> open(const std::string& path) const override {
+    return std::make_unique<FileSource>(folder_ / path);
+  }
+  const ImageCodec& codec() const override;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// The folder that the files of an asset are relative to.
+std::filesystem::path folder_of_asset(const std::filesystem::path& asset);
+
+// Whether the file holds these bytes. Throws kInput.
+bool have_same_bytes(const std::filesystem::path& file, std::string_view bytes);
 
 // Writes a result, a megabyte at a time, complete or not at all. Throws kOutput.
 void write_pieces(const std::filesystem::path& path, const std::vector<AssetPiece>& pieces,

@@ -1,5 +1,7 @@
 #include "texremap/asset_report.hpp"
 
+#include <utility>
+
 #include "command_line/run_app.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
@@ -14,7 +16,7 @@ constexpr double kPictureOfResidual = 0.42;
 constexpr double kShownError = 5e-4;
 
 std::string error_text(const AssetMaterial& material) {
-  const double error = kPictureOfResidual * static_cast<double>(material.result->residual);
+  const double error = kPictureOfResidual * material.residual;
   return error < kShownError ? "" : " (pictures differ by " + number_text(rounded(100.0 * error, 2)) + " %)";
 }
 
@@ -45,7 +47,9 @@ std::string outcome_text(const AssetReport& report, bool dry_run) {
   if (!report.is_written) return text + "; nothing " + verb + "written";
   if (!dry_run) text += " in " + fixed(report.seconds, 2) + " s";
   text += ": " + shown(report.output);
-  if (!report.copies.empty()) text += ", plus " + counted(report.copies.size(), "copied file");
+  if (!report.images.empty()) text += ", plus " + counted(report.images.size(), "image");
+  if (!report.copies.empty())
+    text += (report.images.empty() ? ", plus " : " and ") + counted(report.copies.size(), "copied file");
   return text;
 }
 
@@ -53,15 +57,17 @@ Json material_json(const AssetMaterial& material) {
   Json json = {{"index", material.index},
                {"name", material.name},
                {"state", name_of(kMaterialStates, material.state)}};
+  if (material.state == MaterialState::kConverted) {
+    json["becomes"] = material.becomes;
+    json["expected_error"] = rounded(kPictureOfResidual * material.residual, 3);
+  }
   if (material.result) {
     const auto value = [](float number) { return decimal_value(number); };
     const MetalRoughFactors& result = *material.result;
-    json["becomes"] = material.becomes;
     json["base_color"] =
         Json::list({value(result.base_color[0]), value(result.base_color[1]), value(result.base_color[2])});
     json["metallic"] = value(result.metallic);
     json["roughness"] = value(result.roughness);
-    json["expected_error"] = rounded(kPictureOfResidual * static_cast<double>(result.residual), 3);
   }
   json["warnings"] = material.warnings;
   json["failure"] = material.failure.empty() ? Json() : Json(material.failure);
@@ -88,8 +94,11 @@ Json asset_json(const AssetReport& report, bool dry_run) {
   json["materials"] = Json::list();
   for (const AssetMaterial& material : report.result.materials)
     json["materials"].push_back(material_json(material));
-  json["copies"] = Json::list();
-  for (const std::filesystem::path& copy : report.copies) json["copies"].push_back(copy.string());
+  for (const auto& [name, paths] :
+       {std::pair("images", &report.images), std::pair("copies", &report.copies)}) {
+    json[name] = Json::list();
+    for (const std::filesystem::path& path : *paths) json[name].push_back(path.string());
+  }
   json["warnings"] = report.warnings;
   json["failure"] = report.failure.empty() ? Json() : Json(report.failure);
   json["seconds"] = rounded(report.seconds, 3);

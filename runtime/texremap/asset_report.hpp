@@ -15,8 +15,8 @@ struct AssetReport {
   bool is_written = false;  // or would be, in a dry run
   SpecGlossResult result;
   std::vector<std::string> warnings;
-  std::vector<std::filesystem::path> copies;
-  std::string failure;  // of the whole file; empty for none
+  std::vector<std::filesystem::path> copies, images;  // images: new ones in files of their own
+  std::string failure;                                // of the whole file; empty for none
   double seconds = 0.0;
 
   std::size_t failed_count() const { return result.count(MaterialState::kFailed); }

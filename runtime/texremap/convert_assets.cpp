@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <set>
 
 #include "assets/gltf_asset.hpp"
 #include "command_line/interruption.hpp"
@@ -91,13 +92,14 @@ class AssetConverter {
   explicit AssetConverter(const ConvertOptions& options)
       : options_(options), conversion_{options.profile, options.prior, options.instructions} {}
 
-  void run(const AssetJob& job, AssetReport& report) const {
+  void run(const AssetJob& job, AssetReport& report) {
     const Stopwatch stopwatch;
     report.input = job.input;
     report.output = job.output;
     require_free(job, options_.force);
     const FileSource source(job.input);
-    const AssetConversion conversion = convert_asset(source, shown(job.input), conversion_);
+    const FolderResources files(folder_of_asset(job.input));
+    const AssetConversion conversion = convert_asset(source, shown(job.input), conversion_, &files);
     report.result = conversion.result;
     report.warnings = conversion.warnings;
     const ResourcePlan plan = plan_resources(job.input, job.output, conversion.resources, options_.force);
@@ -106,11 +108,25 @@ class AssetConverter {
     report.is_written = conversion.result.changed || report.failed_count() == 0;
     if (report.is_written)
       for (const ResourceCopy& copy : plan.copies) report.copies.push_back(copy.to);
+    for (const NewResource& file : conversion.result.files) report.images.push_back(free_place(job, file));
     if (report.is_written && !options_.dry_run) write(job, source, conversion, plan);
     report.seconds = stopwatch.seconds();
   }
 
  private:
+  // Where a new image goes. Throws kOutput where another file is.
+  fs::path free_place(const AssetJob& job, const NewResource& file) {
+    const fs::path place = folder_of_asset(job.output) / file.path;
+    std::error_code ignored;
+    const bool is_same = fs::is_regular_file(place, ignored) && have_same_bytes(place, file.bytes);
+    const bool is_first = written_.insert(place.lexically_normal()).second;
+    if (!is_first && !is_same)
+      throw output_error(shown(place) +
+                         ": is a new image of another asset, too (convert them into two folders)");
+    if (!is_same) require_new(place, options_.force);
+    return place;
+  }
+
   // The asset comes last, so that it never lies without its parts.
   static void write(const AssetJob& job, const ByteSource& source, const AssetConversion& conversion,
                     const ResourcePlan& plan) {
@@ -118,6 +134,8 @@ class AssetConverter {
       create_parent(copy.to);
       copy_whole_file(copy.from, copy.to);
     }
+    for (const NewResource& file : conversion.result.files)
+      write_file(folder_of_asset(job.output) / file.path, file.bytes);
     if (conversion.result.changed)
       write_pieces(job.output, conversion.pieces, source);
     else if (!same_file(job.input, job.output))
@@ -126,6 +144,7 @@ class AssetConverter {
 
   const ConvertOptions& options_;
   SpecGlossOptions conversion_;
+  std::set<fs::path> written_;  // new images
 };
 
 void print_as_json(const AssetReport& report, const ConvertOptions& options, bool is_line) {
@@ -148,7 +167,7 @@ void require_success(const std::vector<AssetReport>& reports) {
 void convert_assets(const ConvertOptions& options) {
   require_asset_options(options);
   const std::vector<AssetJob> jobs = asset_jobs(options);
-  const AssetConverter converter(options);
+  AssetConverter converter(options);
   std::vector<AssetReport> reports;
   for (const AssetJob& job : jobs) {
     if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted: finished assets are complete");

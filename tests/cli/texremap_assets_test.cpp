@@ -72,3 +72,45 @@ TEST_CASE("Other assets go on after a failure", "[assets]") {
   CHECK(session.file_count() == 1);
   CHECK(std::count(run.output.begin(), run.output.end(), '\n') == 2);
 }
+
+TEST_CASE("Textures of an asset become new files beside the old ones", "[assets][slow]") {
+  const AssetSession session;
+  std::filesystem::create_directories(session.path("in"));
+  session.make("in/d.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  session.make("in/s.png", test_spec(16, 8, {"R", "G", "B", "A"}, OIIO::TypeUInt16), noise);
+  session.put(
+      "in/wood.gltf",
+      R"({"asset":{"version":"2.0"},"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":)"
+      R"({"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}}}}],)"
+      R"("textures":[{"source":0},{"source":1}],"images":[{"uri":"d.png"},{"uri":"s.png"}]})");
+  const ProcessResult run = session.texremap("convert in/wood.gltf --to gltf -o out --json");
+  CHECK(run.exit_code == 0);
+  CHECK(run.errors.find("1 material converted in ") != std::string::npos);
+  CHECK(run.errors.find("plus 2 images and 2 copied files") != std::string::npos);
+  CHECK(session.file_count() == 5);
+  const TestImage base = session.image("out/d_baseColor.png");
+  CHECK(base.spec.nchannels == 3);
+  CHECK(session.image("out/s_metallicRoughness.png").spec.format == OIIO::TypeUInt16);
+  CHECK(session.texremap("convert in/wood.gltf --to gltf -o out").last_error() ==
+        "texremap: out/wood.gltf: already exists (--force overwrites)");
+  CHECK(session.texremap("convert in/wood.gltf --to gltf -o out --force --quiet").exit_code == 0);
+  session.put("in/other.gltf", session.content("in/wood.gltf"));
+  CHECK(session.texremap("convert in/wood.gltf in/other.gltf --to gltf -o both").exit_code == 0);
+}
+
+// A material of real files by the maps of the same material.
+TEST_CASE("Public assets are converted whole", "[assets][slow][needs]") {
+  const std::filesystem::path folder = shared_data("assets");
+  if (folder.empty()) return;
+  const AssetSession session;
+  for (const char* name :
+       {"box_specgloss/BoxTextured.gltf", "made/nut_specgloss.glb", "made/nut_specgloss_webp.glb",
+        "made/nut_shared_factors.glb", "made/boombox_specgloss.glb"}) {
+    CAPTURE(name);
+    const std::filesystem::path file = folder / name;
+    CHECK(session.texremap("convert " + file.string() + " --to gltf -o out --quiet").exit_code == 0);
+    const std::string once = "out/" + file.filename().string();
+    CHECK(session.texremap("convert " + once + " --to gltf -o again --quiet").exit_code == 0);
+    CHECK(session.content(once) == session.content("again/" + file.filename().string()));
+  }
+}

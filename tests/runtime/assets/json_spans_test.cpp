@@ -103,7 +103,7 @@ TEST_CASE("The scanner and the JSON library agree on damaged texts", "[assets]")
   std::mt19937 random(1);
   const std::string bytes = "{}[],:\"\\u0e19-+.tfn \xc3\xa9";
   std::size_t taken = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 10000; ++i) {
     std::string text = whole;
     for (std::size_t changes = random() % 3 + 1; changes > 0; --changes) {
       const std::size_t at = random() % text.size();
@@ -119,7 +119,7 @@ TEST_CASE("The scanner and the JSON library agree on damaged texts", "[assets]")
     REQUIRE(is_scanned(text) == is_parsed(text).value_or(is_scanned(text)));
     taken += is_scanned(text);
   }
-  CHECK(taken > 500);
+  CHECK(taken > 250);
 }
 
 TEST_CASE("Spans, keys and numbers of values", "[assets]") {
