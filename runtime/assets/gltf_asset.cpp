@@ -55,24 +55,28 @@ class ViewCheck {
 
   // Returns warnings.
   std::vector<std::string> run() {
-    for (const SpanValue& buffer : root_["buffers"].children())
-      lengths_.push_back(buffer["byteLength"].whole());
+    for (const SpanValue& buffer : root_["buffers"].entries()) {
+      const std::optional<std::size_t> length = buffer["byteLength"].whole();
+      if (!length)
+        throw input_error(place_ + ": /buffers/" + std::to_string(lengths_.size()) +
+                          ": its byteLength is no whole number");
+      lengths_.push_back(*length);
+    }
     std::vector<std::string> warnings = check_chunk();
-    const std::vector<SpanValue> views = root_["bufferViews"].children();
+    const std::vector<SpanValue> views = root_["bufferViews"].entries();
     for (std::size_t i = 0; i < views.size(); ++i) check_view(views[i], i);
     return warnings;
   }
 
  private:
   std::vector<std::string> check_chunk() const {
-    if (container_.chunks.empty() || container_.chunks.front().type != kBinaryChunk || lengths_.empty() ||
-        !lengths_.front())
+    if (container_.chunks.empty() || container_.chunks.front().type != kBinaryChunk || lengths_.empty())
       return {};
-    const std::vector<SpanValue> buffers = root_["buffers"].children();
+    const std::vector<SpanValue> buffers = root_["buffers"].entries();
     if (buffers.front()["uri"]) return {};
     constexpr std::uint64_t kHeader = 8;
     const std::uint64_t size = container_.chunks.front().end - container_.chunks.front().begin - kHeader;
-    const std::uint64_t length = *lengths_.front();
+    const std::uint64_t length = lengths_.front();
     if (length > size)
       throw input_error(place_ + ": /buffers/0 has " + std::to_string(length) +
                         " bytes, but the binary chunk has " + std::to_string(size));
@@ -90,15 +94,15 @@ class ViewCheck {
     if (*buffer >= lengths_.size())
       throw input_error(name + ": names buffer " + std::to_string(*buffer) + ", of which there are " +
                         std::to_string(lengths_.size()));
-    if (const auto& size = lengths_[*buffer]; size && *offset + *length > *size)
+    if (const std::size_t size = lengths_[*buffer]; *offset + *length > size)
       throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
-                        std::to_string(*buffer) + ", which has " + std::to_string(*size));
+                        std::to_string(*buffer) + ", which has " + std::to_string(size));
   }
 
   SpanValue root_;
   const GltfContainer& container_;
   const std::string& place_;
-  std::vector<std::optional<std::size_t>> lengths_;  // of the buffers
+  std::vector<std::size_t> lengths_;  // of the buffers
 };
 
 }  // namespace

@@ -81,6 +81,10 @@ class SpanValue {
   std::size_t size() const noexcept { return json_ != nullptr ? node().count : 0; }
   // Entries of a list or members of an object, repeated keys among them.
   std::vector<SpanValue> children() const;
+  // Entries of a list; none of other values.
+  std::vector<SpanValue> entries() const {
+    return is(SpanKind::kList) ? children() : std::vector<SpanValue>();
+  }
   // The member of an object; of several with one key the last, as JSON libraries read it.
   SpanValue find(std::string_view key) const;
   SpanValue operator[](std::string_view key) const { return find(key); }

@@ -126,6 +126,23 @@ bool collapse(const ParameterStatistics& range, ImagePixels& pixels, std::size_t
   return true;
 }
 
+// The root of the mean square residual of an even grid: finding it out takes longer than to convert.
+double sampled_residual(const Converter& converter, MapConversion conversion) {
+  constexpr std::size_t kMostAlong = 128;
+  const std::size_t step = (std::max(conversion.width, conversion.height) + kMostAlong - 1) / kMostAlong;
+  conversion.width = (conversion.width + step - 1) / step;
+  conversion.height = (conversion.height + step - 1) / step;
+  for (auto& [parameter, source] : conversion.sources)
+    for (ConstChannelView& channel : source.channels) {
+      channel.texel_stride *= static_cast<std::ptrdiff_t>(step);
+      channel.row_stride *= static_cast<std::ptrdiff_t>(step);
+    }
+  conversion.targets.clear();
+  conversion.value_statistics = false;
+  conversion.metallic_statistics = true;
+  return convert_maps(converter, conversion).metallic.rms_residual();
+}
+
 }  // namespace
 
 bool is_constant(const ImagePixels& pixels) {
@@ -161,17 +178,18 @@ MetalRoughMaps projected(const SpecGlossMaps& maps, double prior, InstructionSet
   conversion.sources[Parameter::kRoughness] = glossiness_source(maps.specgloss, maps.factors.glossiness);
   conversion.source_convention = RoughnessConvention::kGlossiness;
   conversion.target_convention = RoughnessConvention::kRoughness;
-  conversion.value_statistics = conversion.metallic_statistics = true;
+  conversion.value_statistics = true;
   conversion.targets[Parameter::kBaseColor] = {
       {channel_of_pixels(base, 0), channel_of_pixels(base, 1), channel_of_pixels(base, 2)}, Transfer::kSrgb};
   conversion.targets[Parameter::kRoughness] = {{channel_of_pixels(data, 1)}, Transfer::kLinear};
   conversion.targets[Parameter::kMetallic] = {{channel_of_pixels(data, 2)}, Transfer::kLinear};
-  MapStatistics statistics = convert_maps(*specgloss_projection(prior, set), conversion);
+  const std::unique_ptr<Converter> converter = specgloss_projection(prior, set);
+  MapStatistics statistics = convert_maps(*converter, conversion);
   if (has_alpha) copy_alpha(*maps.diffuse, base);
 
   MetalRoughMaps result;
   result.has_metal = statistics.targets[Parameter::kMetallic].max > 0.0f;
-  result.residual = statistics.metallic.rms_residual();
+  result.residual = sampled_residual(*converter, std::move(conversion));
   const bool is_rough = collapse(statistics.targets[Parameter::kRoughness], data, 1, result.roughness);
   const bool is_metal = collapse(statistics.targets[Parameter::kMetallic], data, 2, result.metallic);
   if (!is_rough || !is_metal) result.metal_rough = std::move(data);

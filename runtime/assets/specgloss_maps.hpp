@@ -32,7 +32,7 @@ struct MetalRoughMaps {
   std::optional<ImagePixels> metal_rough;   // as glTF packs them; none where both are constant
   float metallic = 1.0f, roughness = 1.0f;  // factors
   bool has_metal = false;                   // whether metallic is above 0 anywhere
-  double residual = 0.0;                    // root of the mean square of Parameter::kResidual
+  double residual = 0.0;                    // root of the mean square of Parameter::kResidual, of a sample
 };
 
 // At least one map is given.

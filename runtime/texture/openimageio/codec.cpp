@@ -13,6 +13,9 @@ namespace {
 // An image says its size before its texels are read. More is a mistake or an attack.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
 
+// Of zlib: half the time of the usual 6, and files a tenth larger.
+constexpr int kPngLevel = 3;
+
 // The extension of the formats that glTF files hold; empty for others.
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "png";
@@ -62,6 +65,7 @@ class AssetCodec final : public ImageCodec {
     OIIO::ImageSpec spec(static_cast<int>(pixels.width), static_cast<int>(pixels.height),
                          static_cast<int>(pixels.channels), type);
     spec.attribute(kUnassociatedAlpha, 1);
+    spec.attribute("png:compressionLevel", kPngLevel);
     const auto output = OIIO::ImageOutput::create("memory.png", &memory);
     if (!output || !output->open("memory.png", spec) || !output->write_image(type, pixels.bytes.data()) ||
         !output->close())

@@ -181,6 +181,8 @@ TEST_CASE("Views beyond their buffers are refused", "[assets]") {
   CHECK(asset_failure(with(
             R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteOffset":1,"byteLength":4}])")) ==
         "a.glb: /bufferViews/0: ends at byte 5 of buffer 0, which has 4");
+  CHECK(asset_failure(with(R"("buffers":[{"byteLength":4},{}])")) ==
+        "a.glb: /buffers/1: its byteLength is no whole number");
   CHECK(asset_failure(with(R"("bufferViews":[{"buffer":3,"byteLength":4}])")) ==
         "a.glb: /bufferViews/0: names buffer 3, of which there are 0");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteLength":-4}])")) ==
