@@ -19,13 +19,16 @@
 
 namespace remap {
 
-// Files beside an asset, and a codec for its images.
+// Files beside an asset, and what its images need.
 class AssetResources {
  public:
   virtual ~AssetResources() = default;
   // A file by its path relative to the asset, which does not lead out of its folder. Throws kInput.
   virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
   virtual const ImageCodec& codec() const = 0;
+  // The image at a size that is at least its own in both directions: bilinear, in linear light, with all
+  // channels but alpha in sRGB.
+  virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
 };
 
 // A new file beside the result.
@@ -67,6 +70,8 @@ class GltfImages {
   // A texture of that image with the sampler of its model. Returns the index, of one that was added before
   // where they agree.
   std::size_t add_texture(std::size_t image, std::size_t model);
+
+  const AssetResources& resources() const noexcept { return resources_; }
 
   // Writes what holds for all new images, once.
   void finish();

@@ -203,7 +203,7 @@ class SpecGlossEditor {
       : json_(json), root_(json.root()), place_(place), options_(options), edits_(json) {
     if (asset == nullptr) return;
     images_.emplace(json, asset->container, asset->source, asset->resources, place_, edits_);
-    textures_.emplace(*images_, options.prior, options.instructions);
+    textures_.emplace(*images_, options.prior, options.instructions, options.enlarges);
   }
 
   SpecGlossResult result() {

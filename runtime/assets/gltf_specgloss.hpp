@@ -29,6 +29,7 @@ struct SpecGlossOptions {
   MaterialProfile profile = MaterialProfile::kCore;
   double prior = kCleanPrior;  // of the projection
   InstructionSet instructions = best_instruction_set();
+  bool enlarges = false;  // images of a material that are smaller than the other one
 };
 
 enum class MaterialState {

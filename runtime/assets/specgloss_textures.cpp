@@ -1,5 +1,7 @@
 #include "assets/specgloss_textures.hpp"
 
+#include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -63,13 +65,24 @@ void SpecGlossTextures::require_one_grid(const Used& diffuse, const Used& specgl
         "its diffuse and specular-glossiness textures have different KHR_texture_transform, and both decide "
         "on metallic (bake them onto one, or use --profile extensions)");
   const ImagePixels &a = *diffuse.image.pixels, &b = *specgloss.image.pixels;
-  if (a.width != b.width || a.height != b.height)
+  if (!enlarges_ && (a.width != b.width || a.height != b.height))
     throw input_error("its diffuse image has " + size_text(a) + " texels, its specular-glossiness image " +
-                      size_text(b) + " (resize one, or use --profile extensions)");
+                      size_text(b) + " (use --resample, or --profile extensions)");
   if (!images_.wraps_alike(diffuse.info.texture, specgloss.info.texture))
     warnings.emplace_back(
         "its textures are repeated differently; each result is as the map that it follows, so they may "
         "differ outside of 0 to 1");
+}
+
+void SpecGlossTextures::enlarge(Used& diffuse, Used& specgloss) const {
+  const std::size_t width = std::max(diffuse.image.pixels->width, specgloss.image.pixels->width),
+                    height = std::max(diffuse.image.pixels->height, specgloss.image.pixels->height);
+  for (Used* used : {&diffuse, &specgloss}) {
+    const ImagePixels& pixels = *used->image.pixels;
+    if (pixels.width != width || pixels.height != height)
+      used->image.pixels =
+          std::make_shared<const ImagePixels>(images_.resources().enlarged(pixels, width, height));
+  }
 }
 
 const SpecGlossTextures::Converted& SpecGlossTextures::converted(const std::optional<Used>& diffuse,
@@ -119,7 +132,10 @@ std::optional<CoreTexts> SpecGlossTextures::core(SpecGlossMaterial& material,
     specgloss.reset();
   }
   if (!diffuse && !specgloss) return std::nullopt;
-  if (diffuse && specgloss) require_one_grid(*diffuse, *specgloss, warnings);
+  if (diffuse && specgloss) {
+    require_one_grid(*diffuse, *specgloss, warnings);
+    enlarge(*diffuse, *specgloss);
+  }
   const Converted& images = converted(diffuse, specgloss, material);
   CoreTexts texts;
   for (std::size_t c = 0; c < 3; ++c)

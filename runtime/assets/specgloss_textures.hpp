@@ -16,8 +16,9 @@ namespace remap {
 class SpecGlossTextures {
  public:
   // `images` must outlive it.
-  SpecGlossTextures(GltfImages& images, double prior, InstructionSet set)
-      : images_(images), prior_(prior), set_(set) {}
+  // `enlarges`: smaller images of a pair are enlarged, else such a pair fails.
+  SpecGlossTextures(GltfImages& images, double prior, InstructionSet set, bool enlarges)
+      : images_(images), prior_(prior), set_(set), enlarges_(enlarges) {}
 
   // By the projection. None where all maps are constant: they are then factors of `material`. Throws kInput
   // for maps that cannot be read or do not lie on one grid.
@@ -41,6 +42,8 @@ class SpecGlossTextures {
 
   std::optional<Used> load(SpanValue texture_info);
   void require_one_grid(const Used& diffuse, const Used& specgloss, std::vector<std::string>& warnings) const;
+  // Gives both the larger size.
+  void enlarge(Used& diffuse, Used& specgloss) const;
   const Converted& converted(const std::optional<Used>& diffuse, const std::optional<Used>& specgloss,
                              const SpecGlossMaterial& material);
   std::string new_info(const Used& model, std::size_t image);
@@ -48,6 +51,7 @@ class SpecGlossTextures {
   GltfImages& images_;
   double prior_;
   InstructionSet set_;
+  bool enlarges_;
   std::map<std::string, Converted> converted_;         // by images and factors
   std::map<std::string, std::size_t> roughness_maps_;  // by image and factor
 };

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "sets/folder_walk.hpp"
+#include "texture/enlarged_pixels.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -73,6 +74,11 @@ fs::path folder_of_asset(const fs::path& file) {
 }
 
 const ImageCodec& FolderResources::codec() const { return image_library().codec(); }
+
+ImagePixels FolderResources::enlarged(const ImagePixels& pixels, std::size_t width,
+                                      std::size_t height) const {
+  return enlarged_pixels(pixels, width, height);
+}
 
 bool have_same_bytes(const fs::path& file, std::string_view bytes) {
   const FileSource source(file);

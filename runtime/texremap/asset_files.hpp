@@ -36,6 +36,7 @@ class FolderResources final : public AssetResources {
     return std::make_unique<FileSource>(folder_ / path);
   }
   const ImageCodec& codec() const override;
+  ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override;
 
  private:
   std::filesystem::path folder_;

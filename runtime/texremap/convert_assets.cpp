@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 namespace {
 
 // The options of `texremap convert` that apply to assets.
-constexpr std::array<std::string_view, 12> kAssetOptions = {
-    "DIR",      "ASSET",   "--from",    "--to",   "--profile", "--prior",
-    "--output", "--force", "--dry-run", "--json", "--quiet",   "--instructions"};
+constexpr std::array<std::string_view, 13> kAssetOptions = {
+    "DIR",     "ASSET",     "--from", "--to",    "--profile",      "--prior",   "--output",
+    "--force", "--dry-run", "--json", "--quiet", "--instructions", "--resample"};
 
 std::string asset_extension(const fs::path& path) {
   const std::string extension = lower(path.extension().string());
@@ -90,7 +90,8 @@ void require_free(const AssetJob& job, bool force) {
 class AssetConverter {
  public:
   explicit AssetConverter(const ConvertOptions& options)
-      : options_(options), conversion_{options.profile, options.prior, options.instructions} {}
+      : options_(options),
+        conversion_{options.profile, options.prior, options.instructions, options.resample} {}
 
   void run(const AssetJob& job, AssetReport& report) {
     const Stopwatch stopwatch;

@@ -20,6 +20,9 @@ class FuzzResources final : public remap::AssetResources, public remap::ImageCod
     for (std::size_t i = 0; i < pixels.bytes.size(); ++i) pixels.bytes[i] = static_cast<std::byte>(bytes[i]);
     return pixels;
   }
+  remap::ImagePixels enlarged(const remap::ImagePixels& pixels, std::size_t, std::size_t) const override {
+    return pixels;
+  }
   std::string encode_png(const remap::ImagePixels& pixels) const override {
     return std::string(pixels.bytes.size(), 'x');
   }
@@ -40,7 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return remap::read_or_refuse([&] {
     for (const remap::MaterialProfile profile :
          {remap::MaterialProfile::kCore, remap::MaterialProfile::kExtensions}) {
-      const remap::SpecGlossOptions options{profile, remap::kCleanPrior, remap::InstructionSet::kBaseline};
+      const remap::SpecGlossOptions options{profile, remap::kCleanPrior, remap::InstructionSet::kBaseline,
+                                            true};
       const remap::AssetConversion once =
           remap::convert_asset(remap::MemorySource(bytes), "file", options, &resources);
       // An index that named nothing may name a new texture.

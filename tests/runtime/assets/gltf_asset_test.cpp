@@ -35,7 +35,8 @@ std::string material_of(const std::string& text, const SpecGlossOptions& options
   return std::string(SpannedJson(json, "file").root()["materials"].children().at(0).raw());
 }
 
-constexpr SpecGlossOptions kExact = {MaterialProfile::kExtensions, kCleanPrior, InstructionSet::kBaseline};
+constexpr SpecGlossOptions kExact = {MaterialProfile::kExtensions, kCleanPrior, InstructionSet::kBaseline,
+                                     false};
 
 }  // namespace
 

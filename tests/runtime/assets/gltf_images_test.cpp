@@ -13,9 +13,10 @@ using namespace remap;
 
 namespace {
 
-constexpr SpecGlossOptions kCoreProfile = {MaterialProfile::kCore, kCleanPrior, InstructionSet::kBaseline};
+constexpr SpecGlossOptions kCoreProfile = {MaterialProfile::kCore, kCleanPrior, InstructionSet::kBaseline,
+                                           false};
 constexpr SpecGlossOptions kExactProfile = {MaterialProfile::kExtensions, kCleanPrior,
-                                            InstructionSet::kBaseline};
+                                            InstructionSet::kBaseline, false};
 
 ImagePixels random_pixels(std::size_t channels, std::uint32_t seed, PixelType type = PixelType::kUint8) {
   ImagePixels pixels{6, 5, channels, type, {}};
@@ -263,7 +264,7 @@ TEST_CASE("Maps that do not lie on one grid fail", "[assets]") {
   CHECK(failure(R"("index":0)", R"("index":1,"extensions":{"KHR_texture_transform":{"scale":[1,1.0]}})")
             .empty());
   CHECK(failure(R"("index":0)", R"("index":2)") ==
-        "its diffuse image has 6 x 5 texels, its specular-glossiness image 6 x 4 (resize one, or use "
+        "its diffuse image has 6 x 5 texels, its specular-glossiness image 6 x 4 (use --resample, or "
         "--profile extensions)");
   CHECK(failure(R"("index":9)", R"("index":1)") == "names texture 9, of which there are 3");
 }
@@ -318,4 +319,48 @@ TEST_CASE("The best image that can be decoded is taken", "[assets]") {
   const Reread after = reread(glb_bytes(json, bytes.substr(container.chunks.front().begin)));
   CHECK(after.root()["textures"].children().back().raw() == R"({"source":3})");
   CHECK(after.material(0)["pbrMetallicRoughness"]["metallicRoughnessTexture"]);
+}
+
+TEST_CASE("The smaller image of a pair is enlarged on request", "[assets]") {
+  ImagePixels small = random_pixels(4, 3);
+  small.width = 3;
+  small.bytes.resize(3 * 5 * 4);
+  const std::string bytes = container_of({random_pixels(3, 1), small}, textured(kBoth));
+  SpecGlossOptions options = kCoreProfile;
+  options.enlarges = true;
+  const Reread after = reread(bytes, options);
+  const ImagePixels data = after.image(after.material(0)["pbrMetallicRoughness"]["metallicRoughnessTexture"]);
+  CHECK(data.width == 6);
+  for (std::size_t i = 0; i < 30; ++i)
+    CHECK(value_at(data, i, 1) == Approx(1.0f - value_at(small, i / 6 * 3 + i % 6 / 2, 3)).margin(0.003));
+}
+
+namespace {
+
+// A container of almost 4 GiB that takes no memory.
+class HugeSource final : public ByteSource {
+ public:
+  explicit HugeSource(std::string start) : start_(std::move(start)) {}
+  std::uint64_t size() const override { return 0xfffffff0u; }
+  std::string read(std::uint64_t begin, std::size_t count) const override {
+    std::string bytes = begin < start_.size() ? start_.substr(begin, count) : "";
+    bytes.resize(count, '\0');
+    return bytes;
+  }
+
+ private:
+  std::string start_;
+};
+
+}  // namespace
+
+TEST_CASE("A container of 4 GiB cannot be written", "[assets]") {
+  std::string json = specgloss_text("{}");
+  json.append((4 - json.size() % 4) % 4, ' ');
+  const std::string head = "glTF" + four_bytes(2) + four_bytes(0xfffffff0u) + chunk_bytes(kJsonChunk, json);
+  const auto binary = static_cast<std::uint32_t>(0xfffffff0u - head.size() - 8);
+  const HugeSource source(head + four_bytes(binary) + four_bytes(kBinaryChunk));
+  CHECK_THROWS_WITH(
+      convert_asset(source, "a.glb", kExactProfile),
+      Catch::Contains("a.glb: would have 4294967") && Catch::Contains("(convert it as .gltf with a .bin)"));
 }

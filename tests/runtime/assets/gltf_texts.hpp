@@ -101,6 +101,17 @@ class PlainResources final : public AssetResources {
     return std::make_unique<MemorySource>(found->second);
   }
   const ImageCodec& codec() const override { return codec_; }
+  // The nearest texel.
+  ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override {
+    ImagePixels result{width, height, pixels.channels, pixels.type, {}};
+    const auto size = static_cast<std::ptrdiff_t>(pixels.texel_bytes());
+    for (std::size_t i = 0; i < width * height; ++i) {
+      const std::size_t x = i % width * pixels.width / width, y = i / width * pixels.height / height;
+      const auto from = pixels.bytes.begin() + static_cast<std::ptrdiff_t>(y * pixels.width + x) * size;
+      result.bytes.insert(result.bytes.end(), from, from + size);
+    }
+    return result;
+  }
 
  private:
   PlainCodec codec_;
