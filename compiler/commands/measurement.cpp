@@ -17,11 +17,13 @@ namespace {
 
 std::string one_decimal(double value) { return number_text(std::round(10.0 * value) / 10.0); }
 
-// `, 12 pictures rendered and 30 from the cache`; empty if no worker was used.
+// `, 12 pictures rendered and 30 from the cache, 1 worker lost`; empty if no worker was used.
 std::string pictures_text(const PictureCount& pictures) {
   if (pictures.rendered + pictures.cached == 0) return "";
+  const std::size_t lost = pictures.lost_workers;
   return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
-         std::to_string(pictures.cached) + " from the cache";
+         std::to_string(pictures.cached) + " from the cache" +
+         (lost == 0 ? "" : ", " + std::to_string(lost) + (lost == 1 ? " worker lost" : " workers lost"));
 }
 
 // Adds the options that choose which parameters of a model are roughness, specular and diffuse.
@@ -163,6 +165,7 @@ void Measurement::report(const std::map<std::string, std::size_t>& statuses, dou
                  {"light_warning", remark ? Json(remark->text) : nullptr},
                  {"pictures_rendered", pictures.rendered},
                  {"pictures_cached", pictures.cached},
+                 {"workers_lost", pictures.lost_workers},
                  {"seconds", seconds}});
     std::cout << json.dump(2) << "\n";
   } else if (!options_.quiet) {

@@ -2,6 +2,7 @@
 // parent when the thread that forked dies, so that thread must live as long as the child.
 #include "worker/child_process.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -140,8 +141,7 @@ ChildProcess::~ChildProcess() {
   {
     const std::lock_guard lock(mutex_);
     close_end(&pipes_.input);
-    leaving_ = true;
-    leave_by_ = Clock::now() + kGrace;
+    leave_at(Clock::now() + kGrace);
   }
   watcher_.join();
   close_end(&pipes_.output);
@@ -198,9 +198,21 @@ void ChildProcess::watch() {
            info.si_pid == id_;
     const std::lock_guard lock(mutex_);
     // Its children are killed before it is reaped: until then no other group can have its number.
-    if (gone || (leaving_ && Clock::now() >= leave_by_)) ::kill(-id_, SIGKILL);
+    if (gone)
+      ::kill(-id_, SIGKILL);
+    else
+      end_if_due();
   }
   reap();
+}
+
+void ChildProcess::leave_at(Clock::time_point time) { leave_by_ = std::min(leave_by_, time); }
+
+void ChildProcess::end_if_due() {
+  if (Clock::now() < leave_by_) return;
+  ::kill(-id_, asked_ ? SIGKILL : SIGTERM);
+  asked_ = true;
+  leave_by_ = Clock::now() + kGrace;
 }
 
 void ChildProcess::reap() {
@@ -281,9 +293,9 @@ std::string ChildProcess::log_end() {
   return text;
 }
 
-void ChildProcess::kill() {
+void ChildProcess::end() {
   const std::lock_guard lock(mutex_);
-  if (!ended_) ::kill(-id_, SIGKILL);
+  leave_at(Clock::now());
 }
 
 }  // namespace remap

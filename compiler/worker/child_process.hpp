@@ -29,7 +29,7 @@ class ChildProcess {
   // Throws kInput if it cannot be started.
   explicit ChildProcess(std::string script);
 
-  // Closes its input, waits `kGrace` for it to end, then kills its group and whatever else it has started.
+  // Closes its input, waits `kGrace` for it to end, then ends it as end() does.
   // Out of reach are only descendants that clear their environment, and, where this program is killed itself,
   // all but the process.
   ~ChildProcess();
@@ -52,8 +52,9 @@ class ChildProcess {
   // Returns the last lines of its standard error, `A | B | C`; empty if there are none.
   std::string log_end();
 
-  // Kills the group immediately.
-  void kill();
+  // Asks the group to end (SIGTERM), so that a program like srun ends what it runs elsewhere, and kills it
+  // `kGrace` later, with whatever else the process has started. Does not wait.
+  void end();
 
   static constexpr std::chrono::milliseconds kGrace{2000};
 
@@ -64,6 +65,8 @@ class ChildProcess {
 
   void start_and_watch(const std::string& script);
   void watch();
+  void end_if_due();
+  void leave_at(Clock::time_point time);
   void take_output(std::string_view bytes);
   void take_log(std::string_view bytes);
   void reap();
@@ -79,9 +82,9 @@ class ChildProcess {
   int start_failure_ = 0;
   std::deque<std::string> lines_;
   std::string part_of_line_, log_;
-  bool ended_ = false, leaving_ = false, overlong_ = false;
+  bool ended_ = false, asked_ = false, overlong_ = false;
   int status_ = 0;
-  Clock::time_point leave_by_;
+  Clock::time_point leave_by_ = Clock::time_point::max();
 };
 
 }  // namespace remap

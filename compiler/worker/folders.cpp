@@ -1,14 +1,16 @@
 #include "worker/folders.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <unistd.h>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/process_mark.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -32,6 +34,11 @@ fs::path user_folder(const char* name, const char* below_home) {
 bool is_writable_folder(const fs::path& folder) {
   std::error_code ignored;
   return fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK) == 0;
+}
+
+fs::path folder_in_memory() {
+  const fs::path memory = "/dev/shm";
+  return is_writable_folder(memory) ? memory : fs::temp_directory_path();
 }
 
 // The mark of the process in the name of a private folder, before the six letters that make it unique.
@@ -66,19 +73,27 @@ fs::path shipped_worker_list() {
   return list.empty() ? fs::path(REMAP_SOURCE_WORKERS) / "workers.json" : list;
 }
 
-PrivateFolder::PrivateFolder() {
-  const fs::path memory = "/dev/shm";
-  const fs::path parent = is_writable_folder(memory) ? memory : fs::temp_directory_path();
+PrivateFolder::PrivateFolder(const fs::path& given) {
+  const fs::path parent = given.empty() ? folder_in_memory() : fs::absolute(given);
+  if (!is_writable_folder(parent))
+    throw output_error(parent.string() +
+                       ": is not a folder that can be written to (make it, or choose another)");
   remove_abandoned(parent);
   std::string name = (parent / (kPrefix + process_mark() + "-XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr)
-    throw Error(ErrorKind::kOutput, name + ": cannot be created: " + std::strerror(errno));
+    throw output_error(name + ": cannot be created: " + std::strerror(errno));
   path_ = name;
 }
 
+// A process on another machine may write a last file meanwhile.
 PrivateFolder::~PrivateFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  constexpr int kTries = 10;
+  std::error_code failure;
+  for (int i = 0; i < kTries; ++i) {
+    fs::remove_all(path_, failure);
+    if (!failure) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
 }
 
 }  // namespace remap

@@ -18,13 +18,13 @@ std::filesystem::path own_worker_list();
 // The list that ships with remap: next to the installed program, else in the source tree it was built from.
 std::filesystem::path shipped_worker_list();
 
-// A folder of this process, in memory if possible, deleted with the object. Its name holds the mark of this
-// process (system/process_mark.hpp); folders of processes of this machine that have ended are deleted when
-// another one is made.
+// A folder of this process, deleted with the object. Its name holds the mark of this machine and process
+// (core/process_mark.hpp), so that many may share the parent; folders of processes of this machine that have
+// ended are deleted when another one is made.
 class PrivateFolder {
  public:
-  // Throws kOutput if no folder can be made.
-  PrivateFolder();
+  // Without a parent it is in memory if possible. Throws kOutput if no folder can be made.
+  explicit PrivateFolder(const std::filesystem::path& parent = {});
   ~PrivateFolder();
   PrivateFolder(const PrivateFolder&) = delete;
   PrivateFolder& operator=(const PrivateFolder&) = delete;

@@ -13,7 +13,12 @@ void add_renderer_options(Command& app, RendererOptions& options) {
                  "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; "
                  "may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--worker-processes", options.settings.processes, "Processes per worker, 0: one per core");
+  app.add_option(
+      "--worker-folder FOLDER", options.settings.folder,
+      "Existing folder through which workers hand over pictures; one that all machines share if they "
+      "run on others (default: in memory)");
+  app.add_option("--worker-processes", options.settings.processes,
+                 "Processes of one worker at once, at most; 0: one per core");
   app.add_option("--worker-timeout", options.settings.limits.seconds,
                  "Seconds to wait for an answer of a worker")
       ->positive();

@@ -100,6 +100,7 @@ PictureCount RendererSet::pictures() const {
     const PictureCount count = renderer->pictures();
     all.rendered += count.rendered;
     all.cached += count.cached;
+    all.lost_workers += count.lost_workers;
   }
   return all;
 }

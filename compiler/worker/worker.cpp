@@ -1,10 +1,12 @@
 #include "worker/worker.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 #include "worker/folders.hpp"
 #include "worker/picture_fault.hpp"
 #include "worker/shape_mesh.hpp"
@@ -33,6 +35,9 @@ std::string end_of(const std::string& log) {
   return log.size() <= kLongestLog ? log : "..." + log.substr(log.size() - kLongestLog);
 }
 
+constexpr const char* kFolderAdvice =
+    "; a worker on another machine needs a folder that both can write to (--worker-folder FOLDER)";
+
 std::string without(const std::string& opening, const std::string& text) {
   return text.starts_with(opening) ? text.substr(opening.size()) : text;
 }
@@ -44,8 +49,8 @@ std::string script_of(const WorkerEntry& entry) {
 
 }  // namespace
 
-Worker::Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path picture_file)
-    : entry_(entry), limits_(limits), picture_file_(std::move(picture_file)) {
+Worker::Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path files)
+    : entry_(entry), limits_(limits), files_(std::move(files)) {
   process_ = std::make_unique<ChildProcess>(script_of(entry_));
   const std::string answer = ask(describe_line(++last_id_, limits_.threads), "describe");
   try {
@@ -57,26 +62,29 @@ Worker::Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesy
 
 Worker::~Worker() {
   if (usable_) process_->write_line(quit_line(++last_id_));
-  std::error_code ignored;
-  std::filesystem::remove(picture_file_, ignored);
 }
 
 std::string Worker::place(const std::string& shown) const {
   return "worker " + (entry_.name.empty() ? entry_.command : entry_.name) + ", request " + shown;
 }
 
-void Worker::fail(const std::string& shown, const std::string& what) {
+std::string Worker::message_of(const std::string& shown, const std::string& what) const {
+  const bool concerns_files = what.find(files_.parent_path().string()) != std::string::npos;
+  return plain(place(shown) + ": " + what + (concerns_files ? kFolderAdvice : ""));
+}
+
+std::string Worker::ended(const std::string& shown, const std::string& what) {
   usable_ = false;
-  process_->kill();
+  process_->end();
   std::string message = plain(what, kLongestWhat);
   if (const std::string log = process_->log_end(); !log.empty())
     message += "; last lines of its log: " + end_of(log);
   if (!has_answered_ && !entry_.install.empty()) message += "; to install it: " + entry_.install;
-  throw error_of(shown, message);
+  return message_of(shown, message);
 }
 
-Error Worker::error_of(const std::string& shown, const std::string& what) const {
-  return {ErrorKind::kInput, plain(place(shown) + ": " + what)};
+void Worker::fail(const std::string& shown, const std::string& what) {
+  throw input_error(ended(shown, what));
 }
 
 std::string Worker::next_answer(const std::string& shown) {
@@ -87,17 +95,18 @@ std::string Worker::next_answer(const std::string& shown) {
   for (;;) {
     const auto now = ChildProcess::Clock::now();
     const auto reading = process_->read_line(std::min(deadline, now + kGlance), &line);
-    if (reading == ChildProcess::Reading::kEnded) fail(shown, process_->ending());
+    if (reading == ChildProcess::Reading::kEnded) throw LostWorker(ended(shown, process_->ending()));
     if (reading == ChildProcess::Reading::kLine) {
       if (is_answer(line) || has_answered_) return line;
       process_->note(line);  // it is a banner
     }
     if (limits_.cancelled != nullptr && *limits_.cancelled) {
-      process_->kill();
+      process_->end();
       usable_ = false;
       throw Error(ErrorKind::kInterrupted, place(shown) + ": interrupted");
     }
-    if (now >= deadline) fail(shown, "no answer within " + number_text(limits_.seconds) + " s");
+    if (now >= deadline)
+      throw LostWorker(ended(shown, "no answer within " + number_text(limits_.seconds) + " s"));
   }
 }
 
@@ -110,11 +119,12 @@ std::string Worker::ask(const std::string& line, const std::string& shown) {
 }
 
 Image Worker::render(const PictureRequest& request) {
-  std::error_code ignored;
-  std::filesystem::remove(picture_file_, ignored);  // so that an old picture is not taken for the answer
-  const std::filesystem::path mesh = std::filesystem::path(picture_file_).replace_extension(".ply");
+  // A name of its own for every request: nothing else can be taken for the answer, be it what a lost worker
+  // writes late, or what a shared file system remembers of the name.
+  const std::filesystem::path picture = own_file("-" + std::to_string(++last_id_) + ".f32"),
+                              mesh = own_file(".ply");
   if (request.shape != Shape::kSphere && !std::filesystem::exists(mesh)) write_mesh(request.shape, mesh);
-  const std::string answer = ask(render_line(++last_id_, request, picture_file_, mesh), request.shown);
+  const std::string answer = ask(render_line(last_id_, request, picture, mesh), request.shown);
   std::optional<std::string> complaint;
   try {
     complaint = read_answer(answer, last_id_, place(request.shown));
@@ -122,24 +132,31 @@ Image Worker::render(const PictureRequest& request) {
     fail(request.shown, without(place(request.shown) + ": ", error.what()));
   }
   // The worker is still usable; after other faults, answers no longer match requests.
-  if (complaint) throw error_of(request.shown, plain(*complaint, kLongestWhat));
-  return read_picture(request);
+  if (complaint) throw input_error(message_of(request.shown, plain(*complaint, kLongestWhat)));
+  Image image = read_picture(request, picture);
+  std::error_code ignored;
+  std::filesystem::remove(picture, ignored);
+  return image;
 }
 
-Image Worker::read_picture(const PictureRequest& request) {
+std::filesystem::path Worker::own_file(const std::string& ending) const { return files_.string() + ending; }
+
+// The file is opened before its size is asked for: then a network file system asks its server for both.
+Image Worker::read_picture(const PictureRequest& request, const std::filesystem::path& path) {
   const auto side = static_cast<std::size_t>(request.resolution);
   const auto channels = static_cast<std::size_t>(request.channels);
   const std::size_t expected = side * side * channels * sizeof(float);
-  std::error_code failure;
-  const auto size = std::filesystem::file_size(picture_file_, failure);
-  if (failure) fail(request.shown, "the picture was not written: " + failure.message());
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file)
+    fail(request.shown, "the picture was not written: " + path.string() + ": " + std::strerror(errno));
+  const auto size = static_cast<std::size_t>(file.tellg());
   if (size != expected)
     fail(request.shown, "the picture has " + std::to_string(size) + " bytes (must have " +
                             std::to_string(expected) + ": " + std::to_string(side) + " x " +
                             std::to_string(side) + " pixels of " + std::to_string(channels) + " floats)");
   Image image{request.resolution, request.resolution, request.channels,
               std::vector<float>(expected / sizeof(float))};
-  std::ifstream file(picture_file_, std::ios::binary);
+  file.seekg(0);
   if (!file.read(reinterpret_cast<char*>(image.values.data()), static_cast<std::streamsize>(expected)))
     fail(request.shown, "the picture cannot be read");
   if (const std::string fault = picture_fault(image); !fault.empty()) fail(request.shown, fault);

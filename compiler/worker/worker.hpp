@@ -28,19 +28,28 @@ struct WorkerLimits {
   const std::atomic<bool>* cancelled = nullptr;  // ends a wait and throws kInterrupted
 };
 
+// The process of a worker has ended by itself, or was ended because it did not answer in time. Nothing is
+// wrong with what it was asked: another process may answer.
+class LostWorker : public Error {
+ public:
+  explicit LostWorker(const std::string& message) : Error(ErrorKind::kInput, message) {}
+};
+
 class Worker {
  public:
-  // Starts the process and asks for its description. Pictures are exchanged through `picture_file`. Throws
-  // kInput if the process does not start, does not answer, or violates the protocol.
-  Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path picture_file);
+  // Starts the process and asks for its description. Pictures are exchanged through files whose names begin
+  // with `files` and belong to this worker. Throws kInput if the process cannot be started or violates the
+  // protocol, LostWorker if it does not answer.
+  Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path files);
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
   const WorkerDescription& description() const { return description_; }
 
-  // Throws kInput if rendering fails, or if the picture has what no picture may have (picture_fault.hpp).
-  // After an answer with an error is_usable() stays true and the worker can be asked again.
+  // Throws LostWorker if no answer comes, kInput if rendering fails, or if the picture has what no picture
+  // may have (picture_fault.hpp). After an answer with an error is_usable() stays true and the worker can be
+  // asked again.
   //
   // Every message about a worker names it and the request, has the end of its log where it was ended, and is
   // cut to remap::kLongestMessage: nothing that a worker writes is longer in a message, or has control
@@ -53,14 +62,17 @@ class Worker {
   // Sends a line and waits for the answer to it.
   std::string ask(const std::string& line, const std::string& shown);
   std::string next_answer(const std::string& shown);
-  // The error whose message begins with the place.
-  Error error_of(const std::string& shown, const std::string& what) const;
+  // The message of an error: the place, what is wrong, and what to do if that concerns a file.
+  std::string message_of(const std::string& shown, const std::string& what) const;
+  // Ends the process and returns such a message with the end of its log.
+  std::string ended(const std::string& shown, const std::string& what);
   [[noreturn]] void fail(const std::string& shown, const std::string& what);
-  Image read_picture(const PictureRequest& request);
+  std::filesystem::path own_file(const std::string& ending) const;
+  Image read_picture(const PictureRequest& request, const std::filesystem::path& path);
 
   const WorkerEntry entry_;
   const WorkerLimits limits_;
-  const std::filesystem::path picture_file_;
+  const std::filesystem::path files_;
   std::unique_ptr<ChildProcess> process_;
   WorkerDescription description_;
   std::int64_t last_id_ = 0;

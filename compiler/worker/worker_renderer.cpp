@@ -3,11 +3,19 @@
 #include <algorithm>
 #include <thread>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
+#include "core/plain_text.hpp"
 #include "renderer/scene.hpp"
 
 namespace remap {
 namespace {
+
+// Processes that one picture may cost. Many may be lost at once with the machine they ran on, so the losses
+// of all together say little; a picture that ends every renderer is found by its own.
+constexpr int kMostLosses = 3;
+
+// How often a pause checks for an interruption.
+constexpr std::chrono::milliseconds kPauseGlance{100};
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
@@ -44,8 +52,26 @@ class WorkerRenderer::Turn {
   const std::string& key_;
 };
 
+// A worker for one picture: one that is idle, or a new one.
+class WorkerRenderer::Lease {
+ public:
+  explicit Lease(const WorkerRenderer& renderer) : renderer_(renderer), worker_(renderer.idle_worker()) {}
+  ~Lease() { renderer_.give_back(std::move(worker_)); }
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+
+  Worker& worker() {
+    if (worker_ == nullptr) worker_ = renderer_.start_another();
+    return *worker_;
+  }
+
+ private:
+  const WorkerRenderer& renderer_;
+  std::unique_ptr<Worker> worker_;
+};
+
 WorkerRenderer::WorkerRenderer(WorkerEntry entry, WorkerSettings settings)
-    : entry_(std::move(entry)), settings_(settled(std::move(settings))) {
+    : entry_(std::move(entry)), settings_(settled(std::move(settings))), folder_(settings_.folder) {
   if (settings_.on_start) settings_.on_start();
   std::unique_ptr<Worker> first = start();
   description_ = first->description();
@@ -57,42 +83,35 @@ WorkerRenderer::WorkerRenderer(WorkerEntry entry, WorkerSettings settings)
 WorkerRenderer::~WorkerRenderer() = default;
 
 std::unique_ptr<Worker> WorkerRenderer::start() const {
-  const std::string picture = std::to_string(next_file_++) + ".f32";
-  return std::make_unique<Worker>(entry_, settings_.limits, folder_.path() / picture);
+  return std::make_unique<Worker>(entry_, settings_.limits, folder_.path() / std::to_string(next_file_++));
 }
 
 std::unique_ptr<Worker> WorkerRenderer::start_another() const {
   std::unique_ptr<Worker> worker = start();
   if (worker->description().renderer != description_.renderer)
-    throw Error(ErrorKind::kInput, "worker " + entry_.name + ": its version changed during the run, from " +
-                                       description_.renderer + " to " + worker->description().renderer);
+    throw input_error("worker " + entry_.name + ": its version changed during the run, from " +
+                      description_.renderer + " to " + worker->description().renderer);
   return worker;
 }
 
-std::unique_ptr<Worker> WorkerRenderer::take_worker() const {
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !idle_.empty() || running_ < settings_.processes; });
-    if (!idle_.empty()) {
-      auto worker = std::move(idle_.back());
-      idle_.pop_back();
-      return worker;
-    }
+std::unique_ptr<Worker> WorkerRenderer::idle_worker() const {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return !idle_.empty() || running_ < settings_.processes; });
+  if (idle_.empty()) {
     ++running_;
+    return nullptr;
   }
-  try {
-    return start_another();
-  } catch (...) {
-    give_back(nullptr);
-    throw;
-  }
+  auto worker = std::move(idle_.back());
+  idle_.pop_back();
+  return worker;
 }
 
-// Takes a worker back. A broken one is destroyed, so that another can be started.
+// A broken one has ended, and has returned its licence, before another can be started.
 void WorkerRenderer::give_back(std::unique_ptr<Worker> worker) const {
+  if (worker != nullptr && !worker->is_usable()) worker.reset();
   {
     const std::lock_guard lock(mutex_);
-    if (worker != nullptr && worker->is_usable())
+    if (worker != nullptr)
       idle_.push_back(std::move(worker));
     else
       --running_;
@@ -101,22 +120,35 @@ void WorkerRenderer::give_back(std::unique_ptr<Worker> worker) const {
 }
 
 Image WorkerRenderer::render_anew(const PictureRequest& request) const {
-  std::unique_ptr<Worker> worker = take_worker();
-  try {
-    Image image = worker->render(request);
-    give_back(std::move(worker));
-    return image;
-  } catch (...) {
-    give_back(std::move(worker));
-    throw;
+  for (int losses = 1;; ++losses) {
+    try {
+      return Lease(*this).worker().render(request);
+    } catch (const LostWorker& lost) {
+      accept_loss(lost, losses);
+    }
   }
+}
+
+// Throws if it was one loss too many. Otherwise waits: a machine that is lost is known to be so a little
+// later.
+void WorkerRenderer::accept_loss(const LostWorker& lost, int losses) const {
+  if (losses == kMostLosses)
+    throw input_error(
+        plain(std::string(lost.what()) + "; lost " + std::to_string(losses) + " processes over one picture"));
+  if (lost_++ == 0) warn(std::string(lost.what()) + " (another process renders the picture)");
+  const auto until = std::chrono::steady_clock::now() + losses * settings_.pause;
+  do {
+    if (settings_.limits.cancelled != nullptr && *settings_.limits.cancelled)
+      throw Error(ErrorKind::kInterrupted, "worker " + entry_.name + ": interrupted");
+    std::this_thread::sleep_for(std::min<std::chrono::milliseconds>(settings_.pause, kPauseGlance));
+  } while (std::chrono::steady_clock::now() < until);
 }
 
 Image WorkerRenderer::render(const Material& material, const Scene& scene) const {
   require_material(material, model(material.model));
   if (scene.shape != Shape::kSphere && !description_.meshes)
-    throw Error(ErrorKind::kUsage, "worker " + entry_.name + ": renders spheres only, not a " +
-                                       shape_name(scene.shape) + " (use --shape sphere)");
+    throw usage_error("worker " + entry_.name + ": renders spheres only, not a " + shape_name(scene.shape) +
+                      " (use --shape sphere)");
   const PictureRequest request = picture_request(material, scene);
   const Turn turn(*this, request);
   std::optional<Image> image = cached(request);
@@ -134,7 +166,8 @@ Image WorkerRenderer::render(const Material& material, const Scene& scene) const
 std::optional<Image> WorkerRenderer::cached(const PictureRequest& request) const {
   if (!cache_) return std::nullopt;
   PictureCache::Found found = cache_->find(request);
-  if (!found.damage.empty() && damaged_++ == 0) warn(found.damage + " (the picture is rendered anew)");
+  if (!found.damage.empty() && damaged_++ == 0)
+    warn_of_cache(found.damage + " (the picture is rendered anew)");
   return std::move(found.image);
 }
 
@@ -143,18 +176,25 @@ void WorkerRenderer::keep(const PictureRequest& request, const Image& image) con
   try {
     cache_->keep(request, image);
   } catch (const Error& error) {
-    if (keeps_.exchange(false)) warn(std::string(error.what()) + " (further pictures are not kept)");
+    if (keeps_.exchange(false)) warn_of_cache(std::string(error.what()) + " (further pictures are not kept)");
   }
 }
 
 void WorkerRenderer::warn(const std::string& message) const {
-  if (settings_.on_warning) settings_.on_warning("worker " + entry_.name + ": cache: " + message);
+  if (settings_.on_warning) settings_.on_warning(message);
 }
 
-PictureCount WorkerRenderer::pictures() const { return {rendered_, cached_}; }
+void WorkerRenderer::warn_of_cache(const std::string& message) const {
+  warn("worker " + entry_.name + ": cache: " + message);
+}
+
+PictureCount WorkerRenderer::pictures() const { return {rendered_, cached_, lost_}; }
 
 std::vector<std::string> WorkerRenderer::remarks() const {
   std::vector<std::string> remarks;
+  if (lost_ > 1)
+    remarks.push_back("worker " + entry_.name + ": " + std::to_string(lost_) +
+                      " processes were lost; others rendered their pictures");
   if (!cache_) return remarks;
   if (damaged_ > 1)
     remarks.push_back("worker " + entry_.name + ": " + std::to_string(damaged_) + " pictures of the cache " +

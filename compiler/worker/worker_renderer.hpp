@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <filesystem>
 #include <functional>
@@ -23,25 +24,29 @@ namespace remap {
 // How workers are run and how their pictures are kept.
 struct WorkerSettings {
   std::optional<std::filesystem::path> cache;  // empty: every picture is rendered
+  std::filesystem::path folder;                // for pictures on their way here; empty: one in memory
   unsigned processes = 0;                      // at most, of one worker at once; 0: one for each core
   WorkerLimits limits;
   std::function<void()> on_picture;  // called after every picture, from any thread
   std::function<void()> on_start;  // called before the first process starts, which leaves files and processes
-  // Called from any thread with what a user should know at once: the first damaged picture of the cache, and
-  // that the cache cannot be written. The run goes on.
+  // Called from any thread with what a user should know at once: the first process that is lost, the first
+  // damaged picture of the cache, and that the cache cannot be written. The run goes on.
   std::function<void(const std::string&)> on_warning;
+  // Before the second process renders a picture that cost one; before the third, twice as long.
+  std::chrono::milliseconds pause{1000};
 };
 
-// The number of pictures that a renderer has returned so far.
+// What a renderer has returned so far, and at what cost.
 struct PictureCount {
   std::size_t rendered = 0;
   std::size_t cached = 0;
+  std::size_t lost_workers = 0;  // processes whose picture another one rendered
 };
 
 class WorkerRenderer final : public Renderer {
  public:
   // Starts one process to get its description; more are started when pictures are requested in parallel.
-  // Throws like Worker.
+  // Throws like Worker, and kOutput if the folder cannot be used.
   WorkerRenderer(WorkerEntry entry, WorkerSettings settings);
   ~WorkerRenderer() override;
 
@@ -50,21 +55,24 @@ class WorkerRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
   PictureCount pictures() const;
-  // Returns remarks for the user: pictures of other versions in the cache, and how many were damaged if it
-  // was more than the one of the warning.
+  // Returns remarks for the user: pictures of other versions in the cache, and how many were damaged and how
+  // many processes lost if it was more than the one of the warning.
   std::vector<std::string> remarks() const;
 
  private:
   class Turn;
+  class Lease;
 
   std::unique_ptr<Worker> start() const;
   std::unique_ptr<Worker> start_another() const;  // it must have the version of the first
-  std::unique_ptr<Worker> take_worker() const;
+  std::unique_ptr<Worker> idle_worker() const;    // null: the caller may start one
   void give_back(std::unique_ptr<Worker> worker) const;
+  void accept_loss(const LostWorker& lost, int losses) const;
   Image render_anew(const PictureRequest& request) const;
   std::optional<Image> cached(const PictureRequest& request) const;
   void keep(const PictureRequest& request, const Image& image) const;
   void warn(const std::string& message) const;
+  void warn_of_cache(const std::string& message) const;
 
   const WorkerEntry entry_;
   const WorkerSettings settings_;
@@ -77,7 +85,7 @@ class WorkerRenderer final : public Renderer {
   mutable std::vector<std::unique_ptr<Worker>> idle_;
   mutable std::size_t running_ = 0;        // number of processes
   mutable std::set<std::string> in_work_;  // pictures that a thread is rendering
-  mutable std::atomic<std::size_t> next_file_{0}, rendered_{0}, cached_{0}, damaged_{0};
+  mutable std::atomic<std::size_t> next_file_{0}, rendered_{0}, cached_{0}, damaged_{0}, lost_{0};
   mutable std::atomic<bool> keeps_{true};  // false after a picture could not be written
 };
 

@@ -13,6 +13,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
+#include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 #include "core/plain_text.hpp"
 #include "remap/error.hpp"
@@ -137,18 +138,23 @@ std::vector<std::string> words_of(int argc, const char* const* argv) {
   return words;
 }
 
-int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
-  lay_out_help(app);
+// `words` in reverse, as CLI11 takes them.
+void run_reversed(CLI::App& app, std::vector<std::string> words) {
   try {
-    if (argc == 2 && argv[1] == std::string_view("--help-table"))
-      std::cout << help_table(app).dump(1) << '\n';
-    else
-      app.parse(words_of(argc, argv));
+    app.parse(std::move(words));
   } catch (const CLI::Success& answer) {
     app.exit(answer);
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::kUsage, usage_error_text(app, error));
   }
+}
+
+int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
+  lay_out_help(app);
+  if (argc == 2 && argv[1] == std::string_view("--help-table"))
+    std::cout << help_table(app).dump(1) << '\n';
+  else
+    run_reversed(app, words_of(argc, argv));
   std::cout.flush();
   if (!std::cout) throw Error(ErrorKind::kOutput, "standard output: cannot be written");
   return 0;
@@ -166,7 +172,7 @@ int run_app(Command& command, int argc, const char* const* argv) noexcept {
       return parse_and_run(app, argc, argv);
     } catch (const Error& error) {
       print_message(app.get_name(), error.what());
-      return exit_code(error.kind());
+      return exit_code(error);
     } catch (const std::bad_alloc&) {
       print_message(app.get_name(), "out of memory");
     } catch (const std::exception& error) {
@@ -176,6 +182,11 @@ int run_app(Command& command, int argc, const char* const* argv) noexcept {
     // Printing the message failed, so it cannot be reported.
   }
   return 1;
+}
+
+void run_words(Command& command, std::vector<std::string> words) {
+  std::ranges::reverse(words);
+  run_reversed(command.app(), std::move(words));
 }
 
 void print_message(const std::string& program, const std::string& message) {

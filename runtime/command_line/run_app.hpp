@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace remap {
 
@@ -14,6 +15,10 @@ class Command;
 // `command`; an unknown option or command is answered with the nearest known name. Standard output is
 // flushed; failing to do so is a failure. Never throws.
 int run_app(Command& command, int argc, const char* const* argv) noexcept;
+
+// Reads `words` as the arguments of `command`, without its name, and runs it. Throws kUsage for words that it
+// does not take; help is printed.
+void run_words(Command& command, std::vector<std::string> words);
 
 // Prints one line to standard error: `program: message`. Line breaks in the message become spaces, other
 // control characters escapes (plain_text.hpp); of a message without end only the beginning is shown.

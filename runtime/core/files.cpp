@@ -7,10 +7,11 @@
 #include <mutex>
 #include <set>
 #include <unistd.h>
+#include <utility>
 
+#include "core/errors.hpp"
 #include "core/open_file.hpp"
 #include "core/process_mark.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -18,8 +19,8 @@ namespace {
 
 constexpr std::string_view kUnfinished = ".unfinished-";
 
-[[noreturn]] void fail_to_write(const fs::path& path, const std::string& reason) {
-  throw Error(ErrorKind::kOutput, path.string() + ": cannot be written: " + reason);
+[[noreturn]] void fail_to_write(const fs::path& path, int code) {
+  throw system_error(ErrorKind::kOutput, path.string() + ": cannot be written", code);
 }
 
 // The mark in the name of an unfinished file; empty for another name.
@@ -56,16 +57,16 @@ bool is_on_disk(const fs::path& path) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
 
-// Why `path` cannot be replaced by `unfinished`; empty after it has been.
-std::string replace(const fs::path& unfinished, const fs::path& path, Flush flush) {
+void replace(const fs::path& unfinished, const fs::path& path, Flush flush) {
   std::error_code failure;
   const fs::file_status found = fs::status(path, failure);
-  if (fs::exists(found) && fs::is_other(found)) return "is a device or a pipe, which a file must not replace";
-  if (flush == Flush::kYes && !is_on_disk(unfinished)) return std::strerror(errno);
+  if (fs::exists(found) && fs::is_other(found))
+    throw output_error(path.string() +
+                       ": cannot be written: is a device or a pipe, which a file must not replace");
+  if (flush == Flush::kYes && !is_on_disk(unfinished)) fail_to_write(path, errno);
   fs::rename(unfinished, path, failure);
-  if (failure) return failure.message();
+  if (failure) fail_to_write(path, failure.value());
   if (flush == Flush::kYes) is_on_disk(folder_of(path));  // the file is there, whatever the answer
-  return "";
 }
 
 }  // namespace
@@ -86,17 +87,19 @@ std::string with_final_name(std::string message, const fs::path& unfinished, con
 }
 
 void commit_file(const fs::path& unfinished, const fs::path& path, Flush flush) {
-  const std::string reason = replace(unfinished, path, flush);
-  if (reason.empty()) return;
-  std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  fail_to_write(path, reason);
+  try {
+    replace(unfinished, path, flush);
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    throw;
+  }
 }
 
 void require_new(const fs::path& path, bool force) {
   std::error_code ignored;
   if (!force && fs::is_regular_file(path, ignored))
-    throw Error(ErrorKind::kOutput, path.string() + ": already exists (--force overwrites)");
+    throw output_error(path.string() + ": already exists (--force overwrites)");
 }
 
 fs::path installed(const fs::path& below) {
@@ -110,45 +113,58 @@ void create_parent(const fs::path& path) {
   if (parent.empty()) return;
   std::error_code failure;
   fs::create_directories(parent, failure);
-  if (failure || !fs::is_directory(parent)) {
-    const std::string reason = failure ? failure.message() : "not a folder";
-    throw Error(ErrorKind::kOutput, parent.string() + ": folder cannot be created: " + reason);
-  }
+  if (failure)
+    throw system_error(ErrorKind::kOutput, parent.string() + ": folder cannot be created", failure.value());
+  if (!fs::is_directory(parent))
+    throw output_error(parent.string() + ": folder cannot be created: not a folder");
+}
+
+NewFile::NewFile(const fs::path& path) : path_(path) {
+  create_parent(path);
+  unfinished_ = unfinished_name(path);
+  file_ = std::fopen(unfinished_.c_str(), "wb");
+  if (file_ == nullptr) fail_to_write(path, errno);
+}
+
+NewFile::~NewFile() {
+  if (file_ != nullptr) std::fclose(file_);
+  std::error_code ignored;
+  if (!unfinished_.empty()) fs::remove(unfinished_, ignored);
+}
+
+void NewFile::add(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail_to_write(path_, errno);
+}
+
+void NewFile::commit(Flush flush) {
+  const bool is_closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+  if (!is_closed) fail_to_write(path_, errno);
+  commit_file(std::exchange(unfinished_, {}), path_, flush);
 }
 
 void write_file(const fs::path& path, std::string_view content, Flush flush) {
-  create_parent(path);
-  const fs::path unfinished = unfinished_name(path);
-  std::FILE* file = std::fopen(unfinished.c_str(), "wb");
-  if (file == nullptr) fail_to_write(path, std::strerror(errno));
-  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
-  const int write_failure = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!written || !closed) {
-    const int failure = written ? errno : write_failure;
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    fail_to_write(path, std::strerror(failure));
-  }
-  commit_file(unfinished, path, flush);
+  NewFile file(path);
+  file.add(content);
+  file.commit(flush);
 }
 
 void flush_to_disk(const fs::path& path, const fs::path& shown) {
-  if (!is_on_disk(path)) fail_to_write(shown, std::strerror(errno));
+  if (!is_on_disk(path)) fail_to_write(shown, errno);
 }
 
 fs::path copy_unfinished(const fs::path& from, const fs::path& to) {
   std::error_code failure;
-  if (!fs::is_regular_file(from, failure))
-    throw Error(ErrorKind::kInput,
-                from.string() + ": cannot be copied: " + (failure ? failure.message() : "not a file"));
+  const std::string refused = from.string() + ": cannot be copied";
+  const bool is_file = fs::is_regular_file(from, failure);
+  if (failure) throw system_error(ErrorKind::kInput, refused, failure.value());
+  if (!is_file) throw input_error(refused + ": not a file");
   const fs::path unfinished = unfinished_name(to);
   fs::copy_file(from, unfinished, fs::copy_options::overwrite_existing, failure);
   if (failure) {
     std::error_code ignored;
     fs::remove(unfinished, ignored);
-    throw Error(ErrorKind::kOutput,
-                to.string() + ": cannot be copied from " + from.string() + ": " + failure.message());
+    throw system_error(ErrorKind::kOutput, to.string() + ": cannot be copied from " + from.string(),
+                       failure.value());
   }
   return unfinished;
 }

@@ -1,6 +1,7 @@
 // Writes files. A result appears under its final name complete or not at all.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -28,8 +29,24 @@ enum class Flush { kYes, kNo };
 void commit_file(const std::filesystem::path& unfinished, const std::filesystem::path& path,
                  Flush flush = Flush::kYes);
 
-// Writes `content` under an unfinished name, checks the close and renames. Creates missing parent folders.
-// Throws kOutput and then leaves an existing file unchanged.
+// A file that is written piece by piece under an unfinished name, and removed unless it is committed. Creates
+// missing parent folders. Throws kOutput, and then leaves an existing file unchanged.
+class NewFile {
+ public:
+  explicit NewFile(const std::filesystem::path& path);
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  void add(std::string_view text);
+  void commit(Flush flush = Flush::kYes);
+
+ private:
+  std::filesystem::path path_, unfinished_;
+  std::FILE* file_;
+};
+
+// Writes `content` as a new file.
 void write_file(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::kYes);
 
 // Waits until the disk has the content of a finished file, or the names in a folder: before and after renames

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #ifndef _WIN32
@@ -13,14 +12,14 @@
 #include "core/open_file.hpp"
 #endif
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail_to_read(const fs::path& path, const std::string& reason) {
-  throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + reason);
+[[noreturn]] void fail_to_read(const fs::path& path, int code) {
+  throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", code);
 }
 
 [[noreturn]] void fail_of_size(const fs::path& path, std::uintmax_t largest) {
@@ -38,7 +37,7 @@ namespace {
 void require_regular_file(const fs::path& path) {
   std::error_code failure;
   const fs::file_status found = fs::status(path, failure);
-  if (!fs::exists(found)) fail_to_read(path, failure ? failure.message() : std::strerror(ENOENT));
+  if (!fs::exists(found)) fail_to_read(path, failure ? failure.value() : ENOENT);
   if (!fs::is_regular_file(found))
     throw Error(ErrorKind::kInput, path.string() + (fs::is_directory(found) ? ": is a folder, not a file"
                                                                             : ": is a device, not a file"));
@@ -47,14 +46,14 @@ void require_regular_file(const fs::path& path) {
 std::string read_file(const fs::path& path, std::uintmax_t largest) {
   require_regular_file(path);
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail_to_read(path, std::strerror(errno));
+  if (!file) fail_to_read(path, errno);
   std::string content;
   std::array<char, 1 << 16> part;
   while (file.read(part.data(), part.size()) || file.gcount() > 0) {
     content.append(part.data(), static_cast<std::size_t>(file.gcount()));
     if (content.size() > largest) fail_of_size(path, largest);
   }
-  if (file.bad()) fail_to_read(path, std::strerror(errno));
+  if (file.bad()) fail_to_read(path, errno);
   return content;
 }
 
@@ -89,8 +88,7 @@ std::string content_of(const OpenFile& file, const fs::path& path, std::uintmax_
     const ssize_t count = ::read(file.get(), part.data(), part.size());
     if (count == 0) return content;
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0)
-      throw Error(ErrorKind::kInput, path.string() + ": reading failed: " + std::strerror(errno));
+    if (count < 0) throw system_error(ErrorKind::kInput, path.string() + ": reading failed", errno);
     content.append(part.data(), static_cast<std::size_t>(count));
     if (content.size() > largest) fail_of_size(path, largest);
   }
@@ -100,18 +98,18 @@ std::string content_of(const OpenFile& file, const fs::path& path, std::uintmax_
 
 void require_regular_file(const fs::path& path) {
   struct stat found {};
-  if (::stat(path.c_str(), &found) != 0) fail_to_read(path, std::strerror(errno));
+  if (::stat(path.c_str(), &found) != 0) fail_to_read(path, errno);
   if (!S_ISREG(found.st_mode))
     throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(found.st_mode));
 }
 
 std::string read_file(const fs::path& path, std::uintmax_t largest) {
   struct stat found {};
-  if (::stat(path.c_str(), &found) != 0) fail_to_read(path, std::strerror(errno));
+  if (::stat(path.c_str(), &found) != 0) fail_to_read(path, errno);
   require_readable(path, found);
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   // Looked at again, since the name may lead elsewhere by now.
-  if (!file.is_open() || ::fstat(file.get(), &found) != 0) fail_to_read(path, std::strerror(errno));
+  if (!file.is_open() || ::fstat(file.get(), &found) != 0) fail_to_read(path, errno);
   require_readable(path, found);
   if (S_ISREG(found.st_mode) && static_cast<std::uintmax_t>(found.st_size) > largest)
     fail_of_size(path, largest);

@@ -57,12 +57,11 @@ void choose_stems(std::vector<NamedMap>& maps) {
 
 FoundMap found_map(const fs::path& folder, const NamedMap& map) {
   const fs::path path = folder / map.files.name;
-  FoundMap found{path, map.files.pattern, {}, map.reading().habit, map.reading().meaning, false};
+  const NameReading& reading = map.reading();
+  FoundMap found{path,          map.files.pattern, {},
+                 reading.habit, reading.meaning,   has_roughness_or_specular(reading.meaning)};
   for (const int number : map.files.numbers)
     found.tiles.push_back({number, folder / tile_name(*map.files.pattern, number)});
-  found.is_converted = std::any_of(
-      found.meaning.begin(), found.meaning.end(),
-      [](const ChannelMeaning& entry) { return is_roughness(entry.role) || entry.role == Role::kSpecular; });
   return found;
 }
 
@@ -121,6 +120,12 @@ std::string last_name(const fs::path& path) {
 }
 
 }  // namespace
+
+bool has_roughness_or_specular(const std::vector<ChannelMeaning>& meaning) {
+  return std::ranges::any_of(meaning, [](const ChannelMeaning& entry) {
+    return is_roughness(entry.role) || entry.role == Role::kSpecular;
+  });
+}
 
 void judge(FoundSet& set) {
   set.state = SetState::kReady;

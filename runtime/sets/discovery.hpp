@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +25,7 @@ struct FoundMap {
   std::vector<ChannelMeaning> meaning;
   bool is_converted = false;  // has roughness or specular; a conversion of these alone reads no other maps
 };
+bool has_roughness_or_specular(const std::vector<ChannelMeaning>& meaning);
 
 // The map and channels that hold a role.
 struct MapUse {
@@ -67,6 +70,7 @@ struct Discovery {
   std::vector<std::filesystem::path> unrecognised;  // images that no habit matches; tiles as one pattern
   std::vector<std::filesystem::path> others;        // files of WalkOptions::also, by bytes
   std::vector<WalkProblem> problems;                // folders and files that could not be read
+  std::map<std::filesystem::path, std::uintmax_t> sizes;  // that a manifest states for files; else empty
 };
 
 // Finds the sets of a folder. The maps of a set lie in one folder and share a stem: the name without the word

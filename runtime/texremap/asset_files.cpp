@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fcntl.h>
 #include <memory>
 
@@ -49,10 +48,10 @@ bool are_same_files(const fs::path& a, const fs::path& b) {
 
 FileSource::FileSource(const fs::path& path)
     : path_((require_regular_file(path), path)), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (!file_.is_open()) throw input_error(path.string() + ": cannot be read: " + std::strerror(errno));
+  if (!file_.is_open()) throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
   std::error_code failure;
   size_ = fs::file_size(path, failure);
-  if (failure) throw input_error(path.string() + ": cannot be read: " + failure.message());
+  if (failure) throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", failure.value());
 }
 
 std::string FileSource::read(std::uint64_t begin, std::size_t count) const {
@@ -61,9 +60,8 @@ std::string FileSource::read(std::uint64_t begin, std::size_t count) const {
     const ::ssize_t got =
         ::pread(file_.get(), bytes.data() + done, count - done, static_cast<::off_t>(begin + done));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0)
-      throw input_error(path_.string() + ": cannot be read: " +
-                        (got < 0 ? std::strerror(errno) : "it became shorter meanwhile"));
+    if (got < 0) throw system_error(ErrorKind::kInput, path_.string() + ": cannot be read", errno);
+    if (got == 0) throw input_error(path_.string() + ": became shorter while it was read (try again)");
     done += static_cast<std::size_t>(got);
   }
   return bytes;
@@ -89,10 +87,10 @@ void write_pieces(const fs::path& path, const std::vector<AssetPiece>& pieces, c
   create_parent(path);
   const fs::path unfinished = unfinished_name(path);
   const auto fail = [&] {
-    const std::string reason = std::strerror(errno);
+    const int code = errno;
     std::error_code ignored;
     fs::remove(unfinished, ignored);
-    throw output_error(path.string() + ": cannot be written: " + reason);
+    throw system_error(ErrorKind::kOutput, path.string() + ": cannot be written", code);
   };
   WrittenFile file(std::fopen(unfinished.c_str(), "wb"));
   if (file == nullptr) fail();

@@ -83,6 +83,7 @@ class FolderJobs {
   void place_others(const FoundSet& set, int tile, ConversionJob& job) const;
   std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   void require_no_collisions() const;
+  void note_sizes(ConversionJob& job) const;
   void require_encoding_used() const;
   // The pattern with `*` for the name of a set that an option gives for a parameter; null for none.
   const MapName* pattern_of(Parameter parameter) const {
@@ -115,6 +116,9 @@ JobList FolderJobs::list() {
   for (const WalkProblem& problem : found_.problems) fail(problem.message);
   for (FoundSet& set : found_.sets) add(std::move(set));
   require_no_collisions();
+  if (!found_.sizes.empty())
+    for (ConversionJob& job : jobs_.jobs) note_sizes(job);
+  if (options_.part) return std::move(jobs_);  // what concerns all sets, no part can tell
   require_encoding_used();
   if (jobs_.jobs.empty() && jobs_.left_out.empty())
     throw Error(ErrorKind::kUsage, root_.string() + ": no texture set found by file names (use " +
@@ -221,7 +225,8 @@ void FolderJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::
                     {set.name, tile == 0 ? "" : "." + number},
                     {},
                     {},
-                    notes};
+                    notes,
+                    {}};
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, job)) return;
   if (!choice_.layout.keeps_names) carry(set, tile, job.request);
@@ -295,6 +300,12 @@ std::map<fs::path, fs::path> FolderJobs::outputs(const FoundSet& set) const {
   for (const TargetChannel& diagnosis : choice_.diagnoses)
     sources.emplace(options_.diagnose / set.folder / diagnosis_name(diagnosis, names), first.path);
   return sources;
+}
+
+void FolderJobs::note_sizes(ConversionJob& job) const {
+  for (const fs::path* file : files_of(job))
+    if (const auto found = found_.sizes.find(file->lexically_relative(root_)); found != found_.sizes.end())
+      job.listed[*file] = found->second;
 }
 
 // --roughness-encoding speaks of maps that are found as roughness.
@@ -394,7 +405,7 @@ JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& wor
                         const TextureSetRequest& request, std::optional<Discovery> sets) {
   if (sets) return FolderJobs(options, workflow, request, *std::move(sets)).list();
   ConversionJob job{"", "", request, options.output, options.diagnose, {}, copied_files(options, workflow),
-                    {}, {}};
+                    {}, {}, {}};
   if (const std::vector<TiledFile> tiled = tiled_files(job); !tiled.empty()) return tile_jobs(job, tiled);
   JobList list;
   list.jobs.push_back(std::move(job));

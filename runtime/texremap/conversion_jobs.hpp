@@ -2,7 +2,9 @@
 // job converts a set of single files.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,8 +25,9 @@ struct ConversionJob {
   std::filesystem::path folder, diagnosis_folder;  // where the results go
   ResultNames names;                               // of results without an input of the same name
   std::vector<CopiedFile> copies;
-  std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
-  std::vector<std::string> notes;                  // which of several maps were taken
+  std::vector<std::filesystem::path> left_behind;          // maps of the set that are neither read nor copied
+  std::vector<std::string> notes;                          // which of several maps were taken
+  std::map<std::filesystem::path, std::uintmax_t> listed;  // sizes of files that a manifest states
 };
 
 // A set that is not converted, or a file or folder that cannot be read.

@@ -1,5 +1,7 @@
 // `texremap convert`: converts texture sets by one converter or by a path of converters. It checks everything
 // that can be checked before it reads the first texel.
+#include "texremap/convert.hpp"
+
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -10,18 +12,22 @@
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "convert/converter_file.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/stopwatch.hpp"
-#include "remap/error.hpp"
 #include "remap/path.hpp"
 #include "remap/warp.hpp"
 #include "stages/brdf_stage.hpp"
 #include "texremap/commands.hpp"
+#include "texremap/conversion_hash.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/convert_assets.hpp"
 #include "texremap/convert_options.hpp"
 #include "texremap/convert_report.hpp"
 #include "texremap/converter_text.hpp"
 #include "texremap/job_run.hpp"
+#include "texremap/manifest.hpp"
+#include "texremap/part_report.hpp"
 #include "texremap/set_choice.hpp"
 #include "texremap/workflow_choice.hpp"
 
@@ -147,6 +153,17 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
   print_values(chosen, values, options.json);
 }
 
+// Refuses results inside of the tree that a manifest lists: the next index would list them.
+void require_outside(const std::filesystem::path& output, const std::filesystem::path& tree) {
+  std::error_code failure;
+  const std::filesystem::path below =
+      std::filesystem::weakly_canonical(output, failure)
+          .lexically_relative(std::filesystem::weakly_canonical(tree, failure));
+  if (!output.empty() && !below.empty() && *below.begin() != "..")
+    throw usage_error("--output " + output.string() + ": lies in " + tree.string() +
+                      ", the tree of the manifest (choose a folder outside of it)");
+}
+
 // Warns if roughness maps of a folder are read in another encoding than most tools write.
 void warn_of_encoding(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
   if (options.folder.empty() || options.roughness_encoding ||
@@ -160,20 +177,82 @@ void warn_of_encoding(const ConvertOptions& options, const JobList& list, const 
                       " (use --roughness-encoding roughness if they hold its square root)");
 }
 
-void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chosen,
-                     const TextureSetRequest& request, std::optional<Discovery> sets) {
+// The sets that the manifest lists for this run. DIR becomes the root of the tree.
+SetManifest listed_sets(ConvertOptions& options) {
+  if (!options.names.empty())
+    throw usage_error("--names cannot be used with --manifest (give it to texremap index)");
+  const Part all;
+  SetManifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
+  if (options.folder.empty()) options.folder = manifest.head.root;
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(options.folder, ignored))
+    throw input_error(options.folder.string() + ": no such folder, which " + options.manifest.string() +
+                      " is of (give DIR, where the tree lies now)");
+  require_outside(options.output, options.folder);
+  if (options.part && !options.part->note.empty() && !options.quiet)
+    print_message(kProgram, "note: " + options.part->note);
+  return manifest;
+}
+
+// A conversion that is checked as far as it can be before the first texel is read.
+struct CheckedConversion {
+  std::optional<Discovery> sets;  // of a manifest, or where the maps had to tell the source
+  ManifestHead manifest;
+  TextureSetRequest request;
+  ChosenConverter chosen;
+};
+
+CheckedConversion checked(ConvertOptions& options) {
+  CheckedConversion conversion;
+  if (!options.manifest.empty()) {
+    SetManifest listed = listed_sets(options);
+    conversion.manifest = listed.head;
+    conversion.sets = std::move(listed.found);
+  }
+  std::string told;
+  if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
+    if (options.part)
+      throw usage_error("--from is required (a part does not know the maps of the other parts)");
+    if (!conversion.sets) conversion.sets = discovered_sets(options);
+    const ToldSource source = told_source(options, conversion.sets);
+    options.from = model_name().read("--from", source.model);
+    told = source.note;
+  }
+  const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_fitted_converter(options.fit));
+  const WarpMapFit* warp = warp_in(fit);
+  WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
+  if (!told.empty()) workflow.notes.insert(workflow.notes.begin(), told);
+  (void)target_choice(options, workflow);  // refuses what cannot be written before any file is read
+  conversion.request = set_request(options, workflow);
+  conversion.chosen = choose_converter(options, fit, std::move(workflow));
+  for (const std::string& assumption : conversion.chosen.workflow.assumptions) warn(options, assumption);
+  print_notes(options, conversion.chosen);
+  return conversion;
+}
+
+void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion) {
+  const ChosenConverter& chosen = conversion.chosen;
   const Stopwatch stopwatch;
   if (options.output.empty()) throw Error(ErrorKind::kUsage, "--output is required");
-  const JobList list = conversion_jobs(options, chosen.workflow, request, std::move(sets));
+  const JobList list =
+      conversion_jobs(options, chosen.workflow, conversion.request, std::move(conversion.sets));
   warn_of_encoding(options, list, chosen.info().source);
   Outcome outcome{chosen, list, {}, options.dry_run, options.histograms, options.json, 0.0, {}};
-  // What a run says of a set, it says as soon as the set is finished: a killed run has told what it did.
+  // What a run says of a set, it says as soon as the set is finished: a killed run has told what it did. The
+  // report of a part is there when the part is finished.
   const bool as_lines = options.json && list.is_tree;
+  std::string part_report;
+  const auto tell = [&](const Json& line) {
+    const std::string text = line.dump() + '\n';
+    if (as_lines) std::cout << text << std::flush;
+    if (options.part) part_report += text;
+  };
   print_left_out(kProgram, list, options.quiet);
-  if (as_lines) print_json_start(outcome);
+  if (options.part) tell(part_json(*options.part, conversion.manifest, conversion_note(chosen, options)));
+  tell_start(outcome, tell);
   outcome.reports = run_jobs(list, chosen, options, [&](const JobReport& report) {
     if (list.is_tree) print_job(kProgram, outcome, report, options.quiet);
-    if (as_lines) print_json_set(outcome, report);
+    tell_set(outcome, report, tell);
   });
   outcome.seconds = stopwatch.seconds();
   outcome.used = resource_use();
@@ -183,14 +262,16 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
     print_colors(kProgram, outcome);
     print_summary(kProgram, outcome);
   }
-  if (as_lines)
-    print_json_end(outcome);
+  if (list.is_tree)
+    tell_end(outcome, tell);
   else if (options.json)
     print_json(outcome);
+  if (options.part && !options.dry_run)
+    write_file(report_of(options.output, options.part->part), part_report);
   const std::size_t all = outcome.reports.size() + list.left_out.size();
   const std::string of_all = " of " + std::to_string(all) + (all == 1 ? " set " : " sets ");
   if (const std::size_t failed = outcome.failed_count(); failed > 0)
-    throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed");
+    throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed", outcome.passing_failure());
   if (!list.left_out.empty() && !options.allow_skips)
     throw Error(ErrorKind::kInput,
                 std::to_string(list.left_out.size()) + of_all +
@@ -198,35 +279,26 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
                     "this)");
 }
 
+}  // namespace
+
 void convert(ConvertOptions options) {
-  std::optional<Discovery> sets;
-  std::string told;
-  if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
-    sets = discovered_sets(options);
-    const ToldSource source = told_source(options, sets);
-    options.from = model_name().read("--from", source.model);
-    told = source.note;
-  }
-  const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_fitted_converter(options.fit));
-  const WarpMapFit* warp = warp_in(fit);
-  WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
-  if (!told.empty()) workflow.notes.insert(workflow.notes.begin(), told);
-  (void)target_choice(options, workflow);  // refuses what cannot be written before any file is read
-  const TextureSetRequest request = set_request(options, workflow);
-  const ChosenConverter chosen = choose_converter(options, fit, std::move(workflow));
-  for (const std::string& assumption : chosen.workflow.assumptions) warn(options, assumption);
-  print_notes(options, chosen);
-  if (options.folder.empty() && are_constants(request)) {
+  CheckedConversion conversion = checked(options);
+  if (options.folder.empty() && are_constants(conversion.request)) {
     refuse(options, kNeedsFiles,
            ": applies to nothing, because all maps are numbers (give a file, or remove this option)");
-    convert_values(options, chosen, request);
+    convert_values(options, conversion.chosen, conversion.request);
   } else {
-    if (!sets) sets = discovered_sets(options);
-    convert_maps_of(options, chosen, request, std::move(sets));
+    if (!conversion.sets) conversion.sets = discovered_sets(options);
+    convert_maps_of(options, std::move(conversion));
   }
 }
 
-}  // namespace
+void check_conversion(ConvertOptions options) {
+  CheckedConversion conversion = checked(options);
+  const JobList list =
+      conversion_jobs(options, conversion.chosen.workflow, conversion.request, std::move(conversion.sets));
+  warn_of_encoding(options, list, conversion.chosen.info().source);
+}
 
 void add_convert_command(Command& app) {
   Command* command = app.add_subcommand(

@@ -90,7 +90,6 @@ Json f0_json(const std::optional<DielectricF0>& f0) {
 
 // File names need not be UTF-8.
 void print(const Json& json, int indent = 2) { std::cout << json.dump(indent) << std::endl; }
-void print_line(const Json& json) { print(json, -1); }
 
 Json counts_json(const MapStatistics& counts) {
   return {{"texels", counts.texel_count},
@@ -198,17 +197,17 @@ void print_json(const Outcome& outcome) {
   print(result);
 }
 
-void print_json_start(const Outcome& outcome) {
-  print_line({{"conversion", converter_json(outcome.chosen)}});
+void tell_start(const Outcome& outcome, const TakeLine& take) {
+  take({{"conversion", converter_json(outcome.chosen)}});
   for (const SkippedSet& entry : outcome.list.left_out)
-    print_line({{"left_out", {{"message", entry.message}, {"is_failure", entry.is_failure}}}});
+    take({{"left_out", {{"message", entry.message}, {"is_failure", entry.is_failure}}}});
 }
 
-void print_json_set(const Outcome& outcome, const JobReport& report) {
-  print_line({{"set", set_json(outcome, report)}});
+void tell_set(const Outcome& outcome, const JobReport& report, const TakeLine& take) {
+  take({{"set", set_json(outcome, report)}});
 }
 
-void print_json_end(const Outcome& outcome) {
+void tell_end(const Outcome& outcome, const TakeLine& take) {
   std::map<std::string_view, std::size_t> states = {
       {"converted", 0}, {"done before", 0}, {"failed", 0}, {"planned", 0}};
   for (const JobReport& report : outcome.reports) ++states[state_text(report, outcome.dry_run)];
@@ -220,7 +219,7 @@ void print_json_end(const Outcome& outcome) {
                   {"left_out", outcome.list.left_out.size()},
                   {"unrecognised_images", paths_json(outcome.list.unrecognised)}};
   summary.update(run_json(outcome));
-  print_line({{"summary", summary}});
+  take({{"summary", summary}});
 }
 
 void print_values(const ChosenConverter& chosen, const ConvertedValues& values, bool json) {

@@ -100,6 +100,13 @@ Reader<ModelName> model_name() {
 
 namespace {
 
+Reader<GivenPart> given_part() {
+  return {[](const std::string&, const std::string& word) {
+            return part_of(word, [](const char* name) { return std::getenv(name); });
+          },
+          {}};
+}
+
 void add_source_options(Command& command, ConvertOptions& options) {
   command.option_group("Source and target");
   command.add_option("DIR", options.folder,
@@ -114,6 +121,15 @@ void add_source_options(Command& command, ConvertOptions& options) {
       .add_flag("-r,--recursive", options.recursive,
                 "Convert the subfolders of DIR, too; results mirror the tree")
       ->tag(kNeedsFolder);
+  Option* manifest =
+      command.add_option("--manifest FILE", options.manifest,
+                         "Convert the sets that texremap index has listed; DIR is where the tree lies now");
+  manifest->excludes(command.option("--recursive"));
+  command
+      .add_option("--part I/N", options.part, given_part(),
+                  "Convert part I of N of the manifest; auto takes both from the array of jobs that this "
+                  "process belongs to, auto/N takes I from it")
+      ->needs(manifest);
   command
       .add_option("--via MODEL", options.via, "Model that the path must pass through; repeatable, in order")
       ->allow_extra_args(false)

@@ -13,6 +13,7 @@
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
 #include "remap/workflow.hpp"
+#include "texremap/part.hpp"
 #include "texremap/used_converters.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_set.hpp"
@@ -63,6 +64,8 @@ struct ConvertOptions {
   std::string fit;
   UsedConverters converters;
   bool recursive = false;
+  std::filesystem::path manifest;  // that lists the sets, in place of a search in the folder
+  std::optional<GivenPart> part;   // of the manifest
 
   std::map<Parameter, std::optional<MapSource>> maps;
   std::optional<MapSource> occlusion;

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "command_line/run_app.hpp"
+#include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
@@ -113,6 +114,7 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   was_done = was_done && other.was_done;
   has_8_bits = has_8_bits || other.has_8_bits;
   if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
+  if (!passes_later(failure_code)) failure_code = other.failure_code;
   for (const auto& [note, count] : other.colors) colors[note] += count;
   if (plan.empty()) plan = other.plan;
   if (!estimated_f0) estimated_f0 = other.estimated_f0;
@@ -135,6 +137,12 @@ std::size_t Outcome::failed_count() const {
   for (const JobReport& report : reports) count += report.failure.has_value();
   for (const SkippedSet& entry : list.left_out) count += entry.is_failure;
   return count;
+}
+
+int Outcome::passing_failure() const {
+  for (const JobReport& report : reports)
+    if (report.failure && passes_later(report.failure_code)) return report.failure_code;
+  return 0;
 }
 
 namespace {

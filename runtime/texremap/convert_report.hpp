@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "command_line/progress.hpp"
+#include "core/json.hpp"
 #include "remap/path.hpp"
 #include "texremap/conversion_jobs.hpp"
 #include "texremap/plan_table.hpp"
@@ -70,6 +72,7 @@ struct JobReport {
   std::vector<std::string> warnings;
   std::vector<PlannedRole> plan;  // of a dry run; of tiles, that of the first
   std::optional<std::string> failure;
+  int failure_code = 0;     // errno of the call that failed, or 0
   bool was_done = false;    // by the earlier run that this one resumes
   bool has_8_bits = false;  // a result does
   MapStatistics statistics;
@@ -94,6 +97,8 @@ struct Outcome {
 
   ColorNotes colors() const;         // of all sets
   std::size_t failed_count() const;  // failed sets and the failures among `list.left_out`
+  // The errno of the first set whose failure may pass when the run is repeated; 0 without one.
+  int passing_failure() const;
 };
 
 // Prints a line about each set that is not converted. With `failures_only`, as for --quiet, this and
@@ -111,9 +116,10 @@ void print_summary(const std::string& program, const Outcome& outcome);
 void print_json(const Outcome& outcome);
 // The report on a folder, an object a line: `{"conversion": ...}` first, `{"set": ...}` for each set as it is
 // finished, `{"left_out": ...}` before them for each that is not converted, `{"summary": ...}` last.
-void print_json_start(const Outcome& outcome);
-void print_json_set(const Outcome& outcome, const JobReport& report);
-void print_json_end(const Outcome& outcome);
+using TakeLine = std::function<void(const Json& line)>;
+void tell_start(const Outcome& outcome, const TakeLine& take);
+void tell_set(const Outcome& outcome, const JobReport& report, const TakeLine& take);
+void tell_end(const Outcome& outcome, const TakeLine& take);
 
 // The result of a conversion of numbers, without maps.
 struct ConvertedValues {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -10,10 +12,10 @@
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/conversion_hash.hpp"
@@ -153,6 +155,15 @@ JobReport::Result result_of(const PlannedMap& planned) {
   return result;
 }
 
+// How often a set is tried again after a failure that passes soon.
+constexpr int kMostRepeats = 3;
+
+// Waits before the next time, longer from time to time; an interruption ends the wait.
+void wait_before(int repeat) {
+  for (int i = 0; i < 5 << repeat && !interruption(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
 class JobRunner {
  public:
   // `is_tree`: the output folder is of this conversion alone.
@@ -162,7 +173,8 @@ class JobRunner {
         choice_(target_choice(options, chosen.workflow)),
         pass_(pass_options(options)),
         is_tree_(is_tree),
-        journal_(options.output, conversion_note(chosen, options)) {
+        journal_(options.output, conversion_note(chosen, options),
+                 options.part ? std::make_optional(options.part->part) : std::nullopt) {
     if (!options.force) journal_.require_own();
     pass_.thread_count = threads_a_job;
     pass_.cancelled = &interruption();
@@ -290,9 +302,26 @@ void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const s
     if (std::filesystem::exists(folder, ignored)) flush_to_disk(folder, folder);
 }
 
+// Refuses files that are not what the manifest lists, such as one that is still being copied.
+void require_as_listed(const ConversionJob& job) {
+  for (const auto& [file, bytes] : job.listed) {
+    std::error_code failure;
+    const std::uintmax_t size = std::filesystem::file_size(file, failure);
+    if (failure)
+      throw system_error(
+          ErrorKind::kInput,
+          file.string() + ": the manifest lists it (texremap index again), but it cannot be read",
+          failure.value());
+    if (size != bytes)
+      throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, the manifest says " +
+                        std::to_string(bytes) + " (texremap index again)");
+  }
+}
+
 void JobRunner::run(const ConversionJob& job, const std::function<void(double)>& progress,
                     JobReport& report) {
   const Stopwatch stopwatch;
+  require_as_listed(job);
   TextureSet set = open_texture_set(job.request);
   report.inputs = files_of(set);
   report.left_behind = job.left_behind;
@@ -425,6 +454,22 @@ class Sets {
 
 }  // namespace
 
+namespace {
+
+// One set, or one tile, once.
+void run_job(JobRunner& runner, const ConversionJob& job, const std::function<void(double)>& advance,
+             JobReport& report) {
+  try {
+    runner.run(job, advance, report);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::kInput,
+                (report.inputs.empty() ? shown(report.name) : report.inputs.front().string()) +
+                    ": out of memory (use fewer --threads)");
+  }
+}
+
+}  // namespace
+
 std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chosen,
                                 const ConvertOptions& options,
                                 const std::function<void(const JobReport&)>& finished) {
@@ -441,37 +486,47 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
     finished(report);
   });
   run_parallel(list.jobs.size(), static_cast<unsigned>(at_once), [&](std::size_t i) {
+    const ConversionJob& job = list.jobs[i];
     JobReport report;
-    report.name = list.jobs[i].name;
-    if (!list.jobs[i].tile.empty()) report.tiles = {list.jobs[i].tile};
     std::size_t shown = 0;
     const auto advance = [&](double share) {
       const auto now = static_cast<std::size_t>(share * kSetProgress);
       line.advance(now - shown);
       shown = now;
     };
-    try {
+    std::vector<std::string> troubles;
+    for (bool is_tried = false; !is_tried;) {
+      is_tried = true;
+      report = {};
+      report.name = job.name;
+      if (!job.tile.empty()) report.tiles = {job.tile};
       try {
-        runner.run(list.jobs[i], advance, report);
-      } catch (const std::bad_alloc&) {
-        throw Error(ErrorKind::kInput,
-                    (report.inputs.empty() ? remap::shown(report.name) : report.inputs.front().string()) +
-                        ": out of memory (use fewer --threads)");
+        run_job(runner, job, advance, report);
+      } catch (const Error& error) {
+        if (passes_soon(error.system_code()) && troubles.size() < kMostRepeats && !interruption()) {
+          wait_before(static_cast<int>(troubles.size()));
+          troubles.emplace_back(error.what());
+          is_tried = false;
+          continue;
+        }
+        if (!list.is_tree) throw;
+        if (error.kind() == ErrorKind::kInterrupted)
+          throw Error(error.kind(), "interrupted: finished sets are complete (--resume converts the others)",
+                      options.part ? EINTR : 0);
+        report.failure = error.what();
+        report.failure_code = error.system_code();
+        report.tiles.clear();
       }
-    } catch (const Error& error) {
-      if (!list.is_tree) throw;
-      if (error.kind() == ErrorKind::kInterrupted)
-        throw Error(error.kind(), "interrupted: finished sets are complete (--resume converts the others)");
-      report.failure = error.what();
-      report.tiles.clear();
     }
+    for (const std::string& trouble : troubles) report.warnings.push_back("tried again after " + trouble);
     advance(1.0);
     line.finish(report.statistics.texel_count);
     sets.finish(i, std::move(report));
   });
   std::vector<JobReport> reports = sets.reports();
   const auto is_converted = [](const JobReport& report) { return !report.failure && !report.was_done; };
-  if (options.dither && !options.dry_run && std::any_of(reports.begin(), reports.end(), is_converted))
+  if (options.dither && !options.dry_run && !options.part &&
+      std::any_of(reports.begin(), reports.end(), is_converted))
     require_8_bits(std::any_of(reports.begin(), reports.end(),
                                [](const JobReport& report) { return report.has_8_bits; }));
   return reports;

@@ -9,10 +9,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {
@@ -47,13 +47,15 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
   return escaped;
 }
 
-// What the lines say, read anew from where reading ended.
+// What the lines of journals say, read anew from where reading ended.
 struct Content {
   std::optional<ConversionNote> owner;
   std::map<std::string, Entry> files;  // by name, the last line counts
-  std::streamoff read_bytes = 0;
+  std::map<fs::path, std::streamoff> read_bytes;
 
   void read(const fs::path& journal);
+  // In the order in which they were written to.
+  void read(const std::vector<fs::path>& journals);
   void add(const std::string& line);
 };
 
@@ -105,12 +107,43 @@ void Content::add(const std::string& line) {
 void Content::read(const fs::path& journal) {
   std::ifstream stream(journal, std::ios::binary);
   if (!stream) return;
-  stream.seekg(read_bytes);
+  std::streamoff& end = read_bytes[journal];
+  stream.seekg(end);
   for (std::string line;
        std::getline(stream, line) && !stream.eof();) {  // without an end, a line is not whole yet
-    read_bytes = stream.tellg();
+    end = stream.tellg();
     if (line.size() <= kLongestLine) add(line);
   }
+}
+
+void Content::read(const std::vector<fs::path>& journals) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> written;
+  for (const fs::path& journal : journals) {
+    std::error_code failure;
+    const fs::file_time_type time = fs::last_write_time(journal, failure);
+    if (!failure) written.emplace_back(time, journal);
+  }
+  std::ranges::sort(written);
+  for (const auto& [time, journal] : written) read(journal);
+}
+
+bool is_journal(const fs::path& file) { return file.extension() == kPartJournal; }
+
+// All journals of an output folder that there may be.
+std::vector<fs::path> journals_of(const fs::path& folder) {
+  std::vector<fs::path> journals = {folder / kJournalName};
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / kPartsFolder, failure))
+    if (is_journal(entry.path())) journals.push_back(entry.path());
+  return journals;
+}
+
+// One journal of another part, by which a part knows whose the folder is; none without one.
+fs::path other_part(const fs::path& own) {
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(own.parent_path(), failure))
+    if (is_journal(entry.path()) && entry.path() != own) return entry.path();
+  return {};
 }
 
 bool is_as_written(const fs::path& path, const Entry& entry) {
@@ -178,10 +211,12 @@ std::string difference(const ConversionNote& owner, const ConversionNote& own) {
 }  // namespace
 
 struct Journal::State {
-  fs::path folder, file;
+  fs::path folder, file;  // the journal that this run writes
+  bool is_part = false;
   ConversionNote conversion;
   mutable std::mutex mutex;  // of `content` and of appending
   Content content;
+  bool has_all = false;  // journals in `content`
   bool is_claimed = false;
 
   std::string name_of(const fs::path& path) const { return journal_name(path, folder); }
@@ -189,6 +224,19 @@ struct Journal::State {
     const auto found = content.files.find(name_of(path));
     return found == content.files.end() || found->second.conversion != conversion.hash ? nullptr
                                                                                        : &found->second;
+  }
+  // The same after a look at what other runs have written meanwhile, where the file exists.
+  const Entry* entry_of_existing(const fs::path& path) {
+    if (const Entry* known = entry_of(path)) return known;
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) return nullptr;
+    has_all ? content.read(file) : content.read(journals_of(folder));
+    has_all = true;
+    return entry_of(path);
+  }
+  // The lock of the folder for a run that shares its journal with others.
+  std::optional<FolderLock> lock() const {
+    return is_part ? std::nullopt : std::make_optional<FolderLock>(folder);
   }
   void require_own() const {
     if (!content.owner || content.owner->hash == conversion.hash) return;
@@ -209,16 +257,20 @@ void Journal::State::append(const Json& json) const {
                        ::fdatasync(journal) == 0;
   const int failure = errno;
   if (journal >= 0) ::close(journal);
-  if (!written)
-    throw Error(ErrorKind::kOutput, file.string() + ": cannot be written: " + std::strerror(failure));
+  if (!written) throw system_error(ErrorKind::kOutput, file.string() + ": cannot be written", failure);
 }
 
-Journal::Journal(const fs::path& folder, ConversionNote conversion) : state_(std::make_unique<State>()) {
+Journal::Journal(const fs::path& folder, ConversionNote conversion, const std::optional<Part>& part)
+    : state_(std::make_unique<State>()) {
   state_->folder = folder.lexically_normal();
   if (!state_->folder.has_filename()) state_->folder = state_->folder.parent_path();  // `out/`
-  state_->file = state_->folder / kJournalName;
   state_->conversion = std::move(conversion);
-  state_->content.read(state_->file);
+  state_->is_part = part.has_value();
+  state_->has_all = !part;
+  const fs::path all = state_->folder / kJournalName;
+  state_->file = part ? state_->folder / kPartsFolder / (name_of(*part) + kPartJournal) : all;
+  state_->content.read(part ? std::vector<fs::path>{all, other_part(state_->file), state_->file}
+                            : journals_of(state_->folder));
 }
 Journal::~Journal() = default;
 
@@ -231,7 +283,7 @@ void Journal::claim(bool force) {
   const std::lock_guard lock(state_->mutex);
   if (state_->is_claimed) return;
   create_parent(state_->file);
-  const FolderLock folder(state_->folder);
+  const auto folder = state_->lock();
   state_->content.read(state_->file);
   if (!force) state_->require_own();
   state_->is_claimed = true;
@@ -244,9 +296,7 @@ void Journal::claim(bool force) {
 
 bool Journal::is_own(const fs::path& path) const {
   const std::lock_guard lock(state_->mutex);
-  if (state_->entry_of(path) == nullptr)
-    state_->content.read(state_->file);  // a run at the same time wrote it
-  return state_->entry_of(path) != nullptr;
+  return state_->entry_of_existing(path) != nullptr;
 }
 
 bool Journal::is_done(const std::string& inputs, const std::vector<fs::path>& files) const {
@@ -254,7 +304,7 @@ bool Journal::is_done(const std::string& inputs, const std::vector<fs::path>& fi
   {
     const std::lock_guard lock(state_->mutex);
     for (const fs::path& path : files) {
-      const Entry* entry = state_->entry_of(path);
+      const Entry* entry = state_->entry_of_existing(path);
       if (entry == nullptr || entry->inputs != inputs) return false;
       entries.push_back(*entry);
     }
@@ -285,12 +335,12 @@ void Journal::commit(const std::string& set, const std::string& inputs,
     line["files"].push_back(
         {{"name", state_->name_of(file.path)}, {"bytes", file.bytes}, {"hash", file.hash}});
   const std::lock_guard lock(state_->mutex);
-  const FolderLock folder(state_->folder);
+  const auto folder = state_->lock();
   state_->content.read(state_->file);
   if (state_->is_claimed) state_->require_own();  // another run may have taken the folder by --force
   for (const FinishedFile& file : files) {
     std::error_code ignored;
-    if (!force && fs::exists(file.path, ignored) && state_->entry_of(file.path) == nullptr)
+    if (!force && fs::exists(file.path, ignored) && state_->entry_of_existing(file.path) == nullptr)
       throw Error(ErrorKind::kOutput,
                   file.path.string() + ": another run wrote this file meanwhile (--force overwrites)");
   }
@@ -305,9 +355,10 @@ struct JournalLookup::State {
   std::shared_ptr<const Content> of(const fs::path& folder) {
     const auto [found, is_new] = journals.try_emplace(folder);
     std::error_code ignored;
-    if (is_new && fs::is_regular_file(folder / kJournalName, ignored)) {
+    if (is_new && (fs::is_regular_file(folder / kJournalName, ignored) ||
+                   fs::is_directory(folder / kPartsFolder, ignored))) {
       const auto content = std::make_shared<Content>();
-      content->read(folder / kJournalName);
+      content->read(journals_of(folder));
       found->second = content;
     }
     return found->second;

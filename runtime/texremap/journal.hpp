@@ -10,7 +10,10 @@
 //    one
 //
 // Names are relative to the folder. A line that cannot be read, such as the last one of a killed run, is
-// ignored.
+// ignored. A run that converts a part of a manifest writes a journal of its own,
+// `.texremap-parts/NAME.journal` (part.hpp): processes of several machines cannot append to one file of a
+// shared file system. What such a run finds in its place without a line in its own journal, it looks up in
+// all of them.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +27,9 @@
 #include <utility>
 #include <vector>
 
-namespace remap {
+#include "texremap/part.hpp"
 
-inline constexpr const char* kJournalName = ".texremap.jsonl";
+namespace remap {
 
 // A conversion, by everything besides the inputs that its results depend on.
 struct ConversionNote {
@@ -44,11 +47,12 @@ struct FinishedFile {
 };
 
 // Runs of several processes and threads may share a folder: a set is renamed and noted under a lock of the
-// folder itself (flock), which ends with its process and leaves no file.
+// folder itself (flock), which ends with its process and leaves no file. Parts need none: two runs of one
+// part write the same bytes.
 class Journal {
  public:
-  // The journal of `folder`, which need not exist.
-  Journal(const std::filesystem::path& folder, ConversionNote conversion);
+  // The journal of `folder`, which need not exist, for a run of all sets or of a part.
+  Journal(const std::filesystem::path& folder, ConversionNote conversion, const std::optional<Part>& part);
   ~Journal();
 
   // Throws kOutput, naming the difference, if the folder belongs to another conversion.

@@ -17,6 +17,9 @@ int main(int argc, char** argv) {
   remap::add_check_command(app);
   remap::add_list_command(app);
   remap::add_path_command(app);
+  remap::add_index_command(app);
+  remap::add_plan_command(app);
+  remap::add_merge_reports_command(app);
   app.footer(
       "Example:\n"
       "  texremap convert --from mitsuba/ward --to mitsuba/as \\\n"

@@ -4,13 +4,12 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <new>
 #include <vector>
 #include <xxhash.h>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 
@@ -26,9 +25,7 @@ void ContentHash::add(std::string_view text) {
 }
 
 void ContentHash::add_file(const std::filesystem::path& path) {
-  const auto fail = [&] {
-    throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + std::strerror(errno));
-  };
+  const auto fail = [&] { throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno); };
   require_regular_file(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) fail();

@@ -17,7 +17,7 @@ expect() {
 
 . docs/completions/bash/texremap
 . docs/completions/bash/remapc
-expect "texremap " "convert check list path --version -h --help"
+expect "texremap " "convert check list path index plan merge-reports --version -h --help"
 expect "remapc re" "render renderers"
 expect "texremap convert --recur" "--recursive"
 expect "texremap convert --type " "uint8 uint16 half float"

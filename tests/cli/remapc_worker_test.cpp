@@ -24,6 +24,14 @@ Words sweep(const FakeSession& fake, const std::string& table, const std::string
          Words{"--worker", "fake=" + fake.command(fault), "--cache", cache, "-o", table};
 }
 
+// Left by --worker-folder in the session's folder.
+std::ptrdiff_t folders_of_pictures(const Session& session) {
+  const std::filesystem::directory_iterator entries(session.path("."));
+  return std::count_if(begin(entries), end(entries), [](const auto& entry) {
+    return entry.path().filename().string().starts_with("remap-pictures-");
+  });
+}
+
 // Until the workers have made `count` pictures.
 void wait_for_pictures(const FakeSession& fake, std::size_t count) {
   for (int i = 0; i < 1200 && fake.pictures() < count; ++i)
@@ -54,7 +62,7 @@ TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the sam
   const FakeSession fake;
   require_success(session.remapc(sweep(fake, "whole.csv")));
   const std::size_t pictures = fake.pictures();
-  auto broken = sweep(fake, "a.csv", "die' --after '28", "other");
+  auto broken = sweep(fake, "a.csv", "die' --of 'all' --after '" + std::to_string(pictures + 28), "other");
   broken += "--jobs 1";
   check_failure(session.remapc(broken), 1, "died with signal 9; last lines of its log: ");
   CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
@@ -63,17 +71,38 @@ TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the sam
   CHECK(fake.pictures() == 2 * pictures);  // none of them twice
 }
 
+TEST_CASE("remapc sweep: workers that are lost are replaced, and said and counted", "[slow]") {
+  const Session session;
+  const FakeSession fake;
+  require_success(session.remapc(sweep(fake, "whole.csv") + "--no-cache"));
+  const std::size_t pictures = fake.pictures();
+  const ProcessResult result =
+      require_success(session.remapc(sweep(fake, "a.csv", "die' --after '20") +
+                                     "--no-cache --json --worker-folder ." + "--worker-processes 1"));
+  CHECK(session.content("a.csv") == session.content("whole.csv"));
+  CHECK(fake.pictures() == 2 * pictures);
+  CHECK_THAT(result.output, Contains("\"workers_lost\": " + std::to_string((pictures - 1) / 20)));
+  CHECK_THAT(result.errors, Contains("remapc: warning: worker fake, request fake/ggx alpha ") &&
+                                Contains("(another process renders the picture)"));
+  CHECK(folders_of_pictures(session) == 0);
+}
+
 TEST_CASE("remapc sweep: no worker stays behind when it is interrupted, or killed") {
   for (const int signal : {SIGINT, SIGKILL}) {
     const Session session;
     const FakeSession fake;
-    auto arguments = sweep(fake, "a.csv", "hang' --after '4");
+    auto arguments = sweep(fake, "a.csv", "hang' --after '4") + "--worker-folder .";
     Process process = session.start(REMAPC_PROGRAM + arguments);
     wait_for_pictures(fake, 4);
     process.send(signal);
     const ProcessResult result = process.wait();
     if (signal == SIGINT) CHECK_THAT(result.errors, Contains("interrupted"));
     CHECK(fake.nobody_is_left());
+    if (signal == SIGKILL) {
+      CHECK(folders_of_pictures(session) == 1);
+      const PrivateFolder next(session.path("."));
+    }
+    CHECK(folders_of_pictures(session) == 0);
   }
 }
 

@@ -18,14 +18,15 @@ enum class ErrorKind {
 // Message of the form `place: what was found; what was expected`, one line, ready to be shown to a person.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  // `system_code`: the errno of the call that failed; 0 where none did.
+  Error(ErrorKind kind, const std::string& message, int system_code = 0)
+      : std::runtime_error(message), kind_(kind), system_code_(system_code) {}
   ErrorKind kind() const noexcept { return kind_; }
+  int system_code() const noexcept { return system_code_; }
 
  private:
   ErrorKind kind_;
+  int system_code_;
 };
-
-// Exit code of both tools: 0 done, 1 failed, 2 wrong usage.
-inline int exit_code(ErrorKind kind) noexcept { return kind == ErrorKind::kUsage ? 2 : 1; }
 
 }  // namespace remap

@@ -2,12 +2,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 
 #include <OpenImageIO/filesystem.h>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
-#include "remap/error.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -45,16 +44,16 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
     if (file_ != nullptr && std::fclose(file_) != 0) note_failure();
     file_ = nullptr;
   }
-  // The reason of the first failure; empty without a failure.
-  const std::string& failure() const noexcept { return failure_; }
+  // The errno of the first failure; 0 without a failure.
+  int failure() const noexcept { return failure_; }
 
  private:
   void note_failure() {
-    if (failure_.empty()) failure_ = std::strerror(errno);
+    if (failure_ == 0) failure_ = errno;
   }
   std::FILE* file_;
   std::int64_t end_ = 0;
-  std::string failure_;
+  int failure_ = 0;
 };
 
 bool same_storage(const ImageLayout& a, const ImageLayout& b) {
@@ -100,6 +99,7 @@ class OpenedNewImage : public NewImage {
   void plan(const std::vector<NewPart>& parts);
   void open();
   void open_plane();
+  void check_file() const;
   void check(bool done) const;
   void check_finished() const;
 
@@ -143,7 +143,7 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
   layout_ = layout_of(spec(), format_, path_);
   unfinished_ = unfinished_name(path_);
   file_ = std::make_unique<CheckedFile>(unfinished_);
-  if (!file_->failure().empty()) fail("cannot be written: " + file_->failure());
+  check_file();
 }
 
 void OpenedNewImage::open() {
@@ -175,10 +175,16 @@ void OpenedNewImage::open_plane() {
   plane_is_open_ = true;
 }
 
+// Throws if the system refused bytes.
+void OpenedNewImage::check_file() const {
+  if (file_->failure() != 0)
+    throw system_error(ErrorKind::kOutput, path_.string() + ": cannot be written", file_->failure());
+}
+
 // Throws if the system refused bytes or OpenImageIO failed.
 void OpenedNewImage::check(bool done) const {
   const std::string message = output_ ? output_->geterror() : "";
-  if (!file_->failure().empty()) fail("cannot be written: " + file_->failure());
+  check_file();
   if (!done)
     fail("cannot be written: " + with_final_name(first_line(message, "unknown reason"), unfinished_, path_));
 }

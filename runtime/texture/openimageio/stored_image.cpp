@@ -9,9 +9,9 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -160,7 +160,8 @@ class OpenedImage : public StoredImage {
   const OIIO::ImageSpec& spec() const { return levels_[static_cast<std::size_t>(level_)]; }
   void open();
   void find_planes();
-  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail(const std::string& what, int system_code = 0) const;
+  [[noreturn]] void fail_to_open() const;
 
   fs::path path_;
   std::unique_ptr<OIIO::ImageInput> input_;
@@ -171,14 +172,18 @@ class OpenedImage : public StoredImage {
   ImageLayout layout_;                   // of `level_`, as stored
 };
 
-void OpenedImage::fail(const std::string& what) const {
-  throw Error(ErrorKind::kInput, path_.string() + ": " + what);
+void OpenedImage::fail(const std::string& what, int system_code) const {
+  throw Error(ErrorKind::kInput, path_.string() + ": " + what, system_code);
+}
+
+void OpenedImage::fail_to_open() const {
+  throw system_error(ErrorKind::kInput, path_.string() + ": cannot be read", errno);
 }
 
 void OpenedImage::open() {
   // OpenImageIO gives no reason if a file cannot be opened.
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path_.c_str(), "rb"), std::fclose);
-  if (!file) fail(std::string("cannot be read: ") + std::strerror(errno));
+  if (!file) fail_to_open();
   // libpng allocates and fills as much as a chunk claims.
   const std::vector<PngChunk> chunks = leading_png_chunks(file.get());
   for (const PngChunk& chunk : chunks)
@@ -193,8 +198,8 @@ void OpenedImage::open() {
     // Of a file that cannot be opened a second time OpenImageIO says that it is no image.
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> second(std::fopen(path_.c_str(), "rb"),
                                                                  std::fclose);
-    fail(second ? "cannot be read as an image: " + reason
-                : std::string("cannot be read: ") + std::strerror(errno));
+    if (!second) fail_to_open();
+    fail("cannot be read as an image: " + reason);
   }
   (void)input_->geterror();  // discards remarks on unusual headers
   find_planes();
@@ -243,6 +248,7 @@ void OpenedImage::read_rows(int first_row, int row_count, std::byte* texels) {
   const OIIO::ImageSpec& plane = spec();
   const int width = layout_.width;  // as stored
   const int begin = plane.y + first_row, end = begin + row_count;
+  errno = 0;
   const bool read = plane.tile_width > 0
                         ? input_->read_tiles(part_, level_, plane.x, plane.x + width, begin, end, plane.z,
                                              plane.z + 1, 0, plane.nchannels, native_type(plane), texels)
@@ -250,9 +256,11 @@ void OpenedImage::read_rows(int first_row, int row_count, std::byte* texels) {
                                                  native_type(plane), texels);
   // OpenImageIO reads truncated TIFF and JPEG files "successfully"; only the message reveals the error.
   const std::string message = input_->geterror();
-  if (!read || !message.empty())
-    fail("rows " + std::to_string(first_row) + " to " + std::to_string(first_row + row_count - 1) +
-         " cannot be read: " + first_line(message, "unknown reason") + " (the file may be truncated)");
+  if (read && message.empty()) return;
+  const std::string rows = "rows " + std::to_string(first_row) + " to " +
+                           std::to_string(first_row + row_count - 1) + " cannot be read: ";
+  if (passes_soon(errno)) fail(rows + std::strerror(errno), errno);
+  fail(rows + first_line(message, "unknown reason") + " (the file may be truncated)");
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // A worker with a chosen fault: it renders the built-in GGX behind the protocol. It shares no protocol code
 // with the worker side under test.
 //
-//   fake_worker [--fault NAME] [--after N] [--version TEXT] [--log FILE]
+//   fake_worker [--fault NAME] [--after N] [--of all] [--version TEXT] [--log FILE]
 //
-// The fault strikes at the picture after the first N. To the log go a line for each picture and the process
-// ids of the worker and of its children.
+// The fault strikes at the picture after the first N of this process, or of all processes of the log. To the
+// log go two lines for each picture (its file, its parameters), the process ids of the worker and of its
+// children, and at the start of each worker the number of those that run.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -14,6 +16,7 @@
 #include <string>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -24,7 +27,8 @@ namespace {
 
 using nlohmann::json;
 
-std::map<std::string, std::string> options = {{"fault", ""}, {"after", "0"}, {"version", "1"}, {"log", ""}};
+std::map<std::string, std::string> options = {
+    {"fault", ""}, {"after", "0"}, {"of", "one"}, {"version", "1"}, {"log", ""}};
 int rendered = 0;
 
 bool has_fault(const std::string& name) {
@@ -33,6 +37,21 @@ bool has_fault(const std::string& name) {
 
 void log_line(const std::string& line) {
   if (!options["log"].empty()) std::ofstream(options["log"], std::ios::app) << line << std::endl;
+}
+
+std::vector<std::string> logged(const std::string& opening) {
+  std::ifstream file(options["log"]);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with(opening)) lines.push_back(line.substr(opening.size()));
+  return lines;
+}
+
+// Those of the log that run, or of which nobody has seen the end.
+std::ptrdiff_t crowd() {
+  const std::vector<std::string> ids = logged("process ");
+  return std::count_if(ids.begin(), ids.end(),
+                       [](const std::string& id) { return ::kill(std::stoi(id), 0) == 0; });
 }
 
 json description(const json& request) {
@@ -170,9 +189,23 @@ remap::Image picture(const json& request) {
 // Applies faults of the process and of the protocol. Returns true if it has answered.
 bool misbehave(const json& request) {
   std::cerr << "rendering number " << rendered << std::endl;
+  if (has_fault("deaf")) {  // runs on without its pipes
+    for (int end = 0; end < 3; ++end) ::close(end);
+    std::this_thread::sleep_for(std::chrono::hours(1));
+  }
   if (has_fault("die")) ::raise(SIGKILL);
   if (has_fault("exit")) std::exit(3);
-  if (has_fault("hang")) std::this_thread::sleep_for(std::chrono::hours(1));
+  if (has_fault("half")) {
+    std::ofstream(request.at("image").get<std::string>()) << "half";
+    std::exit(0);
+  }
+  if (has_fault("launcher")) {  // ends what it has started elsewhere
+    std::signal(SIGTERM, [](int) {
+      log_line("told to end");
+      std::_Exit(0);
+    });
+  }
+  if (has_fault("hang") || has_fault("launcher")) std::this_thread::sleep_for(std::chrono::hours(1));
   if (has_fault("garbage")) std::cout << "Saved: picture.exr" << std::endl;
   if (has_fault("wrong-id")) std::cout << json{{"id", request.at("id").get<int>() + 1}} << std::endl;
   if (has_fault("refuse"))
@@ -201,7 +234,10 @@ bool misbehave(const json& request) {
 void render(const json& request) {
   if (misbehave(request)) return;
   const remap::Image image = picture(request);
-  std::ofstream file(request.at("image").get<std::string>(), std::ios::binary);
+  const std::string path = (has_fault("elsewhere") ? "/proc" : "") + request.at("image").get<std::string>();
+  log_line("file " + path);
+  std::ofstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot write " + path);
   file.write(reinterpret_cast<const char*>(image.values.data()),
              static_cast<std::streamsize>(image.values.size() * sizeof(float)));
   file.close();
@@ -238,6 +274,8 @@ void start_child(bool has_session) {
 int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; i += 2) options[std::string(argv[i]).substr(2)] = argv[i + 1];
   log_line("process " + std::to_string(::getpid()));
+  log_line("crowd " + std::to_string(crowd()));
+  if (options["of"] == "all") rendered = static_cast<int>(logged("picture ").size());
   if (options["fault"] == "child" || options["fault"] == "daemon") start_child(options["fault"] == "daemon");
   if (options["fault"] == "banner") std::cout << "Fake renderer 1\nLoading...\n" << std::endl;
   if (options["fault"] == "mute") std::this_thread::sleep_for(std::chrono::hours(1));

@@ -1,5 +1,6 @@
 // Failing workers: their error messages, and that no process or file remains.
 #include <map>
+#include <set>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -54,7 +55,9 @@ TEST_CASE("worker: the error for one that dies has its request and the end of it
 
 TEST_CASE("worker: one that hangs is killed after the timeout, with its children") {
   const FakeSession session;
-  CHECK_THAT(render_error(session, "hang", 2.0), Contains(kPlace + "no answer within 2 s"));
+  CHECK_THAT(render_error(session, "hang", 0.5), Contains(kPlace + "no answer within 0.5 s"));
+  CHECK_THAT(render_error(session, "launcher", 0.5), Contains("no answer within 0.5 s"));
+  CHECK(session.log_lines("told").size() == 3);
   CHECK(session.nobody_is_left());
 }
 
@@ -88,14 +91,124 @@ TEST_CASE("worker: a reported error is passed on, and the worker stays in use") 
   CHECK(session.log_lines("process").size() == 1);
 }
 
-TEST_CASE("worker: after one died, another is started") {
+namespace {
+
+std::vector<Image> twelve_pictures(const Renderer& renderer) {
+  std::vector<Image> images(12);
+  run_parallel(images.size(), 4, [&](std::size_t i) {
+    images[i] = renderer.render(fake_material(0.2 + 0.05 * static_cast<double>(i)), kSmallScene);
+  });
+  return images;
+}
+
+}  // namespace
+
+TEST_CASE("worker: those that are lost cost nothing but their processes") {
+  const FakeSession good;
+  const std::vector<Image> expected = twelve_pictures(WorkerRenderer(good.entry(), good.settings()));
+  for (const std::string fault : {"die", "exit", "half", "hang", "deaf"}) {
+    INFO(fault);
+    const FakeSession session;
+    WorkerSettings settings = session.settings();
+    settings.limits.seconds = fault == "hang" || fault == "deaf" ? 1.0 : 60.0;
+    std::mutex mutex;
+    std::vector<std::string> warnings;
+    settings.on_warning = [&](const std::string& message) {
+      const std::lock_guard lock(mutex);
+      warnings.push_back(message);
+    };
+    const WorkerRenderer renderer(session.entry(fault, "--after 3"), settings);
+    const std::vector<Image> found = twelve_pictures(renderer);
+    for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i].values == expected[i].values);
+    const std::size_t lost = renderer.pictures().lost_workers;
+    CHECK(lost >= 2);
+    CHECK(session.pictures() == 12);
+    const std::vector<std::string> files = session.log_lines("file");
+    CHECK(std::set(files.begin(), files.end()).size() == 12);  // a name of its own each
+    CHECK(session.log_lines("process").size() <= 2 + lost);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Contains("worker fake, request fake/ggx alpha ") &&
+                                Contains("last lines of its log: ") &&
+                                Contains("rendering number 3 (another process renders the picture)"));
+    CHECK(renderer.remarks() ==
+          std::vector<std::string>{"worker fake: " + std::to_string(lost) +
+                                   " processes were lost; others rendered their pictures"});
+    for (const std::string& count : session.log_lines("crowd")) CHECK(std::stoi(count) <= 2);
+  }
+}
+
+TEST_CASE("worker: one picture may cost three processes") {
+  for (const char* after : {"0", "1"}) {
+    const FakeSession session;
+    const WorkerRenderer renderer(session.entry("die", std::string("--of all --after ") + after),
+                                  session.settings());
+    if (after == std::string("1")) renderer.render(fake_material(0.1), kSmallScene);
+    const std::string message = input_error([&] { renderer.render(fake_material(), kSmallScene); });
+    CHECK_THAT(message, Contains(kPlace + "died with signal 9; last lines of its log: rendering number ") &&
+                            Contains("; lost 3 processes over one picture"));
+    CHECK(session.log_lines("process").size() == 3);
+    CHECK(session.nobody_is_left());
+  }
+}
+
+TEST_CASE("worker: one of another version does not take over") {
   const FakeSession session;
-  const WorkerRenderer renderer(session.entry("die", "--after 1"), session.settings());
+  const WorkerRenderer renderer(
+      session.entry("die", "--after 1 --version $(wc -l < " + session.path("log") + ")"), session.settings());
   renderer.render(fake_material(0.1), kSmallScene);
-  CHECK_THAT(input_error([&] { renderer.render(fake_material(0.2), kSmallScene); }),
-             Contains("died with signal 9"));
-  CHECK(renderer.render(fake_material(0.2), kSmallScene).width == 32);
-  CHECK(session.log_lines("process").size() == 2);
+  CHECK_THAT(input_error([&] { renderer.render(fake_material(), kSmallScene); }),
+             Contains("worker fake: its version changed during the run, from Fake "));
+}
+
+TEST_CASE("worker: an interruption ends the pause after a loss") {
+  const FakeSession session;
+  std::atomic<bool> cancelled{false};
+  WorkerSettings settings = session.settings();
+  settings.limits.cancelled = &cancelled;
+  settings.pause = std::chrono::hours(1);
+  settings.on_warning = [&](const std::string&) { cancelled = true; };
+  const WorkerRenderer renderer(session.entry("die"), settings);
+  CHECK_THROWS_WITH(renderer.render(fake_material(), kSmallScene), "worker fake: interrupted");
+}
+
+TEST_CASE("worker: pictures go through the folder, which several runs share and none leaves anything in") {
+  const FakeSession session;
+  const std::filesystem::path folder = session.path("shared");
+  std::filesystem::create_directory(folder);
+  WorkerSettings settings = session.settings();
+  settings.folder = folder;
+  const auto content = [&] {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      names.push_back(entry.path().filename());
+    return names;
+  };
+  {
+    const WorkerRenderer one(session.entry("half", "--after 3"), settings), other(session.entry(), settings);
+    CHECK(content().size() == 2);
+    const std::vector<Image> found = twelve_pictures(one), expected = twelve_pictures(other);
+    for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i].values == expected[i].values);
+    for (const std::string& name : content())
+      CHECK((name.ends_with(".f32") || name.find(process_mark()) < name.size()));
+    CHECK(content().size() == 2 + one.pictures().lost_workers);
+  }
+  CHECK(content().empty());
+}
+
+TEST_CASE("worker: a folder that cannot be used is an error that says what to do") {
+  const FakeSession session;
+  WorkerSettings settings = session.settings();
+  settings.folder = session.path("missing");
+  CHECK_THROWS_WITH(
+      WorkerRenderer(session.entry(), settings),
+      session.path("missing") + ": is not a folder that can be written to (make it, or choose another)");
+  CHECK(session.log_lines("process").empty());
+  for (const char* fault : {"elsewhere", "no-file"})
+    CHECK_THAT(
+        render_error(session, fault),
+        Contains("/remap-pictures-") &&
+            Contains(
+                "; a worker on another machine needs a folder that both can write to (--worker-folder "));
 }
 
 TEST_CASE("worker: the error for a missing command has the shell's message and how to install it") {

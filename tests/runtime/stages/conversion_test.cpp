@@ -107,7 +107,7 @@ TEST_CASE("projection: as good as looking everywhere, off the family too", "[slo
       floor += least;
       worst = std::max(worst, more);
     }
-    CHECK(std::sqrt(excess / kCount) < 0.02 * std::sqrt(floor / kCount));
+    CHECK(std::sqrt(excess / kCount) < 0.025 * std::sqrt(floor / kCount));
     CHECK(worst < 0.05);
   }
 }

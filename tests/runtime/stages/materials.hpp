@@ -89,7 +89,8 @@ struct Oracle {
       f0[c] = s[c];
       weight[c] = 1.0 / (diffuse[c] + f0[c] + 0.02);
     }
-    specular = 0.514 / (1.0 - 0.986 * alpha + 2.82 * alpha * alpha);
+    const double seen = (0.03 + alpha) / (0.1 + alpha);
+    specular = seen * seen * 0.514 / (1.0 - 0.986 * alpha + 2.82 * alpha * alpha);
     mixed = std::min((0.058 + alpha) / (0.074 + alpha), 0.985) * std::sqrt(specular);
   }
 

@@ -1,0 +1,263 @@
+// `texremap plan`: files that hand a conversion in parts to a scheduler. It measures a few sets to say what a
+// part needs, and submits nothing.
+#include "texremap/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numeric>
+
+#include "command_line/progress.hpp"
+#include "command_line/run_app.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/report_text.hpp"
+#include "core/scratch_folder.hpp"
+#include "core/stopwatch.hpp"
+#include "texremap/commands.hpp"
+#include "texremap/convert.hpp"
+#include "texremap/manifest.hpp"
+
+namespace remap {
+namespace {
+
+struct PlanOptions {
+  PlanKind kind = PlanKind::kCommands;
+  std::filesystem::path manifest, folder;
+  std::vector<std::string> words;  // of convert
+  std::size_t parts = 0;           // 0: chosen
+  unsigned threads = 1;
+  int memory_megabytes = 0, minutes = 0;  // 0: measured
+  std::string program;
+  bool force = false, json = false, quiet = false;
+};
+
+// A part takes a quarter of an hour: long beside its start, short beside the time that a kill loses.
+constexpr double kUsualSeconds = 900.0;
+// More parts are refused by a cluster with the default of Slurm's MaxArraySize.
+constexpr std::size_t kMostParts = 1000;
+constexpr std::size_t kMeasuredSets = 8;
+
+// What a conversion needs on this machine.
+struct Measured {
+  double seconds_a_cost = 0.0;  // on one thread
+  double memory_bytes = 0.0;
+};
+
+// The largest set, and others evenly spread over the sets by their cost.
+Discovery sample_of(const SetManifest& manifest) {
+  std::vector<std::size_t> order(manifest.costs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return manifest.costs[i]; });
+  const std::size_t count = std::min(kMeasuredSets, order.size());
+  Discovery sample;
+  for (std::size_t i = 1; i <= count; ++i)
+    sample.sets.push_back(manifest.found.sets[order[i * order.size() / count - 1]]);
+  return sample;
+}
+
+Measured measured(const SetManifest& manifest, ConvertOptions options) {
+  const ScratchFolder scratch("texremap-plan");
+  options.manifest = scratch.file("sets.jsonl");
+  options.output = scratch.file("out");
+  if (!options.diagnose.empty()) options.diagnose = scratch.file("diagnose");
+  options.quiet = true;
+  options.thread_count = 1;
+  options.allow_skips = true;
+  const ManifestHead head = write_manifest(options.manifest, options.folder, "", sample_of(manifest));
+  const Stopwatch stopwatch;
+  try {
+    convert(options);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    print_message(kProgram, std::string("note: while measuring: ") + error.what());
+  }
+  return {stopwatch.seconds() / static_cast<double>(std::max<std::uint64_t>(head.cost, 1)),
+          static_cast<double>(resource_use().peak_memory_bytes)};
+}
+
+std::uint64_t highest_cost_of_part(const SetManifest& manifest, std::size_t count) {
+  std::vector<std::uint64_t> parts(count, 0);
+  std::uint64_t before = 0;
+  for (const std::uint64_t cost : manifest.costs) {
+    parts[part_of_set(before, cost, manifest.head, count) - 1] += cost;
+    before += cost;
+  }
+  return *std::ranges::max_element(parts);
+}
+
+std::filesystem::path whole(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal();
+}
+
+// The options of convert among the words of a plan.
+class ConvertWords {
+ public:
+  explicit ConvertWords(const std::vector<std::string>& words)
+      : words_(words), command_("The options of texremap convert", "texremap convert") {
+    for (const std::string& word : words)
+      for (const char* own : {"--manifest", "--part", "--threads", "--resume", "--dry-run", "--json"})
+        if (word.substr(0, word.find('=')) == own) refuse(own);
+    add_convert_options(command_, options_);
+    run_words(command_, words);
+    options_.given = command_.given();
+    apply_preset(options_);
+    if (options_.is_given("DIR")) refuse("DIR");
+    if (options_.output.empty())
+      throw usage_error("--output is required after -- (the folder of the results)");
+  }
+
+  const ConvertOptions& options() const { return options_; }
+  // The words without the output folder, with the paths of files absolute: jobs run in other folders.
+  std::vector<std::string> for_jobs() const;
+
+ private:
+  [[noreturn]] static void refuse(const std::string& own) {
+    throw usage_error(own + ": is written by texremap plan itself (remove it after --)");
+  }
+
+  const std::vector<std::string>& words_;
+  Command command_;
+  ConvertOptions options_;
+};
+
+std::vector<std::string> ConvertWords::for_jobs() const {
+  const std::vector<std::string> outputs = {"-o", "--output"},
+                                 paths = {"-o", "--output", "--fit", "--converters", "--diagnose"};
+  const auto is_one_of = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < words_.size(); ++i) {
+    const std::string& word = words_[i];
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    if (word.starts_with("-o") && word.size() > 2) continue;  // -oFOLDER
+    if (!is_one_of(paths, name)) {
+      words.push_back(word);
+      continue;
+    }
+    const std::string value = equals == std::string::npos ? words_[++i] : word.substr(equals + 1);
+    if (is_one_of(outputs, name)) continue;
+    words.push_back(name);
+    words.push_back(whole(value).string());
+  }
+  if (!options_.quiet) words.emplace_back("--quiet");
+  return words;
+}
+
+std::string own_program() {
+  std::error_code failure;
+  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", failure);
+  return failure ? "texremap" : path.string();
+}
+
+int rounded_up(double value, int step) { return static_cast<int>(std::ceil(value / step)) * step; }
+
+void plan(const PlanOptions& options) {
+  const ConvertWords words(options.words);
+  const SetManifest manifest = read_manifest(options.manifest, Part());
+  if (manifest.costs.empty()) throw input_error(options.manifest.string() + ": lists no set");
+  ConvertOptions conversion = words.options();
+  conversion.manifest = options.manifest;
+  conversion.folder = manifest.head.root;
+  conversion.quiet = options.quiet;
+  check_conversion(conversion);
+
+  const bool is_given = options.parts > 0 && options.minutes > 0 && options.memory_megabytes > 0;
+  const Measured one = is_given ? Measured() : measured(manifest, conversion);
+  const double threads = std::max(options.threads, 1u);
+  const double seconds = one.seconds_a_cost * static_cast<double>(manifest.head.cost);
+  PlannedFarm farm{options.program.empty() ? own_program() : options.program,
+                   whole(options.manifest),
+                   manifest.head.root,
+                   whole(words.options().output),
+                   whole(options.folder),
+                   words.for_jobs()};
+  farm.threads = options.threads;
+  farm.parts = options.parts > 0
+                   ? options.parts
+                   : std::clamp(static_cast<std::size_t>(std::ceil(seconds / threads / kUsualSeconds)),
+                                std::size_t{1}, std::min(kMostParts, manifest.costs.size()));
+  const double longest =
+      one.seconds_a_cost * static_cast<double>(highest_cost_of_part(manifest, farm.parts)) / threads;
+  // Other machines are slower, and storage that many read at once is.
+  farm.minutes = options.minutes > 0 ? options.minutes : rounded_up(5.0 + 3.0 * longest / 60.0, 5);
+  farm.memory_megabytes = options.memory_megabytes > 0 ? options.memory_megabytes
+                                                       : rounded_up(1.5e-6 * one.memory_bytes * threads, 100);
+
+  const PlanFiles files = plan_files(options.kind, farm);
+  for (const auto& [name, text] : files.files) require_new(options.folder / name, options.force);
+  Json names = Json::list();
+  for (const auto& [name, text] : files.files) {
+    write_file(options.folder / name, text);
+    names.push_back((options.folder / name).string());
+  }
+  if (options.json) {
+    std::cout << Json({{"files", names},
+                       {"submit", files.submit},
+                       {"sets", manifest.head.set_count},
+                       {"parts", farm.parts},
+                       {"threads", farm.threads},
+                       {"minutes", farm.minutes},
+                       {"memory_megabytes", farm.memory_megabytes},
+                       {"expected_seconds", is_given ? Json() : Json(seconds)},
+                       {"expected_seconds_of_longest_part", is_given ? Json() : Json(longest)}})
+                     .dump(2)
+              << '\n';
+    return;
+  }
+  if (!options.quiet) {
+    std::string text = counted(manifest.head.set_count, "set") + " in " + counted(farm.parts, "part");
+    if (!is_given)
+      text += ": about " + fixed(seconds / 60.0, 1) + " processor minutes by this machine, " +
+              fixed(longest / 60.0, 1) + " the longest part";
+    print_message(kProgram, text + "; " + std::to_string(farm.memory_megabytes) + " MB and " +
+                                std::to_string(farm.minutes) + " minutes at most a part");
+    if (farm.parts > kMostParts && options.kind == PlanKind::kSlurm)
+      print_message(kProgram, "note: clusters with the default MaxArraySize refuse more than " +
+                                  std::to_string(kMostParts) + " parts");
+  }
+  std::cout << files.submit << '\n';
+}
+
+}  // namespace
+
+void add_plan_command(Command& app) {
+  Command* command =
+      app.add_subcommand("plan", "Write what hands a conversion in parts to a scheduler; submit nothing");
+  PlanOptions& options = set_work<PlanOptions>(*command, plan);
+  command
+      ->add_option(
+          "KIND", options.kind, one_of(kPlanKinds, "kind of plan"),
+          "slurm (batch scripts), openjd (a job template of render farms) or commands (one a line, for "
+          "GNU parallel and others)")
+      ->required();
+  command->add_option("--manifest FILE", options.manifest, "The sets, as texremap index lists them")
+      ->required();
+  command->add_option("-o,--output FOLDER", options.folder, "Where the plan is written")->required();
+  command->add_option("OPTIONS", options.words,
+                      "After --: options of texremap convert, with -o for the results");
+  command
+      ->add_option("--parts N", options.parts,
+                   "Number of parts (default: a quarter of an hour each, 1000 at most)")
+      ->range(std::size_t{1}, std::size_t{1'000'000});
+  command->add_option("--threads N", options.threads, "Threads of a part; 0 for all of its machine");
+  command->add_option("--memory MB", options.memory_megabytes, "Memory of a part (default: measured)")
+      ->positive();
+  command->add_option("--time MINUTES", options.minutes, "Time limit of a part (default: measured)")
+      ->positive();
+  command->add_option("--program FILE", options.program, "texremap as the jobs call it (default: this one)");
+  command->add_flag("--force", options.force, "Overwrite an existing plan");
+  command->add_flag("--json", options.json, "Print what was planned as JSON");
+  command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
+  command->footer(
+      "A few sets are converted to a temporary folder, which tells time and memory. Standard output has the "
+      "line that submits the plan.\n\n"
+      "Example:\n"
+      "  texremap plan slurm --manifest sets -o plan -- --from unity --to gltf -o out\n"
+      "  sh plan/submit.sh");
+}
+
+}  // namespace remap

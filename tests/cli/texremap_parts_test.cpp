@@ -1,0 +1,335 @@
+// Conversions in parts: the manifest of a tree, parts and their reports, and what a part leaves for the next
+// run.
+#include <cerrno>
+#include <fstream>
+#include <set>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_tree.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kParts = ".texremap-parts";
+const std::string kOfManifest = "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/as -o ";
+
+// Sets of several sizes, folders, formats, and one with tiles.
+void write_library(const Tree& tree) {
+  for (int i = 0; i < 7; ++i) {
+    const std::string name = "in/f" + std::to_string(i % 3) + "/s" + std::to_string(i);
+    const std::string extension = i % 2 == 0 ? ".png" : ".tga";
+    tree.map(name + "_rough" + extension, kGrey, OIIO::TypeUInt8, 8 + 8 * i);
+    tree.map(name + "_spec" + extension, kColor, OIIO::TypeUInt8, 8 + 8 * i);
+  }
+  for (const char* tile : {"1001", "1002"}) {
+    tree.map(std::string("in/tiled/t_rough.") + tile + ".exr", kGrey, OIIO::TypeHalf);
+    tree.map(std::string("in/tiled/t_spec.") + tile + ".exr", kColor, OIIO::TypeHalf);
+  }
+}
+
+void index(const Tree& tree) { REQUIRE(tree.texremap("index in -o sets.jsonl --force").exit_code == 0); }
+
+ProcessResult part(const Tree& tree, const std::string& which, const Words& more = {}) {
+  return tree.texremap(kOfManifest + "out --json --part " + which + more);
+}
+
+// The content of every result, by name.
+std::map<std::string, std::string> results_in(const Tree& tree, const std::string& folder) {
+  std::map<std::string, std::string> results;
+  for (const auto& entry : fs::recursive_directory_iterator(tree.path(folder))) {
+    const std::string name = fs::relative(entry.path(), tree.path(folder)).string();
+    if (entry.is_regular_file() && !name.starts_with(".texremap")) results[name] = read_file(entry.path());
+  }
+  return results;
+}
+
+bool exists(const Tree& tree, const std::string& name) { return fs::exists(tree.path(name)); }
+
+nlohmann::json merged(const Tree& tree, int exit_code) {
+  const ProcessResult result = tree.texremap("merge-reports out --json");
+  INFO(result.errors);
+  CHECK(result.exit_code == exit_code);
+  std::string last;
+  std::istringstream lines(result.output);
+  for (std::string line; std::getline(lines, line);) last = line;
+  return last.empty() ? nlohmann::json() : nlohmann::json::parse(last)["summary"];
+}
+
+}  // namespace
+
+TEST_CASE("texremap parts: the union of the parts is what one process makes") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  REQUIRE(tree.texremap(kOfManifest + "one").exit_code == 0);
+  CHECK(tree.texremap("convert in --recursive --from mitsuba/ward --to mitsuba/as -o walked").exit_code == 0);
+  std::set<std::string> names;
+  std::size_t count = 0;
+  for (int i = 1; i <= 4; ++i) {
+    const ProcessResult result = part(tree, std::to_string(i) + "/4");
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const nlohmann::json report = tree_report(result.output);
+    for (const auto& set : report["sets"]) {
+      names.insert(set["name"].get<std::string>());
+      ++count;
+    }
+    CHECK(exists(tree, "out/" + std::string(kParts) + "/part-000" + std::to_string(i) + "-of-0004.jsonl"));
+  }
+  CHECK(names.size() == 8);
+  CHECK(count == 8);
+  const auto one = results_in(tree, "one");
+  CHECK(one.size() == 18);
+  CHECK(results_in(tree, "out") == one);
+  CHECK(results_in(tree, "walked") == one);
+  const auto summary = merged(tree, 0);
+  CHECK(summary["converted"] == 8);
+  CHECK(summary["parts"] == 4);
+}
+
+TEST_CASE("texremap parts: a manifest is the same however the tree is listed, and holds every file once") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  const std::string first = tree.content("sets.jsonl");
+  index(tree);
+  CHECK(tree.content("sets.jsonl") == first);
+  std::istringstream lines(first);
+  std::string line;
+  std::getline(lines, line);
+  const auto head = nlohmann::json::parse(line);
+  std::uint64_t cost = 0, bytes = 0, sets = 0;
+  while (std::getline(lines, line)) {
+    const auto set = nlohmann::json::parse(line);
+    cost += set["cost"].get<std::uint64_t>();
+    bytes += set["bytes"].get<std::uint64_t>();
+    ++sets;
+  }
+  CHECK(head["sets"] == sets);
+  CHECK(head["files"] == 18);
+  CHECK(head["cost"] == cost);
+  CHECK(head["bytes"] == bytes);
+}
+
+TEST_CASE("texremap parts: a part goes on where it ended, and finds what another part has done") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  const auto states = [&](const std::string& which) {
+    const ProcessResult result = part(tree, which, "--resume");
+    INFO(result.errors);
+    CHECK(result.exit_code == 0);
+    return set_states(result.output);
+  };
+  const std::string first = states("1/2"), second = states("2/2");
+  CHECK(first.size() + second.size() == 8);
+  CHECK(states("1/2") == std::string(first.size(), 'd'));
+  fs::remove(tree.path("out/f0/s0_rough.png"));
+  CHECK(states("1/2").find('c') != std::string::npos);
+  // Other parts have the sets now; nothing is made again.
+  CHECK(states("1/3") + states("2/3") + states("3/3") == "dddddddd");
+  tree.map("in/a_rough.png", kGrey);
+  tree.map("in/a_spec.png", kColor);
+  index(tree);
+  std::string all = states("1/2") + states("2/2");
+  std::sort(all.begin(), all.end());
+  CHECK(all == "cdddddddd");
+  CHECK(tree.texremap(kOfManifest + "out --resume --quiet").exit_code == 0);
+  // Another conversion is refused, whichever part finds it.
+  const ProcessResult other = tree.texremap(
+      "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/ggx -o out --resume --part 7/9");
+  CHECK(other.exit_code == 1);
+  CHECK_THAT(other.errors, Contains("belongs to another conversion"));
+}
+
+TEST_CASE("texremap parts: a part that is not run, or is of another run, is named") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  CHECK(part(tree, "1/3").exit_code == 0);
+  auto summary = merged(tree, 1);
+  CHECK_THAT(summary["problems"][0].get<std::string>(), Contains("no report of 2 parts: 2, 3"));
+  CHECK(part(tree, "2/3").exit_code == 0);
+  CHECK(part(tree, "3/3").exit_code == 0);
+  CHECK(merged(tree, 0)["problems"].empty());
+  // The third part again, of a manifest with one set more.
+  tree.map("in/zz/z_rough.png", kGrey);
+  tree.map("in/zz/z_spec.png", kColor);
+  index(tree);
+  CHECK(part(tree, "3/3", "--resume").exit_code == 0);
+  summary = merged(tree, 1);
+  CHECK_THAT(summary["problems"][0].get<std::string>(), Contains("part-0003-of-0003: manifest"));
+  const std::string reports = std::string("out/") + kParts;
+  fs::copy_file(tree.path(reports + "/part-0001-of-0003.jsonl"),
+                tree.path(reports + "/part-0002-of-0003.jsonl"), fs::copy_options::overwrite_existing);
+  summary = merged(tree, 1);
+  CHECK_THAT(summary["problems"].dump(),
+             Contains("is the report of another part") && Contains("the same set"));
+  // A report that lost a line.
+  for (const char* which : {"1/3", "2/3", "3/3"}) CHECK(part(tree, which, "--resume").exit_code == 0);
+  merged(tree, 0);
+  std::string report = tree.content(reports + "/part-0002-of-0003.jsonl");
+  const std::size_t line = report.find("{\"set\"");
+  write_file(tree.path(reports + "/part-0002-of-0003.jsonl"),
+             report.erase(line, report.find('\n', line) + 1 - line));
+  CHECK_THAT(merged(tree, 1)["problems"].dump(), Contains("part-0002-of-0003") && Contains("is incomplete"));
+  CHECK_THAT(tree.texremap("merge-reports in").errors, Contains("holds no report of a part"));
+}
+
+TEST_CASE("texremap parts: schedulers tell the part by their variables") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  const auto note = [&](const std::string& environment, const std::string& which) {
+    const ProcessResult result = tree.run(Words("/usr/bin/env " + environment) + REMAP_TEXREMAP +
+                                          kOfManifest + Words("out --dry-run --part " + which));
+    const std::string begin = "texremap: note: ";
+    const std::size_t at = result.errors.find(begin), stop = result.errors.find('\n', at);
+    const std::size_t place = result.errors.find(" is part ");
+    if (result.exit_code == 0 && place != std::string::npos)
+      return result.errors.substr(place + 9, result.errors.find('\n', place) - place - 9);
+    return std::to_string(result.exit_code) + " " +
+           result.errors.substr(0, at == 0 ? stop : std::string::npos);
+  };
+  const std::string slurm = "SLURM_ARRAY_TASK_ID=7 SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_MAX=8 ";
+  CHECK(note(slurm + "SLURM_ARRAY_TASK_COUNT=4", "auto") == "3 of 4");
+  CHECK(note(slurm + "SLURM_ARRAY_TASK_COUNT=4", "auto/20") == "7 of 20");
+  CHECK(note("AWS_BATCH_JOB_ARRAY_INDEX=0 AWS_BATCH_JOB_ARRAY_SIZE=12", "auto") == "1 of 12");
+  CHECK(note("JOB_COMPLETION_INDEX=4", "auto/5") == "5 of 5");
+  CHECK(note("SGE_TASK_ID=3 SGE_TASK_FIRST=1 SGE_TASK_LAST=4 SGE_TASK_STEPSIZE=1", "auto") == "3 of 4");
+  CHECK(note("PBS_ARRAY_INDEX=2", "auto/6") == "2 of 6");
+  CHECK(note("LSB_JOBINDEX=2 LSB_JOBINDEX_END=6 LSB_JOBINDEX_STEP=1", "auto") == "2 of 6");
+  CHECK(note("PARALLEL_SEQ=9", "auto/9") == "9 of 9");
+  // A piece of an array would be divided anew.
+  CHECK_THAT(note(slurm + "SLURM_ARRAY_TASK_COUNT=2", "auto"),
+             Contains("2 texremap: ") && Contains("auto/N"));
+  CHECK_THAT(note("SGE_TASK_ID=undefined LSB_JOBINDEX=0", "auto"), Contains("no job of an array"));
+  CHECK_THAT(note("PARALLEL_SEQ=9", "auto"), Contains("does not tell the size"));
+  CHECK_THAT(note("PARALLEL_SEQ=1 JOB_COMPLETION_INDEX=1", "auto/4"), Contains("are both set"));
+  CHECK_THAT(note("JOB_COMPLETION_INDEX=4", "auto/4"), Contains("is none of 0 to 3"));
+  for (const char* wrong : {"0/4", "5/4", "-1/4", "x/4", "4", "auto/0", "auto/x", "1/4/2"})
+    CHECK_THAT(note("A=1", std::string("--part=") + wrong), Contains("2 "));
+}
+
+TEST_CASE("texremap parts: a manifest that does not fit is refused, and nothing is written") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  const std::string good = tree.content("sets.jsonl");
+  const auto refused = [&](const std::string& message, const std::string& output = "out") {
+    const ProcessResult result = tree.texremap(kOfManifest + output);
+    INFO(result.errors);
+    CHECK(result.exit_code != 0);
+    CHECK_THAT(result.errors, Contains(message));
+    CHECK_FALSE(exists(tree, output));
+  };
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    write_file(tree.path("sets.jsonl"), text);
+  };
+  with("s0_rough", "s0_rougg");
+  refused("was changed since it was written");
+  with("\"sets\":8", "\"sets\":7");
+  refused("was changed since it was written");
+  with("\"root\":\"", "\"root\":\"/elsewhere");
+  refused("was changed since it was written");
+  with("\"remap_manifest\":1", "\"remap_manifest\":2");
+  refused("is of format 2, this texremap reads format 1");
+  write_file(tree.path("sets.jsonl"), good.substr(0, good.size() - 40));
+  refused("is incomplete");
+  write_file(tree.path("sets.jsonl"), good.substr(0, good.find('\n') + 1));
+  refused("is incomplete");
+  with(REMAP_VERSION, "0.0.1");
+  refused("is of version 0.0.1");
+  write_file(tree.path("sets.jsonl"), "{}\n");
+  refused("is no manifest");
+  fs::remove(tree.path("sets.jsonl"));
+  refused("cannot be read");
+  write_file(tree.path("sets.jsonl"), good);
+  refused("lies in", "in/out");
+}
+
+TEST_CASE("texremap parts: files that are gone or have another size fail their set alone") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  fs::remove(tree.path("in/f0/s0_spec.png"));
+  tree.map("in/f1/s1_rough.tga", kGrey, OIIO::TypeUInt8, 40);
+  fs::rename(tree.path("in"), tree.path("moved"));
+  CHECK_THAT(tree.texremap(kOfManifest + "out").errors, Contains("give DIR, where the tree lies now"));
+  const ProcessResult result = tree.texremap(kOfManifest + "out moved --json");
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.errors, Contains("s0_spec.png: the manifest lists it (texremap index again)") &&
+                                Contains("the manifest says"));
+  std::string states = set_states(result.output);
+  std::sort(states.begin(), states.end());
+  CHECK(states == "ccccccff");
+}
+
+TEST_CASE("texremap parts: storage that does not answer is asked again, a full one ends with 75") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  const auto with_faults = [&](const std::string& name, int count, int code) {
+    return tree.run(Words("/usr/bin/env LD_PRELOAD=" REMAP_FAULTY_STORAGE " FAULT_NAME=" + name +
+                          " FAULT_COUNT=" + std::to_string(count) + " FAULT_CODE=" + std::to_string(code)) +
+                    REMAP_TEXREMAP + kOfManifest + Words("out --part 1/1 --json --resume"));
+  };
+  for (const int code : {ESTALE, EIO}) {
+    const ProcessResult result = with_faults("s0_rough.png", 3, code);
+    INFO(result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.output, Contains("tried again after") && Contains("s0_rough.png"));
+    fs::remove_all(tree.path("out"));
+  }
+  const ProcessResult lost = with_faults("s0_rough.png", 1000, ESTALE);
+  CHECK(lost.exit_code == 75);
+  CHECK_THAT(lost.errors, Contains("Stale file handle"));
+  CHECK(set_states(lost.output) == "fccccccc");
+  const ProcessResult full = with_faults(".s0_spec.unfinished", 1000, ENOSPC);
+  CHECK(full.exit_code == 75);
+  CHECK_THAT(full.errors, Contains("No space left on device"));
+  CHECK(with_faults("none", 0, 0).exit_code == 0);
+}
+
+TEST_CASE("texremap parts: plans name every part, and refuse what would fail in every job") {
+  const Tree tree;
+  write_library(tree);
+  index(tree);
+  const Words options = Words("-- --from mitsuba/ward --to mitsuba/as -o") + Words{std::string("o u t")};
+  const Words plan_words = "plan commands --manifest sets.jsonl --parts 3 -o plan";
+  const ProcessResult plan = tree.texremap(plan_words + options);
+  INFO(plan.errors);
+  CHECK(plan.exit_code == 0);
+  CHECK_FALSE(exists(tree, "o u t"));
+  std::istringstream lines(tree.content("plan/commands.txt"));
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    write_file(tree.path("line.sh"), line + "\n");
+    const ProcessResult result = tree.run("/bin/sh line.sh");
+    INFO(line << "\n" << result.errors);
+    CHECK(result.exit_code == 0);
+  }
+  CHECK(count == 3);
+  CHECK(tree.run("/bin/sh plan/merge.sh").exit_code == 0);
+  CHECK(results_in(tree, "o u t").size() == 18);
+  CHECK(exists(tree, "plan/report.jsonl"));
+  CHECK_THAT(tree.texremap(plan_words + options).errors, Contains("already exists (--force overwrites)"));
+  const auto refused = [&](const std::string& words, const std::string& message) {
+    const ProcessResult result =
+        tree.texremap("plan slurm --manifest sets.jsonl --parts 2 -o other -- " + Words(words));
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.errors, Contains(message));
+    CHECK_FALSE(exists(tree, "other"));
+  };
+  refused("--from mitsuba/ward --to mitsuba/as", "--output is required after --");
+  refused("--from mitsuba/wrad --to mitsuba/as -o x", "mitsuba/ward");
+  refused("--form mitsuba/ward --to mitsuba/as -o x", "did you mean --from?");
+  refused("--from mitsuba/ward --to mitsuba/as -o x --part 1/2", "is written by texremap plan itself");
+}

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""How a conversion in parts grows: the figures of docs/farm.md.
+
+Prints time and memory of the index of a tree, what a part costs beside its sets, how many files a set opens and renames
+(where strace is installed), and sets a second against the number of parts at once.
+
+Usage: tests/farm/growth.py TEXREMAP [--sets 100000] [--small 512]
+"""
+import argparse
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+CONVERSION = ["--from", "mitsuba/ward", "--to", "mitsuba/ggx"]
+
+
+def png(width, height, channels, seed):
+    """A PNG of 8 bits with smooth noise."""
+    rows = b"".join(
+        b"\0" + bytes((seed * 31 + x * 7 + y * 13 + c * 50) % 200 + 20 for x in range(width) for c in range(channels))
+        for y in range(height))
+
+    def chunk(name, data):
+        return len(data).to_bytes(4, "big") + name + data + zlib.crc32(name + data).to_bytes(4, "big")
+
+    head = width.to_bytes(4, "big") + height.to_bytes(4, "big") + bytes([8, 2 if channels == 3 else 0, 0, 0, 0])
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def make_tree(root, sets, size):
+    """Sets of three maps, 100 a folder; files are links to a few images, so that 300,000 are made in seconds."""
+    root.mkdir(parents=True)
+    images = []
+    for seed in range(4):
+        maps = {}
+        for word, channels in (("Roughness", 1), ("Specular", 3), ("Normal", 3)):
+            maps[word] = root.parent / f"image{seed}_{word}.png"
+            maps[word].write_bytes(png(size, size, channels, seed))
+        images.append(maps)
+    for i in range(sets):
+        folder = root / f"library{i // 10000:03}" / f"folder{i // 100 % 100:03}"
+        if i % 100 == 0:
+            folder.mkdir(parents=True)
+        for word, image in images[i % 4].items():
+            target = folder / f"asset{i:06}_{word}.png"
+            try:
+                os.link(image, target)
+            except OSError:  # the most links of an inode
+                shutil.copy(image, target)
+
+
+def measured(*words):
+    """Seconds and peak memory of a command, and what it prints."""
+    begin = time.monotonic()
+    process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    output = process.stdout.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    if status != 0:
+        sys.exit(f"growth: failed: {' '.join(map(str, words))}")
+    return time.monotonic() - begin, usage.ru_maxrss / 1000, output
+
+
+def system_calls(texremap, manifest, output, sets):
+    """Opens of files of the tree and renames, for a set."""
+    if shutil.which("strace") is None:
+        return "strace is not installed"
+    log = output.parent / "strace.txt"
+    subprocess.run(["strace", "-f", "-e", "trace=openat,rename,renameat,renameat2,fsync,fdatasync", "-o", log, texremap, "convert",
+                    "--manifest", manifest, *CONVERSION, "-o", output, "--threads", "1", "--quiet"], check=True)
+    text = log.read_text()
+    inputs = len(re.findall(r'openat\([^)]*/tree/[^"]*\.png', text))
+    outputs = len(re.findall(r'openat\([^)]*/traced/[^"]*\.png', text))
+    renames, syncs = len(re.findall(r"rename\w*\(", text)), len(re.findall(r"f(?:data)?sync\(", text))
+    return (f"opens of inputs {inputs / sets:.1f}, of results {outputs / sets:.1f}, renames {renames / sets:.1f}, "
+            f"waits for the disk {syncs / sets:.1f}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("texremap")
+    parser.add_argument("--sets", type=int, default=100_000, help="of the tree that is indexed")
+    parser.add_argument("--small", type=int, default=512, help="sets that are converted")
+    options = parser.parse_args()
+    scratch = Path(tempfile.mkdtemp(prefix="remap-growth-"))
+    try:
+        report(Path(options.texremap).resolve(), scratch, options)
+    finally:
+        shutil.rmtree(scratch)
+
+
+def report(texremap, scratch, options):
+    tree = scratch / "large/tree"
+    make_tree(tree, options.sets, 16)
+    manifest = scratch / "large.jsonl"
+    seconds, memory, _ = measured(texremap, "index", tree, "-o", manifest, "--quiet")
+    print(f"index of {options.sets} sets, {3 * options.sets} files: {seconds:.1f} s, {memory:.0f} MB, "
+          f"{manifest.stat().st_size / 1e6:.0f} MB on disk")
+    # A part without sets reads the manifest and its converter, and writes its report.
+    part = f"1/{50 * options.sets}"
+    seconds, memory, _ = measured(texremap, "convert", "--manifest", manifest, "--part", part, *CONVERSION, "-o",
+                                  scratch / "empty", "--quiet")
+    print(f"a part without sets of {options.sets}: {seconds:.2f} s, {memory:.0f} MB")
+    shutil.rmtree(scratch / "large")
+
+    tree, manifest, sets = scratch / "small/tree", scratch / "small.jsonl", options.small
+    make_tree(tree, sets, 64)
+    measured(texremap, "index", tree, "-o", manifest, "--quiet")
+    seconds, _, _ = measured(texremap, "convert", "--manifest", manifest, "--part", f"1/{50 * sets}", *CONVERSION, "-o",
+                             scratch / "empty2", "--quiet")
+    print(f"a part without sets of {sets}: {seconds:.2f} s")
+    print("a set of two maps:", system_calls(texremap, manifest, scratch / "traced", sets))
+    for count in (1, 2, 4):
+        output = scratch / f"parts{count}"
+
+        def convert(i):
+            return measured(texremap, "convert", "--manifest", manifest, "--part", f"{i + 1}/{count}", *CONVERSION, "-o", output,
+                            "--threads", "1", "--quiet")
+
+        begin = time.monotonic()
+        with ThreadPoolExecutor(count) as pool:
+            list(pool.map(convert, range(count)))
+        seconds = time.monotonic() - begin
+        merged = measured(texremap, "merge-reports", output, "--json", "--quiet")[2].splitlines()[-1]
+        assert json.loads(merged)["summary"]["converted"] == sets
+        print(f"{count} parts at once, a thread each: {sets / seconds:.0f} sets a second")
+
+
+if __name__ == "__main__":
+    main()
