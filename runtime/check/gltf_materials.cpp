@@ -1,9 +1,10 @@
 // Materials of glTF 2.0 files (.gltf, .glb), with the extensions of Khronos that say what a surface reflects.
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <string_view>
 
+#include "assets/asset_uri.hpp"
+#include "assets/gltf_container.hpp"
 #include "check/material.hpp"
 #include "core/base64.hpp"
 #include "core/errors.hpp"
@@ -59,29 +60,6 @@ std::string bytes_of_uri(std::string_view uri, std::size_t begin, const std::str
   return *std::move(bytes);
 }
 
-// `a b` of `a%20b`.
-std::string without_percents(std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned code = 0;
-    if (text[i] == '%' && i + 2 < text.size() &&
-        std::sscanf(std::string(text.substr(i + 1, 2)).c_str(), "%2x", &code) == 1) {
-      result += static_cast<char>(code);
-      i += 2;
-    } else {
-      result += text[i];
-    }
-  }
-  return result;
-}
-
-std::uint32_t number_at(const std::string& bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, bytes.data() + at,
-              sizeof value);  // glb is little-endian, as are the machines of this program
-  return value;
-}
-
 // The text and the binary chunk of a file.
 struct GltfFile {
   std::string json;
@@ -89,21 +67,14 @@ struct GltfFile {
 };
 
 GltfFile read_gltf(const fs::path& file) {
-  std::string bytes = read_file(file, kLargestAsset);
-  if (!bytes.starts_with("glTF")) return {std::move(bytes), {}};
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  GltfFile parts;
-  for (std::size_t at = kHeader; at + kChunkHeader <= bytes.size();) {
-    const std::size_t size = number_at(bytes, at);
-    const std::string_view type(bytes.data() + at + 4, 4);
-    if (size > bytes.size() - at - kChunkHeader)
-      throw input_error(shown(file) + ": is cut off: a chunk of " + std::to_string(size) +
-                        " bytes ends after the file");
-    std::string& part = type.starts_with("JSON") ? parts.json : parts.binary;
-    if (part.empty()) part = bytes.substr(at + kChunkHeader, size);
-    at += kChunkHeader + size;
+  const std::string bytes = read_file(file, kLargestAsset);
+  GltfContainer container = read_container(MemorySource(bytes), shown(file));
+  GltfFile parts{std::move(container.json), {}};
+  constexpr std::uint64_t kChunkHeader = 8;
+  if (!container.chunks.empty() && container.chunks.front().type == kBinaryChunk) {
+    const GlbChunk& chunk = container.chunks.front();
+    parts.binary = bytes.substr(chunk.begin + kChunkHeader, chunk.end - chunk.begin - kChunkHeader);
   }
-  if (parts.json.empty()) throw input_error(shown(file) + ": has no JSON chunk");
   return parts;
 }
 
@@ -194,7 +165,7 @@ class GltfMaterials {
     if (entry == nullptr) return std::nullopt;
     const Json* uri = entry->find("uri");
     if (uri != nullptr && uri->text() != nullptr && !uri->text()->starts_with("data:"))
-      return file_.parent_path() / without_percents(*uri->text());
+      return file_.parent_path() / percent_decoded(*uri->text());
     if (const auto known = embedded_.find(image); known != embedded_.end()) return known->second;
     const std::string place = shown(file_) + ": image " + std::to_string(image);
     std::string bytes;
@@ -226,7 +197,7 @@ class GltfMaterials {
     const std::string& text = *uri->text();
     const std::size_t comma = text.find(";base64,");
     if (!text.starts_with("data:"))
-      known->second = read_file(file_.parent_path() / without_percents(text), kLargestAsset);
+      known->second = read_file(file_.parent_path() / percent_decoded(text), kLargestAsset);
     else if (comma != std::string::npos)
       known->second = bytes_of_uri(text, comma + 8, place);
     return known->second;

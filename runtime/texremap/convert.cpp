@@ -21,6 +21,7 @@
 #include "texremap/commands.hpp"
 #include "texremap/conversion_hash.hpp"
 #include "texremap/conversion_request.hpp"
+#include "texremap/convert_assets.hpp"
 #include "texremap/convert_options.hpp"
 #include "texremap/convert_report.hpp"
 #include "texremap/converter_text.hpp"
@@ -304,6 +305,7 @@ void add_convert_command(Command& app) {
       "convert", "Convert the maps of a material: roughness and specular, or a whole workflow");
   ConvertOptions& options = set_work<ConvertOptions>(*command, [command](ConvertOptions given) {
     given.given = command->given();
+    if (convert_as_assets(given)) return;
     apply_preset(given);
     convert(given);
   });
@@ -326,7 +328,8 @@ void add_convert_command(Command& app) {
       "  texremap convert --from mitsuba/ward --to mitsuba/ggx --roughness 0.3 \\\n"
       "    --specular 0.04\n"
       "  texremap convert --from gltf-specgloss --to gltf --diffuse d.png \\\n"
-      "    --specular sg.png --glossiness sg.png:A --layout orm -o out");
+      "    --specular sg.png --glossiness sg.png:A --layout orm -o out\n"
+      "  texremap convert model.glb --to gltf -o converted.glb");
 }
 
 }  // namespace remap

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "sets/name_pieces.hpp"
@@ -118,7 +119,9 @@ Reader<GivenPart> given_part() {
 
 void add_source_options(Command& command, ConvertOptions& options) {
   command.option_group("Source and target");
-  command.add_option("DIR", options.folder, "Folder of texture sets, found by the names of their maps");
+  command.add_option("DIR", options.folder,
+                     "Folder of texture sets, found by the names of their maps; or a glTF file");
+  command.add_option("ASSET", options.more_assets, "More glTF files")->tag(kNeedsAsset);
   command.add_option("--from MODEL", options.from, model_name(), "Source model, e.g. mitsuba/ward or unity");
   command.add_option(
       "--to MODEL", options.to, model_name(),
@@ -142,6 +145,12 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->allow_extra_args(false)
       ->excludes(command.option("--fit"));
   options.converters.add_option(command)->excludes(command.option("--fit"));
+  command
+      .add_option("--profile NAME", options.profile, one_of(kMaterialProfiles, "profile"),
+                  "Materials of glTF files: core metallic-roughness, or exact for viewers that read "
+                  "KHR_materials_specular and KHR_materials_ior")
+      ->default_text("core")
+      ->tag(kNeedsAsset);
 }
 
 // The footer of the command explains the value MAP.

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "assets/gltf_specgloss.hpp"
 #include "command_line/command.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
@@ -29,6 +30,7 @@ enum : OptionTags {
   kNotWithWorkflow = 1u << 5u,
   kNotWithWarp = 1u << 6u,
   kNotWithDiffuseWarp = 1u << 7u,  // a warp whose source is a diffuse map alone
+  kNeedsAsset = 1u << 8u,          // a glTF file in place of the folder
 };
 
 using MapSource = std::variant<MapName, ConstantValues>;
@@ -54,7 +56,9 @@ Reader<ModelName> model_name();
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
-  std::filesystem::path folder;  // of texture sets; empty where the options name one set
+  std::filesystem::path folder;  // of texture sets, or a glTF file; empty where the options name one set
+  std::vector<std::filesystem::path> more_assets;
+  MaterialProfile profile = MaterialProfile::kCore;  // of assets
   ModelName from, to;
   std::vector<std::string> via;
   std::string fit;

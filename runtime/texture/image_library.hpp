@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/image_codec.hpp"
 #include "core/files.hpp"
 #include "texture/image_layout.hpp"
 
@@ -96,6 +97,8 @@ class ImageLibrary {
   virtual void write_png(const std::filesystem::path& path, const Picture& picture) const = 0;
   // The bytes of such a PNG file. Throws kOutput.
   virtual std::string png_bytes(const Picture& picture) const = 0;
+  // Images that assets embed: PNG, JPEG and WebP.
+  virtual const ImageCodec& codec() const = 0;
 };
 
 // The library of the module, which the first call loads. It lies in a folder beside that of the program.

@@ -14,6 +14,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l manifest -r -F 
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l part -x -d 'Convert part I of N of the manifest'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l via -x -a "(texremap list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Model that the path must pass through'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l converters -r -F -d 'Use these converters instead of the shipped ones: a converters.json of `remapc emit --all`, a fit, or a folder of fits'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l profile -x -a 'core extensions' -d 'Materials of glTF files: core metallic-roughness, or exact for viewers that read KHR_materials_specular and KHR_materials_ior'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l roughness -r -F -d 'Roughness of the source model'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l glossiness -r -F -d 'Glossiness, 1 - sqrt(alpha), in place of the roughness'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l specular -r -F -d 'Specular color'

@@ -27,6 +27,7 @@ class OpenImageIo : public ImageLibrary {
   void write_png(const std::filesystem::path& path, const Picture& picture) const override {
     write_png_picture(path, picture);
   }
+  const ImageCodec& codec() const override { return asset_codec(); }
   std::string png_bytes(const Picture& picture) const override { return png_picture_bytes(picture); }
 };
 

@@ -10,6 +10,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include "assets/image_codec.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -48,6 +49,8 @@ void write_exr_picture(const std::filesystem::path& path, const Picture& picture
                        const std::map<std::string, std::string>& attributes);
 void write_png_picture(const std::filesystem::path& path, const Picture& picture);
 std::string png_picture_bytes(const Picture& picture);
+
+const ImageCodec& asset_codec();
 
 // The description of a new file that follows `model` in everything except `changes`, as far as the format of
 // `output` can hold it. Throws kOutput, naming `path`, if it cannot hold the channels or the requested type.

@@ -149,7 +149,7 @@ TEST_CASE("check: what assets state, and files that are no assets") {
   CHECK(rules_of(write("b.mtl", "newmtl a\nNs 0.3\nnewmtl b\nNs 0.9\n")) == Names{"exponent-range"});
   CHECK(rules_of(write("c.mtl", "newmtl a\nNs 96.078431\nnewmtl b\nNs 250\n")) == Names{});
   CHECK(materials_of(write("d.gltf", "{"), built_in_naming()).problems.size() == 1);
-  CHECK(materials_of(write("e.glb", "glTF" + std::string(8, '\0') + "\xff\xff\xff\x7fJSON{}"),
+  CHECK(materials_of(write("e.glb", "glTF" + std::string("\2\0\0\0\26\0\0\0", 8) + "\xff\xff\xff\x7fJSON{}"),
                      built_in_naming())
             .problems.front()
             .find("is cut off") != std::string::npos);

@@ -1,0 +1,56 @@
+#include "assets/asset_uri.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/plain_text.hpp"
+
+namespace remap {
+namespace {
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// The scheme in lower case (RFC 3986, section 3.1); empty for a relative reference. A single letter is a
+// drive of Windows.
+std::string scheme_of(std::string_view uri) {
+  const std::size_t colon = uri.find(':');
+  if (colon == std::string_view::npos || !is_letter(uri.front())) return "";
+  std::string scheme(uri.substr(0, colon));
+  for (char& c : scheme) {
+    if (!is_letter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.') return "";
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return scheme;
+}
+
+}  // namespace
+
+std::string percent_decoded(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = 0;
+    const char* const digits = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() &&
+        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      result += static_cast<char>(code);
+      i += 2;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+UriKind uri_kind(std::string_view uri) {
+  const std::string scheme = scheme_of(uri);
+  if (scheme == "data") return UriKind::kData;
+  if (scheme.size() > 1 && scheme != "file") return UriKind::kRemote;
+  std::string path = percent_decoded(uri);
+  std::ranges::replace(path, '\\', '/');
+  if (!scheme.empty() || path.starts_with('/') || path.find('\0') != std::string::npos)
+    return UriKind::kOutside;
+  const std::vector<std::string> parts = parts_between(path, '/');
+  return std::ranges::find(parts, "..") == parts.end() ? UriKind::kFile : UriKind::kOutside;
+}
+
+}  // namespace remap

@@ -1,0 +1,128 @@
+#include "assets/gltf_asset.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/plain_text.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::uint64_t kMostPadding = 3;  // of a binary chunk, after its buffer
+
+// `/images/2/uri`.
+std::string pointer_of(SpanValue value) {
+  const SpanValue parent = value.parent();
+  if (!parent) return "";
+  if (parent.is(SpanKind::kObject)) return pointer_of(parent) + "/" + plain(value.key(), 80);
+  const std::vector<SpanValue> entries = parent.children();
+  return pointer_of(parent) + "/" + std::to_string(std::ranges::find(entries, value) - entries.begin());
+}
+
+bool is_in_extras(SpanValue value) {
+  for (; value; value = value.parent())
+    if (value.has_key("extras")) return true;
+  return false;
+}
+
+// Every `uri` of the file, those of extensions among them. Extras are of other programs.
+std::vector<AssetResource> resources_of(const SpannedJson& json) {
+  std::vector<AssetResource> resources;
+  std::set<std::string> known;
+  bool is_outside_known = false;
+  for (std::size_t i = 1; i < json.value_count(); ++i) {
+    const SpanValue value = json.value(i);
+    if (!value.has_key("uri") || !value.is(SpanKind::kText) || value.raw().starts_with("\"data:")) continue;
+    const std::string uri = value.text().value_or("");
+    const UriKind kind = uri_kind(uri);
+    if (kind == UriKind::kData || is_in_extras(value)) continue;
+    const std::string path = kind == UriKind::kRemote ? uri : percent_decoded(uri);
+    if (!known.insert(path).second) continue;
+    const bool is_first = kind == UriKind::kOutside && !std::exchange(is_outside_known, true);
+    resources.push_back({is_first ? pointer_of(value) : "", path, kind});
+  }
+  return resources;
+}
+
+// Views lie within their buffers, and the first buffer of a container within its binary chunk.
+class ViewCheck {
+ public:
+  ViewCheck(const SpannedJson& json, const GltfContainer& container, const std::string& place)
+      : root_(json.root()), container_(container), place_(place) {}
+
+  // Returns warnings.
+  std::vector<std::string> run() {
+    for (const SpanValue& buffer : root_["buffers"].entries()) {
+      const std::optional<std::size_t> length = buffer["byteLength"].whole();
+      if (!length)
+        throw input_error(place_ + ": /buffers/" + std::to_string(lengths_.size()) +
+                          ": its byteLength is no whole number");
+      lengths_.push_back(*length);
+    }
+    std::vector<std::string> warnings = check_chunk();
+    const std::vector<SpanValue> views = root_["bufferViews"].entries();
+    for (std::size_t i = 0; i < views.size(); ++i) check_view(views[i], i);
+    return warnings;
+  }
+
+ private:
+  std::vector<std::string> check_chunk() const {
+    if (container_.chunks.empty() || container_.chunks.front().type != kBinaryChunk || lengths_.empty())
+      return {};
+    const std::vector<SpanValue> buffers = root_["buffers"].entries();
+    if (buffers.front()["uri"]) return {};
+    constexpr std::uint64_t kHeader = 8;
+    const std::uint64_t size = container_.chunks.front().end - container_.chunks.front().begin - kHeader;
+    const std::uint64_t length = lengths_.front();
+    if (length > size)
+      throw input_error(place_ + ": /buffers/0 has " + std::to_string(length) +
+                        " bytes, but the binary chunk has " + std::to_string(size));
+    if (size - length <= kMostPadding) return {};
+    return {"its binary chunk is " + std::to_string(size - length) + " bytes longer than its buffer"};
+  }
+
+  void check_view(SpanValue view, std::size_t index) const {
+    const std::string name = place_ + ": /bufferViews/" + std::to_string(index);
+    const std::optional<std::size_t> buffer = view["buffer"].whole(), length = view["byteLength"].whole();
+    const SpanValue offset_value = view["byteOffset"];
+    const std::optional<std::size_t> offset = offset_value ? offset_value.whole() : std::size_t{0};
+    if (!buffer || !length || !offset)
+      throw input_error(name + ": its buffer, byteOffset and byteLength are not whole numbers");
+    if (*buffer >= lengths_.size())
+      throw input_error(name + ": names buffer " + std::to_string(*buffer) + ", of which there are " +
+                        std::to_string(lengths_.size()));
+    if (const std::size_t size = lengths_[*buffer]; *offset + *length > size)
+      throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
+                        std::to_string(*buffer) + ", which has " + std::to_string(size));
+  }
+
+  SpanValue root_;
+  const GltfContainer& container_;
+  const std::string& place_;
+  std::vector<std::size_t> lengths_;  // of the buffers
+};
+
+}  // namespace
+
+AssetConversion convert_asset(const ByteSource& source, const std::string& place,
+                              const SpecGlossOptions& options, const AssetResources* resources) {
+  const GltfContainer container = read_container(source, place);
+  const SpannedJson json(container.json, place);
+  AssetConversion conversion;
+  conversion.warnings = container.notes;
+  for (const std::string& warning : ViewCheck(json, container, place).run())
+    conversion.warnings.push_back(warning);
+  std::optional<AssetParts> parts;
+  if (resources != nullptr) parts.emplace(AssetParts{container, source, *resources});
+  conversion.result = convert_specgloss(json, place, options, parts ? &*parts : nullptr);
+  for (const std::string& warning : conversion.result.warnings) conversion.warnings.push_back(warning);
+  conversion.resources = resources_of(json);
+  if (conversion.result.changed)
+    conversion.pieces = with_json(container, conversion.result.json, conversion.result.appended, place);
+  return conversion;
+}
+
+}  // namespace remap

@@ -1,0 +1,69 @@
+// The two forms of a glTF 2.0 file: .gltf is JSON, .glb a container of chunks (glTF 2.0, section 4). Only the
+// JSON is held in memory; all other bytes are ranges of the source.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace remap {
+
+// Bytes that are read where they are needed: of a file or of memory.
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+  virtual std::uint64_t size() const = 0;
+  // `count` bytes from `begin`, which lie within size(). Throws kInput where they cannot be read.
+  virtual std::string read(std::uint64_t begin, std::size_t count) const = 0;
+};
+
+// `bytes` must outlive it.
+class MemorySource final : public ByteSource {
+ public:
+  explicit MemorySource(std::string_view bytes) : bytes_(bytes) {}
+  std::uint64_t size() const override { return bytes_.size(); }
+  std::string read(std::uint64_t begin, std::size_t count) const override {
+    return std::string(bytes_.substr(begin, count));
+  }
+
+ private:
+  std::string_view bytes_;
+};
+
+inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;  // "JSON", "BIN\0"
+
+// A chunk after the JSON. The range holds its header of 8 bytes.
+struct GlbChunk {
+  std::uint32_t type = 0;
+  std::uint64_t begin = 0, end = 0;
+};
+
+struct GltfContainer {
+  std::string json;  // without the padding of a container
+  bool is_binary = false;
+  std::vector<GlbChunk> chunks;    // after the JSON, in order
+  std::vector<std::string> notes;  // what is unusual, and read nevertheless
+};
+
+// A part of a result: its own bytes, or where there are none a range of the source.
+struct AssetPiece {
+  std::string bytes;
+  std::uint64_t begin = 0, end = 0;
+};
+
+// Reads a file of either form. Every length is compared with the file before anything is allocated. Throws
+// kInput, beginning with `place`, for a container that is cut off or whose lengths contradict each other.
+GltfContainer read_container(const ByteSource& source, const std::string& place);
+
+// The file with other JSON: chunks stay in their order, and `appended` follows the binary one, from a
+// multiple of four bytes. Throws kOutput, beginning with `place`, for 4 GiB or more, which a container cannot
+// hold.
+std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
+                                  const std::string& appended, const std::string& place);
+
+// The length of a result.
+std::uint64_t size_of(const std::vector<AssetPiece>& pieces);
+
+}  // namespace remap

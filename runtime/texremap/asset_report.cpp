@@ -1,0 +1,108 @@
+#include "texremap/asset_report.hpp"
+
+#include <utility>
+
+#include "command_line/run_app.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+#include "sets/folder_walk.hpp"
+#include "texremap/commands.hpp"
+
+namespace remap {
+namespace {
+
+// Pictures differ by this share of the residual (docs/workflows.md).
+constexpr double kPictureOfResidual = 0.42;
+constexpr double kShownError = 5e-4;
+
+std::string error_text(const AssetMaterial& material) {
+  const double error = kPictureOfResidual * material.residual;
+  return error < kShownError ? "" : " (pictures differ by " + number_text(rounded(100.0 * error, 2)) + " %)";
+}
+
+void print_material(const AssetMaterial& material, const std::string& place, bool dry_run,
+                    bool failures_only) {
+  if (!failures_only)
+    for (const std::string& warning : material.warnings)
+      print_message(kProgram, "warning: " + place + material.title() + ": " + warning);
+  if (material.state == MaterialState::kFailed)
+    print_message(kProgram, place + material.title() + ": failed: " + material.failure);
+  if (material.state == MaterialState::kConverted && dry_run && !failures_only)
+    print_message(kProgram,
+                  place + material.title() + ": would become " + material.becomes + error_text(material));
+}
+
+std::string outcome_text(const AssetReport& report, bool dry_run) {
+  const std::size_t converted = report.result.count(MaterialState::kConverted),
+                    untouched = report.result.count(MaterialState::kUntouched);
+  const std::string verb = dry_run ? "would be " : "";
+  std::string text;
+  if (converted == 0 && report.failed_count() == 0)
+    text = "no spec-gloss material, " + verb + "copied";
+  else
+    text = counted(converted, "material") + " " + verb + "converted";
+  if (report.failed_count() > 0) text += ", " + std::to_string(report.failed_count()) + " failed";
+  if (untouched > 0)
+    text += ", " + std::to_string(untouched) + " left as " + (untouched == 1 ? "it is" : "they are");
+  if (!report.is_written) return text + "; nothing " + verb + "written";
+  if (!dry_run) text += " in " + fixed(report.seconds, 2) + " s";
+  text += ": " + shown(report.output);
+  if (!report.images.empty()) text += ", plus " + counted(report.images.size(), "image");
+  if (!report.copies.empty())
+    text += (report.images.empty() ? ", plus " : " and ") + counted(report.copies.size(), "copied file");
+  return text;
+}
+
+Json material_json(const AssetMaterial& material) {
+  Json json = {{"index", material.index},
+               {"name", material.name},
+               {"state", name_of(kMaterialStates, material.state)}};
+  if (material.state == MaterialState::kConverted) {
+    json["becomes"] = material.becomes;
+    json["expected_error"] = rounded(kPictureOfResidual * material.residual, 3);
+  }
+  if (material.result) {
+    const auto value = [](float number) { return decimal_value(number); };
+    const MetalRoughFactors& result = *material.result;
+    json["base_color"] =
+        Json::list({value(result.base_color[0]), value(result.base_color[1]), value(result.base_color[2])});
+    json["metallic"] = value(result.metallic);
+    json["roughness"] = value(result.roughness);
+  }
+  json["warnings"] = material.warnings;
+  json["failure"] = material.failure.empty() ? Json() : Json(material.failure);
+  return json;
+}
+
+}  // namespace
+
+void print_asset(const AssetReport& report, bool dry_run, bool failures_only) {
+  const std::string place = shown(report.input) + ": ";
+  if (!failures_only)
+    for (const std::string& warning : report.warnings) print_message(kProgram, "warning: " + place + warning);
+  if (!report.failure.empty()) return print_message(kProgram, "failed: " + report.failure);
+  for (const AssetMaterial& material : report.result.materials)
+    print_material(material, place, dry_run, failures_only);
+  if (!failures_only) print_message(kProgram, place + outcome_text(report, dry_run));
+}
+
+Json asset_json(const AssetReport& report, bool dry_run) {
+  Json json = {{"asset", report.input.string()},
+               {"output", report.is_written ? Json(report.output.string()) : Json()},
+               {"dry_run", dry_run}};
+  for (const auto& state : kMaterialStates) json[std::string(state.name)] = report.result.count(state.value);
+  json["materials"] = Json::list();
+  for (const AssetMaterial& material : report.result.materials)
+    json["materials"].push_back(material_json(material));
+  for (const auto& [name, paths] :
+       {std::pair("images", &report.images), std::pair("copies", &report.copies)}) {
+    json[name] = Json::list();
+    for (const std::filesystem::path& path : *paths) json[name].push_back(path.string());
+  }
+  json["warnings"] = report.warnings;
+  json["failure"] = report.failure.empty() ? Json() : Json(report.failure);
+  json["seconds"] = rounded(report.seconds, 3);
+  return json;
+}
+
+}  // namespace remap

@@ -1,0 +1,31 @@
+// What `texremap convert` says of assets.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "assets/gltf_specgloss.hpp"
+#include "core/json.hpp"
+
+namespace remap {
+
+struct AssetReport {
+  std::filesystem::path input, output;
+  bool is_written = false;  // or would be, in a dry run
+  SpecGlossResult result;
+  std::vector<std::string> warnings;
+  std::vector<std::filesystem::path> copies, images;  // images: new ones in files of their own
+  std::string failure;                                // of the whole file; empty for none
+  double seconds = 0.0;
+
+  std::size_t failed_count() const { return result.count(MaterialState::kFailed); }
+  bool has_failed() const { return !failure.empty() || failed_count() > 0; }
+};
+
+// Prints warnings, failures and a summary to standard error; in a dry run each material, too.
+void print_asset(const AssetReport& report, bool dry_run, bool failures_only);
+
+Json asset_json(const AssetReport& report, bool dry_run);
+
+}  // namespace remap

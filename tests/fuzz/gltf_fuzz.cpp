@@ -1,0 +1,58 @@
+// Whole glTF files, text and binary, as `texremap convert` edits them. What comes out is read again, and has
+// nothing left to convert, unless a material failed.
+#include "assets/gltf_asset.hpp"
+#include "core/errors.hpp"
+#include "fuzz/fuzz.hpp"
+
+namespace {
+
+// Every image is four texels of its first bytes; there are no files.
+class FuzzResources final : public remap::AssetResources, public remap::ImageCodec {
+ public:
+  std::unique_ptr<remap::ByteSource> open(const std::string& path) const override {
+    throw remap::input_error(remap::plain(path) + ": is not there");
+  }
+  const remap::ImageCodec& codec() const override { return *this; }
+  remap::ImagePixels decode(std::string_view bytes, const std::string& place) const override {
+    if (bytes.size() < 16) throw remap::input_error(place + ": is no image");
+    remap::ImagePixels pixels{2, 2, static_cast<std::size_t>(bytes[0] & 3) + 1, remap::PixelType::kUint8, {}};
+    pixels.bytes.resize(4 * pixels.channels);
+    for (std::size_t i = 0; i < pixels.bytes.size(); ++i) pixels.bytes[i] = static_cast<std::byte>(bytes[i]);
+    return pixels;
+  }
+  remap::ImagePixels enlarged(const remap::ImagePixels& pixels, std::size_t, std::size_t) const override {
+    return pixels;
+  }
+  std::string encode_png(const remap::ImagePixels& pixels) const override {
+    return std::string(pixels.bytes.size(), 'x');
+  }
+};
+
+std::string written(const std::string& bytes, const remap::AssetConversion& conversion) {
+  std::string result;
+  for (const remap::AssetPiece& piece : conversion.pieces)
+    result += piece.bytes.empty() ? bytes.substr(piece.begin, piece.end - piece.begin) : piece.bytes;
+  return result;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes(remap::text_of(data, size));
+  const FuzzResources resources;
+  return remap::read_or_refuse([&] {
+    for (const remap::MaterialProfile profile :
+         {remap::MaterialProfile::kCore, remap::MaterialProfile::kExtensions}) {
+      const remap::SpecGlossOptions options{profile, remap::kCleanPrior, remap::InstructionSet::kBaseline,
+                                            true};
+      const remap::AssetConversion once =
+          remap::convert_asset(remap::MemorySource(bytes), "file", options, &resources);
+      // An index that named nothing may name a new texture.
+      if (!once.result.changed || once.result.count(remap::MaterialState::kFailed) > 0) continue;
+      const std::string again = written(bytes, once);
+      const remap::AssetConversion twice =
+          remap::convert_asset(remap::MemorySource(again), "file", options, &resources);
+      if (twice.result.changed) std::abort();
+    }
+  });
+}

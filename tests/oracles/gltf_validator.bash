@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Converts every public glTF file in both profiles, and compares what Khronos' validator (npm install gltf-validator) says of
+# each before and after: a conversion adds no error and no warning. Files that fail in part count as well.
+#
+# Usage: gltf_validator.bash TEXREMAP. NODE_PATH leads to the validator. Skipped (77) without node, the validator or the files.
+set -euo pipefail
+texremap=$(realpath "$1")
+source_folder=$(cd "$(dirname "$0")/../.." && pwd)
+assets=${REMAP_SHARED_DATA:-$source_folder/../shared/data}/assets
+
+skip() {
+  echo "skipped: $1: $2"
+  exit 77
+}
+[[ -d $assets ]] || skip shared-data "$assets is not there"
+command -v node >/dev/null || skip node "not installed"
+node -e 'require("gltf-validator")' 2>/dev/null || skip gltf-validator "not found in NODE_PATH (npm install gltf-validator)"
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cat >"$work/validate.js" <<'JS'
+const {validateBytes} = require('gltf-validator'), fs = require('fs'), path = require('path');
+const read = file => new Uint8Array(fs.readFileSync(file));
+// Counts of errors and warnings by their code.
+async function faults(file) {
+  const beside = uri => Promise.resolve(read(path.resolve(path.dirname(file), decodeURIComponent(uri))));
+  const report = await validateBytes(read(file), {uri: file, maxIssues: 0, externalResourceFunction: beside});
+  const counts = {};
+  for (const {severity, code} of report.issues.messages) if (severity < 2) counts[code] = (counts[code] || 0) + 1;
+  return counts;
+}
+(async () => {
+  const pairs = fs.readFileSync(process.argv[2], 'utf8').trim().split('\n').map(line => line.split('\t'));
+  let added = 0;
+  for (const [before, after] of pairs) {
+    const old = await faults(before), now = await faults(after);
+    for (const code in now)
+      if (now[code] > (old[code] || 0)) {
+        console.log(`${after}: ${code}: ${now[code]}, was ${old[code] || 0}`);
+        added += now[code] - (old[code] || 0);
+      }
+  }
+  console.log(`${pairs.length} files, ${added} new errors and warnings`);
+  process.exit(added > 0 ? 1 : 0);
+})();
+JS
+
+number=0
+while IFS= read -r file; do
+  for profile in core extensions; do
+    output=$work/$((++number))
+    "$texremap" convert "$file" --to gltf --profile "$profile" -o "$output" >/dev/null 2>&1 || true
+    if [[ -f $output/$(basename "$file") ]]; then printf '%s\t%s\n' "$file" "$output/$(basename "$file")" >>"$work/pairs"; fi
+  done
+done < <(find "$assets" -name '*.gltf' -o -name '*.glb' | sort)
+node "$work/validate.js" "$work/pairs"
