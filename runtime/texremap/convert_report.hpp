@@ -72,8 +72,8 @@ struct JobReport {
   std::vector<std::string> warnings;
   std::vector<PlannedRole> plan;  // of a dry run; of tiles, that of the first
   std::optional<std::string> failure;
-  int failure_code = 0;     // errno of the call that failed, or 0
-  bool was_done = false;    // by the earlier run that this one resumes
+  int failure_code = 0;                                    // errno of the call that failed, or 0
+  bool was_done = false;                                   // by the earlier run that this one resumes
   bool has_8_bits = false, has_compression_level = false;  // a result does
   MapStatistics statistics;
   double seconds = 0.0;           // sum over all tiles, even where tiles ran in parallel
