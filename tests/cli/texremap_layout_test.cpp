@@ -315,4 +315,11 @@ TEST_CASE("texremap: WebP is read, and written as PNG", "[needs]") {
   require_success(
       session.texremap("convert web --from mitsuba/ward --to mitsuba/as --specular 0.04 --quiet -o webout"));
   CHECK(session.image("webout/wood_Roughness.png").spec.width == kSize);
+  // OpenImageIO multiplies colors by alpha, and the loss of 8 bits cannot be taken back.
+  session.make("half.webp", test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
+               [](int x, int y, int c) { return c == 3 ? 0.5f : noise(x, y, c); });
+  const ProcessResult spoiled = session.texremap(
+      "convert --from mitsuba/ward --to mitsuba/as --roughness 0.3 --specular half.webp -o halfout");
+  CHECK(spoiled.exit_code == 1);
+  CHECK_THAT(spoiled.errors, Contains("half.webp: is WebP with alpha"));
 }

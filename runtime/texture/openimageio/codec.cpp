@@ -16,6 +16,8 @@ constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
 // Of zlib: half the time of the usual 6, and files a tenth larger.
 constexpr int kPngLevel = 3;
 
+constexpr auto kOpaque = decltype(ImagePixels::bytes)::value_type(255);
+
 // The extension of the formats that glTF files hold; empty for others.
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "png";
@@ -95,6 +97,9 @@ class AssetCodec final : public ImageCodec {
                            pixels.bytes.data()) ||
         input->has_error())
       refuse(input->geterror());
+    if (std::string_view(input->format_name()) == "webp" && pixels.channels == 4)
+      for (std::size_t i = 3; i < pixels.bytes.size(); i += 4)
+        if (pixels.bytes[i] != kOpaque) throw input_error(place + ": " + kSpoiledWebP);
     return pixels;
   }
 };

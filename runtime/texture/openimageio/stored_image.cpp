@@ -168,6 +168,7 @@ class OpenedImage : public StoredImage {
   const OIIO::ImageSpec& spec() const { return levels_[static_cast<std::size_t>(level_)]; }
   void open();
   void find_planes();
+  void refuse_spoiled_webp();
   [[noreturn]] void fail(const std::string& what, int system_code = 0) const;
   [[noreturn]] void fail_to_open() const;
 
@@ -215,6 +216,18 @@ void OpenedImage::open() {
   if (!tells_color_space(spec(), input_->format_name(), chunks))
     for (OIIO::ImageSpec& level_spec : levels_) level_spec.erase_attribute("oiio:ColorSpace");
   layout_ = layout_of(spec(), input_->format_name(), path_);
+  refuse_spoiled_webp();
+}
+
+void OpenedImage::refuse_spoiled_webp() {
+  if (layout_.format != "webp" || layout_.alpha_channel < 0) return;
+  std::vector<std::byte> row(layout_.row_bytes());
+  const auto alpha = layout_.channels[static_cast<std::size_t>(layout_.alpha_channel)].offset;
+  for (int y = 0; y < layout_.height; ++y) {
+    read_rows(y, 1, row.data());
+    for (std::size_t i = alpha; i < row.size(); i += layout_.texel_bytes)
+      if (row[i] != std::byte{255}) fail(kSpoiledWebP);
+  }
 }
 
 void OpenedImage::find_planes() {
