@@ -1,5 +1,6 @@
 // Journals of output folders.
 #include <fstream>
+#include <optional>
 #include <unistd.h>
 
 #include "core/files.hpp"
@@ -14,7 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::ofstream(folder / remap::kJournalName, std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   return remap::read_or_refuse([&] {
-    const remap::Journal journal(folder, {"mitsuba/ward", "mitsuba/as", "1f", {{"version", "0.1.0"}}});
+    const remap::Journal journal(folder, {"mitsuba/ward", "mitsuba/as", "1f", {{"version", "0.1.0"}}},
+                                 std::nullopt);
     (void)journal.is_own(map);
     (void)journal.is_done("2e", {map});
     (void)remap::JournalLookup().target_of(map);
