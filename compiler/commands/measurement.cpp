@@ -10,6 +10,7 @@
 #include "commands/table_input.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "table/table_file.hpp"
 
 namespace remap {
@@ -23,7 +24,7 @@ std::string pictures_text(const PictureCount& pictures) {
   const std::size_t lost = pictures.lost_workers;
   return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
          std::to_string(pictures.cached) + " from the cache" +
-         (lost == 0 ? "" : ", " + std::to_string(lost) + (lost == 1 ? " worker lost" : " workers lost"));
+         (lost == 0 ? "" : ", " + counted(lost, "worker") + " lost");
 }
 
 // Adds the options that choose which parameters of a model are roughness, specular and diffuse.

@@ -70,13 +70,11 @@ class ViewCheck {
 
  private:
   std::vector<std::string> check_chunk() const {
-    if (container_.chunks.empty() || container_.chunks.front().type != kBinaryChunk || lengths_.empty())
-      return {};
+    const GlbChunk* const chunk = container_.binary_chunk();
+    if (chunk == nullptr || lengths_.empty()) return {};
     const std::vector<SpanValue> buffers = root_["buffers"].entries();
     if (buffers.front()["uri"]) return {};
-    constexpr std::uint64_t kHeader = 8;
-    const std::uint64_t size = container_.chunks.front().end - container_.chunks.front().begin - kHeader;
-    const std::uint64_t length = lengths_.front();
+    const std::uint64_t size = chunk->content_size(), length = lengths_.front();
     if (length > size)
       throw input_error(place_ + ": /buffers/0 has " + std::to_string(length) +
                         " bytes, but the binary chunk has " + std::to_string(size));

@@ -10,7 +10,7 @@ namespace remap {
 namespace {
 
 constexpr std::string_view kMagic = "glTF";
-constexpr std::uint64_t kHeaderSize = 12, kChunkHeaderSize = 8;
+constexpr std::uint64_t kHeaderSize = 12;
 
 // Containers are little-endian.
 std::uint32_t number_in(std::string_view bytes, std::size_t at) {
@@ -106,12 +106,12 @@ namespace {
 
 // The binary chunk with more bytes.
 void add_longer_chunk(const GlbChunk& chunk, const std::string& appended, std::vector<AssetPiece>& pieces) {
-  const std::uint64_t size = chunk.end - chunk.begin - kChunkHeaderSize;
+  const std::uint64_t size = chunk.content_size();
   const std::string gap((4 - size % 4) % 4, '\0'), end((4 - appended.size() % 4) % 4, '\0');
   // A length of more than 32 bits is refused with the whole file.
   const auto length = static_cast<std::uint32_t>(size + gap.size() + appended.size() + end.size());
   pieces.push_back({bytes_of(length) + bytes_of(chunk.type), 0, 0});
-  pieces.push_back({"", chunk.begin + kChunkHeaderSize, chunk.end});
+  pieces.push_back({"", chunk.content_begin(), chunk.end});
   pieces.push_back({gap + appended + end, 0, 0});
 }
 

@@ -34,10 +34,15 @@ class MemorySource final : public ByteSource {
 
 inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;  // "JSON", "BIN\0"
 
-// A chunk after the JSON. The range holds its header of 8 bytes.
+inline constexpr std::uint64_t kChunkHeaderSize = 8;
+
+// A chunk after the JSON. The range holds its header.
 struct GlbChunk {
   std::uint32_t type = 0;
   std::uint64_t begin = 0, end = 0;
+
+  std::uint64_t content_begin() const noexcept { return begin + kChunkHeaderSize; }
+  std::uint64_t content_size() const noexcept { return end - content_begin(); }
 };
 
 struct GltfContainer {
@@ -45,6 +50,11 @@ struct GltfContainer {
   bool is_binary = false;
   std::vector<GlbChunk> chunks;    // after the JSON, in order
   std::vector<std::string> notes;  // what is unusual, and read nevertheless
+
+  // The chunk of buffer 0; null without one.
+  const GlbChunk* binary_chunk() const noexcept {
+    return chunks.empty() || chunks.front().type != kBinaryChunk ? nullptr : &chunks.front();
+  }
 };
 
 // A part of a result: its own bytes, or where there are none a range of the source.

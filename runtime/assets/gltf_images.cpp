@@ -155,10 +155,7 @@ std::string GltfImages::bytes_of_uri(const std::string& uri) const {
   }
 }
 
-std::uint64_t GltfImages::chunk_size() const {
-  constexpr std::uint64_t kHeader = 8;
-  return container_.chunks.front().end - container_.chunks.front().begin - kHeader;
-}
+std::uint64_t GltfImages::chunk_size() const { return container_.binary_chunk()->content_size(); }
 
 // The view lies in its buffer, which was checked; of an external buffer the file is compared.
 std::string GltfImages::bytes_of_view(std::size_t index) const {
@@ -182,10 +179,11 @@ std::string GltfImages::bytes_of_view(std::size_t index) const {
     require_within(bytes.size());
     return bytes.substr(offset, length);
   }
-  if (buffer_index != 0 || container_.chunks.empty() || container_.chunks.front().type != kBinaryChunk)
+  const GlbChunk* const chunk = container_.binary_chunk();
+  if (buffer_index != 0 || chunk == nullptr)
     throw input_error("buffer " + std::to_string(buffer_index) + " has no bytes");
-  require_within(chunk_size());
-  return source_.read(container_.chunks.front().begin + 8 + offset, length);
+  require_within(chunk->content_size());
+  return source_.read(chunk->content_begin() + offset, length);
 }
 
 bool GltfImages::wraps_alike(std::size_t texture, std::size_t other) const {
@@ -201,8 +199,7 @@ bool GltfImages::wraps_alike(std::size_t texture, std::size_t other) const {
 bool GltfImages::is_in_chunk(SpanValue image) const {
   const std::optional<std::size_t> view = image["bufferView"].whole();
   return view && *view < views_.size() && views_[*view]["buffer"].whole() == std::size_t{0} &&
-         !buffers_.empty() && !buffers_.front()["uri"] && !container_.chunks.empty() &&
-         container_.chunks.front().type == kBinaryChunk;
+         !buffers_.empty() && !buffers_.front()["uri"] && container_.binary_chunk() != nullptr;
 }
 
 // `a/wood_baseColor.png` of `a/wood.jpg`, with a number where that is taken.

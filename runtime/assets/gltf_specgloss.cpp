@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
+#include "core/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -344,7 +345,7 @@ class SpecGlossEditor {
     for (const Planned& planned : materials_)
       if (const std::size_t count = counts[planned.index]; count > 0 && planned.texts->has_metal)
         result_.materials[planned.index].warnings.push_back(
-            "vertex colors of " + std::to_string(count) + (count == 1 ? " primitive" : " primitives") +
+            "vertex colors of " + counted(count, "primitive") +
             " tinted its diffuse color and now tint its reflection, too");
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "remap/convert_maps.hpp"
@@ -13,16 +14,13 @@ namespace {
 
 constexpr float kStep = 1.0f / 255.0f;
 
-ConstChannelView channel_of_pixels(const ImagePixels& pixels, std::size_t channel) {
+// Of constant pixels one to read, of others one to write.
+template <typename Pixels>
+auto channel_of_pixels(Pixels& pixels, std::size_t channel) {
   const auto texel = static_cast<std::ptrdiff_t>(pixels.texel_bytes());
-  return {pixels.bytes.data() + channel * byte_count(pixels.type), pixels.type, texel,
-          texel * static_cast<std::ptrdiff_t>(pixels.width)};
-}
-
-ChannelView channel_of_pixels(ImagePixels& pixels, std::size_t channel) {
-  const auto texel = static_cast<std::ptrdiff_t>(pixels.texel_bytes());
-  return {pixels.bytes.data() + channel * byte_count(pixels.type), pixels.type, texel,
-          texel * static_cast<std::ptrdiff_t>(pixels.width)};
+  using Byte = std::remove_pointer_t<decltype(pixels.bytes.data())>;
+  return BasicChannelView<Byte>{pixels.bytes.data() + channel * byte_count(pixels.type), pixels.type, texel,
+                                texel * static_cast<std::ptrdiff_t>(pixels.width)};
 }
 
 // Every value is the largest.

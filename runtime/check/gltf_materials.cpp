@@ -70,11 +70,8 @@ GltfFile read_gltf(const fs::path& file) {
   const std::string bytes = read_file(file, kLargestAsset);
   GltfContainer container = read_container(MemorySource(bytes), shown(file));
   GltfFile parts{std::move(container.json), {}};
-  constexpr std::uint64_t kChunkHeader = 8;
-  if (!container.chunks.empty() && container.chunks.front().type == kBinaryChunk) {
-    const GlbChunk& chunk = container.chunks.front();
-    parts.binary = bytes.substr(chunk.begin + kChunkHeader, chunk.end - chunk.begin - kChunkHeader);
-  }
+  if (const GlbChunk* const chunk = container.binary_chunk())
+    parts.binary = bytes.substr(chunk->content_begin(), chunk->content_size());
   return parts;
 }
 

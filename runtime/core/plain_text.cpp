@@ -95,6 +95,12 @@ std::vector<std::string> parts_between(std::string_view text, char separator) {
   return parts;
 }
 
+std::string percent_code(char byte) {
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  const auto code = static_cast<unsigned char>(byte);
+  return {'%', kDigits[code >> 4], kDigits[code & 15]};
+}
+
 std::string shell_word(const std::string& text) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||

@@ -23,6 +23,9 @@ std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
 // The parts of `text` between separators; one more than there are separators, so parts may be empty.
 std::vector<std::string> parts_between(std::string_view text, char separator);
 
+// `%2F`, as URIs write a byte.
+std::string percent_code(char byte);
+
 // `text` as one word of the shell, in quotes where it needs them.
 std::string shell_word(const std::string& text);
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <fcntl.h>
-#include <memory>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -17,22 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kCopiedAtOnce = std::uint64_t{1} << 20;
-
-struct CloseWritten {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using WrittenFile = std::unique_ptr<std::FILE, CloseWritten>;
-
-bool put(std::FILE* file, const std::string& bytes) {
-  return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-}
-
-bool put(std::FILE* file, const AssetPiece& piece, const ByteSource& source) {
-  if (!piece.bytes.empty()) return put(file, piece.bytes);
-  for (std::uint64_t at = piece.begin; at < piece.end; at += kCopiedAtOnce)
-    if (!put(file, source.read(at, std::min(kCopiedAtOnce, piece.end - at)))) return false;
-  return true;
-}
 
 bool are_same_files(const fs::path& a, const fs::path& b) {
   const FileSource first(a), second(b);
@@ -84,26 +66,13 @@ bool have_same_bytes(const fs::path& file, std::string_view bytes) {
 }
 
 void write_pieces(const fs::path& path, const std::vector<AssetPiece>& pieces, const ByteSource& source) {
-  create_parent(path);
-  const fs::path unfinished = unfinished_name(path);
-  const auto fail = [&] {
-    const int code = errno;
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    throw system_error(ErrorKind::kOutput, path.string() + ": cannot be written", code);
-  };
-  WrittenFile file(std::fopen(unfinished.c_str(), "wb"));
-  if (file == nullptr) fail();
-  try {
-    for (const AssetPiece& piece : pieces)
-      if (!put(file.get(), piece, source)) fail();
-  } catch (const Error&) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    throw;
+  NewFile file(path);
+  for (const AssetPiece& piece : pieces) {
+    file.add(piece.bytes);
+    for (std::uint64_t at = piece.begin; at < piece.end; at += kCopiedAtOnce)
+      file.add(source.read(at, std::min(kCopiedAtOnce, piece.end - at)));
   }
-  if (std::fclose(file.release()) != 0) fail();
-  commit_file(unfinished, path);
+  file.commit();
 }
 
 ResourcePlan plan_resources(const fs::path& input, const fs::path& output,

@@ -374,11 +374,11 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   std::vector<TargetMap> targets = open_targets(set, plan);
   note_doubts(set, targets, report);
   note_colors(set, targets, report);
-  for (const TargetMap& target : targets)
-    for (const Channel& channel : target.writer->layout().channels)
-      report.has_8_bits = report.has_8_bits || channel.type == PixelType::kUint8;
-  for (const TargetMap& target : targets)
-    report.has_compression_level |= target.writer->layout().has_compression_level;
+  for (const TargetMap& target : targets) {
+    const ImageLayout& layout = target.writer->layout();
+    report.has_compression_level |= layout.has_compression_level;
+    for (const Channel& channel : layout.channels) report.has_8_bits |= channel.type == PixelType::kUint8;
+  }
   if (!is_tree_) require_effect(options_, report);
   PassOptions pass = pass_;
   pass.target_convention = width;

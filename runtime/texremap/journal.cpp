@@ -35,15 +35,12 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
   const auto absolute = [](const fs::path& name) { return fs::absolute(name).lexically_normal(); };
   const std::string name = absolute(path).lexically_relative(absolute(folder)).generic_string();
   if (is_utf8(name)) return name;
-  constexpr const char* kDigits = "0123456789ABCDEF";
   std::string escaped;
-  for (const char letter : name) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if (byte < 0x80)
+  for (const char letter : name)
+    if (static_cast<unsigned char>(letter) < 0x80)
       escaped += letter;
     else
-      escaped += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
-  }
+      escaped += percent_code(letter);
   return escaped;
 }
 

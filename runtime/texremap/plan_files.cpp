@@ -108,8 +108,7 @@ std::string file_uri(const std::filesystem::path& path) {
     if (kPlain.find(c) != std::string_view::npos)
       uri += c;
     else
-      uri += std::string("%") + "0123456789ABCDEF"[static_cast<unsigned char>(c) / 16] +
-             "0123456789ABCDEF"[static_cast<unsigned char>(c) % 16];
+      uri += percent_code(c);
   return uri;
 }
 
