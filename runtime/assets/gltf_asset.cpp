@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "assets/gltf_container.hpp"
+#include "assets/gltf_specgloss.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 
@@ -105,22 +107,20 @@ class ViewCheck {
 
 }  // namespace
 
-AssetConversion convert_asset(const ByteSource& source, const std::string& place,
-                              const SpecGlossOptions& options, const AssetResources* resources) {
+AssetConversion convert_gltf(const ByteSource& source, const std::string& place, const AssetOptions& options,
+                             const AssetResources* resources) {
   const GltfContainer container = read_container(source, place);
   const SpannedJson json(container.json, place);
-  AssetConversion conversion;
-  conversion.warnings = container.notes;
-  for (const std::string& warning : ViewCheck(json, container, place).run())
-    conversion.warnings.push_back(warning);
+  std::vector<std::string> warnings = container.notes;
+  for (const std::string& warning : ViewCheck(json, container, place).run()) warnings.push_back(warning);
   std::optional<AssetParts> parts;
   if (resources != nullptr) parts.emplace(AssetParts{container, source, *resources});
-  conversion.result = convert_specgloss(json, place, options, parts ? &*parts : nullptr);
-  for (const std::string& warning : conversion.result.warnings) conversion.warnings.push_back(warning);
+  SpecGlossResult result = convert_specgloss(json, place, options, parts ? &*parts : nullptr);
+  AssetConversion& conversion = result.asset;
+  conversion.warnings.insert(conversion.warnings.begin(), warnings.begin(), warnings.end());
   conversion.resources = resources_of(json);
-  if (conversion.result.changed)
-    conversion.pieces = with_json(container, conversion.result.json, conversion.result.appended, place);
-  return conversion;
+  if (conversion.changed) conversion.pieces = with_json(container, conversion.text, result.appended, place);
+  return std::move(conversion);
 }
 
 }  // namespace remap

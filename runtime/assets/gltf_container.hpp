@@ -8,29 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "assets/asset.hpp"
+
 namespace remap {
-
-// Bytes that are read where they are needed: of a file or of memory.
-class ByteSource {
- public:
-  virtual ~ByteSource() = default;
-  virtual std::uint64_t size() const = 0;
-  // `count` bytes from `begin`, which lie within size(). Throws kInput where they cannot be read.
-  virtual std::string read(std::uint64_t begin, std::size_t count) const = 0;
-};
-
-// `bytes` must outlive it.
-class MemorySource final : public ByteSource {
- public:
-  explicit MemorySource(std::string_view bytes) : bytes_(bytes) {}
-  std::uint64_t size() const override { return bytes_.size(); }
-  std::string read(std::uint64_t begin, std::size_t count) const override {
-    return std::string(bytes_.substr(begin, count));
-  }
-
- private:
-  std::string_view bytes_;
-};
 
 inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;  // "JSON", "BIN\0"
 
@@ -55,12 +35,6 @@ struct GltfContainer {
   const GlbChunk* binary_chunk() const noexcept {
     return chunks.empty() || chunks.front().type != kBinaryChunk ? nullptr : &chunks.front();
   }
-};
-
-// A part of a result: its own bytes, or where there are none a range of the source.
-struct AssetPiece {
-  std::string bytes;
-  std::uint64_t begin = 0, end = 0;
 };
 
 // Reads a file of either form. Every length is compared with the file before anything is allocated. Throws

@@ -19,24 +19,6 @@
 
 namespace remap {
 
-// Files beside an asset, and what its images need.
-class AssetResources {
- public:
-  virtual ~AssetResources() = default;
-  // A file by its path relative to the asset, which does not lead out of its folder. Throws kInput.
-  virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
-  virtual const ImageCodec& codec() const = 0;
-  // The image at a size that is at least its own in both directions: bilinear, in linear light, with all
-  // channels but alpha in sRGB.
-  virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
-};
-
-// A new file beside the result.
-struct NewResource {
-  std::string path;  // relative
-  std::string bytes;
-};
-
 // A decoded image, and where it comes from.
 struct AssetImage {
   std::size_t texture = 0, image = 0;  // indices

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "assets/gltf_images.hpp"
+#include "assets/specgloss_factors.hpp"
 #include "assets/specgloss_material.hpp"
 #include "assets/specgloss_textures.hpp"
 #include "assets/text_edits.hpp"
@@ -196,10 +198,18 @@ std::optional<std::size_t> pointed_material(std::string_view pointer) {
   return index;
 }
 
+std::vector<MaterialFactor> factors_of(const MetalRoughFactors& result) {
+  std::vector<MaterialFactor> factors = {{"base_color", {}},
+                                         {"metallic", {decimal_value(result.metallic)}},
+                                         {"roughness", {decimal_value(result.roughness)}}};
+  for (const float value : result.base_color) factors.front().values.push_back(decimal_value(value));
+  return factors;
+}
+
 class SpecGlossEditor {
  public:
   // `asset` may be null: then no material with textures is converted.
-  SpecGlossEditor(const SpannedJson& json, const std::string& place, const SpecGlossOptions& options,
+  SpecGlossEditor(const SpannedJson& json, const std::string& place, const AssetOptions& options,
                   const AssetParts* asset)
       : json_(json), root_(json.root()), place_(place), options_(options), edits_(json) {
     if (asset == nullptr) return;
@@ -216,17 +226,17 @@ class SpecGlossEditor {
     if (!materials_.empty()) {
       convert_factors();
       count_colored();
-      for (Planned& planned : materials_) write(planned, result_.materials[planned.index]);
+      for (Planned& planned : materials_) write(planned, result_.asset.materials[planned.index]);
       update_extension_lists();
     }
     if (images_) {
       images_->finish();
       result_.appended = images_->appended();
-      result_.files = std::move(images_->files());
+      result_.asset.files = std::move(images_->files());
     }
-    result_.changed = !edits_.empty();
-    result_.touched = edits_.touched();
-    result_.json = edits_.result();
+    result_.asset.changed = !edits_.empty();
+    result_.asset.touched = edits_.touched();
+    result_.asset.text = edits_.result();
     return std::move(result_);
   }
 
@@ -246,7 +256,7 @@ class SpecGlossEditor {
       throw input_error(place_ + ": is glTF " + plain(*text, 20) + "; version 2 is read");
     for (const SpanValue& entry : root_["extensionsRequired"].children())
       if (const std::string name = entry.text().value_or(""); !is_known(name))
-        result_.warnings.push_back(
+        result_.asset.warnings.push_back(
             "requires " + plain(name) +
             ", which is unknown here: it is kept, and its meaning for materials is not");
   }
@@ -265,9 +275,9 @@ class SpecGlossEditor {
   }
 
   void read_materials(const std::vector<SpanValue>& all) {
-    result_.materials.resize(all.size());
+    result_.asset.materials.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-      AssetMaterial& report = result_.materials[i];
+      AssetMaterial& report = result_.asset.materials[i];
       report.index = i;
       report.name = all[i]["name"].text().value_or("");
       if (!all[i]["extensions"][kSpecGlossExtension]) continue;
@@ -330,21 +340,20 @@ class SpecGlossEditor {
       planned[i]->texts = core_texts(read, results[i], keeps_diffuse(read));
       if (read.is_unlit && read.diffuse_texture)
         planned[i]->texts->base_texture = std::string(read.diffuse_texture.raw());
-      AssetMaterial& report = result_.materials[planned[i]->index];
-      report.source = sources[i];
-      report.result = results[i];
+      AssetMaterial& report = result_.asset.materials[planned[i]->index];
+      report.factors = factors_of(results[i]);
     }
   }
 
   // COLOR_0 multiplies diffuse alone before, and of a metal its reflectance after.
   void count_colored() {
-    std::vector<std::size_t> counts(result_.materials.size());
+    std::vector<std::size_t> counts(result_.asset.materials.size());
     for (const SpanValue& mesh : root_["meshes"].children())
       for (const SpanValue& primitive : mesh["primitives"].children())
         if (primitive["attributes"]["COLOR_0"]) count_uses(primitive, counts);
     for (const Planned& planned : materials_)
       if (const std::size_t count = counts[planned.index]; count > 0 && planned.texts->has_metal)
-        result_.materials[planned.index].warnings.push_back(
+        result_.asset.materials[planned.index].warnings.push_back(
             "vertex colors of " + counted(count, "primitive") +
             " tinted its diffuse color and now tint its reflection, too");
   }
@@ -491,7 +500,7 @@ class SpecGlossEditor {
   const SpannedJson& json_;
   SpanValue root_;
   const std::string& place_;
-  const SpecGlossOptions& options_;
+  const AssetOptions& options_;
   TextEdits edits_;
   SpecGlossResult result_;
   std::optional<GltfImages> images_;
@@ -504,16 +513,8 @@ class SpecGlossEditor {
 
 }  // namespace
 
-std::string AssetMaterial::title() const {
-  return "material " + std::to_string(index) + (name.empty() ? "" : " \"" + plain(name, 80) + "\"");
-}
-
-std::size_t SpecGlossResult::count(MaterialState state) const {
-  return static_cast<std::size_t>(std::ranges::count(materials, state, &AssetMaterial::state));
-}
-
 SpecGlossResult convert_specgloss(const SpannedJson& json, const std::string& place,
-                                  const SpecGlossOptions& options, const AssetParts* asset) {
+                                  const AssetOptions& options, const AssetParts* asset) {
   return SpecGlossEditor(json, place, options, asset).result();
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/gltf_asset.hpp"
+#include "assets/asset.hpp"
 #include "core/open_file.hpp"
 
 namespace remap {

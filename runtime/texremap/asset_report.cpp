@@ -33,8 +33,8 @@ void print_material(const AssetMaterial& material, const std::string& place, boo
 }
 
 std::string outcome_text(const AssetReport& report, bool dry_run) {
-  const std::size_t converted = report.result.count(MaterialState::kConverted),
-                    untouched = report.result.count(MaterialState::kUntouched);
+  const std::size_t converted = report.count(MaterialState::kConverted),
+                    untouched = report.count(MaterialState::kUntouched);
   const std::string verb = dry_run ? "would be " : "";
   std::string text;
   if (converted == 0 && report.failed_count() == 0)
@@ -61,13 +61,10 @@ Json material_json(const AssetMaterial& material) {
     json["becomes"] = material.becomes;
     json["expected_error"] = rounded(kPictureOfResidual * material.residual, 3);
   }
-  if (material.result) {
-    const auto value = [](float number) { return decimal_value(number); };
-    const MetalRoughFactors& result = *material.result;
-    json["base_color"] =
-        Json::list({value(result.base_color[0]), value(result.base_color[1]), value(result.base_color[2])});
-    json["metallic"] = value(result.metallic);
-    json["roughness"] = value(result.roughness);
+  for (const MaterialFactor& factor : material.factors) {
+    Json values = Json::list();
+    for (const double value : factor.values) values.push_back(value);
+    json[factor.name] = factor.values.size() == 1 ? Json(factor.values.front()) : values;
   }
   json["warnings"] = material.warnings;
   json["failure"] = material.failure.empty() ? Json() : Json(material.failure);
@@ -81,7 +78,7 @@ void print_asset(const AssetReport& report, bool dry_run, bool failures_only) {
   if (!failures_only)
     for (const std::string& warning : report.warnings) print_message(kProgram, "warning: " + place + warning);
   if (!report.failure.empty()) return print_message(kProgram, "failed: " + report.failure);
-  for (const AssetMaterial& material : report.result.materials)
+  for (const AssetMaterial& material : report.materials)
     print_material(material, place, dry_run, failures_only);
   if (!failures_only) print_message(kProgram, place + outcome_text(report, dry_run));
 }
@@ -90,10 +87,9 @@ Json asset_json(const AssetReport& report, bool dry_run) {
   Json json = {{"asset", report.input.string()},
                {"output", report.is_written ? Json(report.output.string()) : Json()},
                {"dry_run", dry_run}};
-  for (const auto& state : kMaterialStates) json[std::string(state.name)] = report.result.count(state.value);
+  for (const auto& state : kMaterialStates) json[std::string(state.name)] = report.count(state.value);
   json["materials"] = Json::list();
-  for (const AssetMaterial& material : report.result.materials)
-    json["materials"].push_back(material_json(material));
+  for (const AssetMaterial& material : report.materials) json["materials"].push_back(material_json(material));
   for (const auto& [name, paths] :
        {std::pair("images", &report.images), std::pair("copies", &report.copies)}) {
     json[name] = Json::list();

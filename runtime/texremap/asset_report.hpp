@@ -1,11 +1,12 @@
 // What `texremap convert` says of assets.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "assets/gltf_specgloss.hpp"
+#include "assets/asset.hpp"
 #include "core/json.hpp"
 
 namespace remap {
@@ -13,13 +14,16 @@ namespace remap {
 struct AssetReport {
   std::filesystem::path input, output;
   bool is_written = false;  // or would be, in a dry run
-  SpecGlossResult result;
+  std::vector<AssetMaterial> materials;
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> copies, images;  // images: new ones in files of their own
   std::string failure;                                // of the whole file; empty for none
   double seconds = 0.0;
 
-  std::size_t failed_count() const { return result.count(MaterialState::kFailed); }
+  std::size_t count(MaterialState state) const {
+    return static_cast<std::size_t>(std::ranges::count(materials, state, &AssetMaterial::state));
+  }
+  std::size_t failed_count() const { return count(MaterialState::kFailed); }
   bool has_failed() const { return !failure.empty() || failed_count() > 0; }
 };
 

@@ -100,16 +100,16 @@ class AssetConverter {
     require_free(job, options_.force);
     const FileSource source(job.input);
     const FolderResources files(folder_of_asset(job.input));
-    const AssetConversion conversion = convert_asset(source, shown(job.input), conversion_, &files);
-    report.result = conversion.result;
+    const AssetConversion conversion = convert_gltf(source, shown(job.input), conversion_, &files);
+    report.materials = conversion.materials;
     report.warnings = conversion.warnings;
     const ResourcePlan plan = plan_resources(job.input, job.output, conversion.resources, options_.force);
     report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
     // A file of which nothing was converted and something failed would be taken for a result.
-    report.is_written = conversion.result.changed || report.failed_count() == 0;
+    report.is_written = conversion.changed || report.failed_count() == 0;
     if (report.is_written)
       for (const ResourceCopy& copy : plan.copies) report.copies.push_back(copy.to);
-    for (const NewResource& file : conversion.result.files) report.images.push_back(free_place(job, file));
+    for (const NewResource& file : conversion.files) report.images.push_back(free_place(job, file));
     if (report.is_written && !options_.dry_run) write(job, source, conversion, plan);
     report.seconds = stopwatch.seconds();
   }
@@ -135,16 +135,16 @@ class AssetConverter {
       create_parent(copy.to);
       copy_whole_file(copy.from, copy.to);
     }
-    for (const NewResource& file : conversion.result.files)
+    for (const NewResource& file : conversion.files)
       write_file(folder_of_asset(job.output) / file.path, file.bytes);
-    if (conversion.result.changed)
+    if (conversion.changed)
       write_pieces(job.output, conversion.pieces, source);
     else if (!same_file(job.input, job.output))
       write_pieces(job.output, {{"", 0, source.size()}}, source);
   }
 
   const ConvertOptions& options_;
-  SpecGlossOptions conversion_;
+  AssetOptions conversion_;
   std::set<fs::path> written_;  // new images
 };
 
@@ -159,10 +159,9 @@ void require_success(const std::vector<AssetReport>& reports) {
   if (reports.size() > 1)
     throw input_error(std::to_string(failed) + " of " + std::to_string(reports.size()) + " assets failed");
   const AssetReport& report = reports.front();
-  throw input_error(
-      shown(report.input) + ": " + std::to_string(report.failed_count()) + " of " +
-      std::to_string(report.result.materials.size() - report.result.count(MaterialState::kUntouched)) +
-      " spec-gloss materials failed");
+  throw input_error(shown(report.input) + ": " + std::to_string(report.failed_count()) + " of " +
+                    std::to_string(report.materials.size() - report.count(MaterialState::kUntouched)) +
+                    " spec-gloss materials failed");
 }
 
 void convert_assets(const ConvertOptions& options) {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "assets/gltf_specgloss.hpp"
+#include "assets/asset.hpp"
 #include "command_line/command.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"

@@ -43,16 +43,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return remap::read_or_refuse([&] {
     for (const remap::MaterialProfile profile :
          {remap::MaterialProfile::kCore, remap::MaterialProfile::kExtensions}) {
-      const remap::SpecGlossOptions options{profile, remap::kCleanPrior, remap::InstructionSet::kBaseline,
-                                            true};
+      const remap::AssetOptions options{profile, remap::kCleanPrior, remap::InstructionSet::kBaseline, true};
       const remap::AssetConversion once =
-          remap::convert_asset(remap::MemorySource(bytes), "file", options, &resources);
+          remap::convert_gltf(remap::MemorySource(bytes), "file", options, &resources);
       // An index that named nothing may name a new texture.
-      if (!once.result.changed || once.result.count(remap::MaterialState::kFailed) > 0) continue;
+      if (!once.changed || once.count(remap::MaterialState::kFailed) > 0) continue;
       const std::string again = written(bytes, once);
       const remap::AssetConversion twice =
-          remap::convert_asset(remap::MemorySource(again), "file", options, &resources);
-      if (twice.result.changed) std::abort();
+          remap::convert_gltf(remap::MemorySource(again), "file", options, &resources);
+      if (twice.changed) std::abort();
     }
   });
 }

@@ -16,13 +16,13 @@ using namespace remap;
 
 namespace {
 
-SpecGlossResult result_of(const std::string& text, const SpecGlossOptions& options = {}) {
-  return convert_asset(MemorySource(text), "file", options).result;
+AssetConversion result_of(const std::string& text, const AssetOptions& options = {}) {
+  return convert_gltf(MemorySource(text), "file", options);
 }
 
 std::string asset_failure(const std::string& bytes) {
   try {
-    (void)convert_asset(MemorySource(bytes), "a.glb");
+    (void)convert_gltf(MemorySource(bytes), "a.glb");
   } catch (const Error& error) {
     return error.what();
   }
@@ -30,13 +30,12 @@ std::string asset_failure(const std::string& bytes) {
 }
 
 // The text of the only material after a conversion.
-std::string material_of(const std::string& text, const SpecGlossOptions& options = {}) {
+std::string material_of(const std::string& text, const AssetOptions& options = {}) {
   const std::string json = converted_bytes(text, options);
   return std::string(SpannedJson(json, "file").root()["materials"].children().at(0).raw());
 }
 
-constexpr SpecGlossOptions kExact = {MaterialProfile::kExtensions, kCleanPrior, InstructionSet::kBaseline,
-                                     false};
+constexpr AssetOptions kExact = {MaterialProfile::kExtensions, kCleanPrior, InstructionSet::kBaseline, false};
 
 }  // namespace
 
@@ -61,7 +60,7 @@ TEST_CASE("The exact form uses an index of 0", "[assets]") {
       R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_specular","KHR_materials_ior"],"materials":)"
       R"([{"extensions":{"KHR_materials_specular":{"specularColorFactor":[0.5,0.25,0.1]},"KHR_materials_ior":{"ior":0}},)"
       R"("pbrMetallicRoughness":{"baseColorFactor":[0.2,0.3,0.4,1],"metallicFactor":0,"roughnessFactor":0}}]})");
-  const SpecGlossResult taken = result_of(specgloss_text("{},\"KHR_materials_ior\":{}"), kExact);
+  const AssetConversion taken = result_of(specgloss_text("{},\"KHR_materials_ior\":{}"), kExact);
   CHECK(taken.materials[0].failure ==
         "has KHR_materials_ior already, which the exact form needs (use --profile core)");
 }
@@ -73,7 +72,7 @@ TEST_CASE("The fallback goes, and what else it holds stays", "[assets]") {
   CHECK(
       material_of(text) ==
       R"({"pbrMetallicRoughness": {"extras": {"both": 1,"sg": 1}, "metallicFactor": 0, "baseColorFactor": [1,1,1,1], "roughnessFactor": 0}})");
-  const SpecGlossResult result = result_of(text);
+  const AssetConversion result = result_of(text);
   CHECK(result.materials[0].warnings ==
         std::vector<std::string>{"loses extras.both of KHR_materials_pbrSpecularGlossiness, because that of "
                                  "pbrMetallicRoughness stays"});
@@ -123,12 +122,12 @@ TEST_CASE("A failed material keeps the extension in its lists", "[assets]") {
       R"(["A","KHR_materials_pbrSpecularGlossiness"],"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{}}},)"
       R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{}}}],"animations":[{"channels":[{"target":{"extensions":)"
       R"({"KHR_animation_pointer":{"pointer":"/materials/1/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor"}}}}]}]})";
-  const SpecGlossResult result = result_of(text);
+  const AssetConversion result = result_of(text);
   CHECK(result.count(MaterialState::kConverted) == 1);
   CHECK(
       result.materials[1].failure ==
       "an animation changes it by KHR_animation_pointer, which would lose its target (remove that channel)");
-  CHECK(result.json.find(R"("extensionsRequired":["A","KHR_materials_pbrSpecularGlossiness"])") !=
+  CHECK(result.text.find(R"("extensionsRequired":["A","KHR_materials_pbrSpecularGlossiness"])") !=
         std::string::npos);
   CHECK(result.warnings ==
         std::vector<std::string>{"requires A, which is unknown here: it is kept, and its meaning for "
@@ -139,7 +138,7 @@ TEST_CASE("A file without spec-gloss is left alone", "[assets]") {
   const std::string text =
       R"({"asset":{"version":"2.0"}, "materials":[{"x": 1.0e+2}],"extensionsUsed":["KHR_materials_pbrSpecularGlossiness"]})";
   CHECK_FALSE(result_of(text).changed);
-  CHECK(convert_asset(MemorySource(text), "file").pieces.empty());
+  CHECK(convert_gltf(MemorySource(text), "file").pieces.empty());
 }
 
 TEST_CASE("Containers keep their chunks", "[assets]") {
@@ -148,7 +147,7 @@ TEST_CASE("Containers keep their chunks", "[assets]") {
   const std::string converted = converted_bytes(bytes);
   CHECK(converted == glb_bytes(converted_bytes(specgloss_text("{}")), binary + own));
   CHECK(converted_bytes(converted) == converted);
-  CHECK(convert_asset(MemorySource(bytes), "a").warnings ==
+  CHECK(convert_gltf(MemorySource(bytes), "a").warnings ==
         std::vector<std::string>{"its JSON is padded with zeros where glTF requires spaces"});
 }
 
@@ -343,9 +342,9 @@ TEST_CASE("Random files keep every byte but those of converted materials", "[ass
     const std::string text = random_gltf(random);
     const std::string bytes =
         random.often(50) ? text : glb_bytes(text, chunk_bytes(kBinaryChunk, "abcd") + chunk_bytes(7, "1234"));
-    const SpecGlossOptions options = random.often(50) ? SpecGlossOptions{} : kExact;
+    const AssetOptions options = random.often(50) ? AssetOptions{} : kExact;
     CAPTURE(seed, text);
-    const SpecGlossResult result = result_of(bytes, options);
+    const AssetConversion result = result_of(bytes, options);
     const std::string after = converted_bytes(bytes, options);
     REQUIRE(require_others_kept(json_in(bytes), json_in(after)) == result.count(MaterialState::kConverted));
     REQUIRE(result.count(MaterialState::kFailed) == 0);
@@ -365,7 +364,7 @@ TEST_CASE("Public files keep every byte but those of converted materials", "[ass
     if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb") continue;
     CAPTURE(entry.path());
     const std::string bytes = read_file(entry.path()), after = converted_bytes(bytes);
-    const SpecGlossResult result = result_of(bytes);  // images are converted by tests/cli
+    const AssetConversion result = result_of(bytes);  // images are converted by tests/cli
     CHECK(require_others_kept(json_in(bytes), json_in(after)) == result.count(MaterialState::kConverted));
     CHECK(converted_bytes(after) == after);
     ++files;

@@ -13,10 +13,9 @@ using namespace remap;
 
 namespace {
 
-constexpr SpecGlossOptions kCoreProfile = {MaterialProfile::kCore, kCleanPrior, InstructionSet::kBaseline,
-                                           false};
-constexpr SpecGlossOptions kExactProfile = {MaterialProfile::kExtensions, kCleanPrior,
-                                            InstructionSet::kBaseline, false};
+constexpr AssetOptions kCoreProfile = {MaterialProfile::kCore, kCleanPrior, InstructionSet::kBaseline, false};
+constexpr AssetOptions kExactProfile = {MaterialProfile::kExtensions, kCleanPrior, InstructionSet::kBaseline,
+                                        false};
 
 ImagePixels random_pixels(std::size_t channels, std::uint32_t seed, PixelType type = PixelType::kUint8) {
   ImagePixels pixels{6, 5, channels, type, {}};
@@ -89,16 +88,16 @@ struct Reread {
   }
 };
 
-Reread reread(const std::string& bytes, const SpecGlossOptions& options = kCoreProfile) {
+Reread reread(const std::string& bytes, const AssetOptions& options = kCoreProfile) {
   const PlainResources resources;
   return Reread(converted_bytes(bytes, options, &resources));
 }
 
-std::vector<std::string> failures_of(const std::string& bytes, const SpecGlossOptions& options = kCoreProfile,
+std::vector<std::string> failures_of(const std::string& bytes, const AssetOptions& options = kCoreProfile,
                                      const PlainResources& resources = {}) {
   std::vector<std::string> failures;
   for (const AssetMaterial& material :
-       convert_asset(MemorySource(bytes), "file", options, &resources).result.materials)
+       convert_gltf(MemorySource(bytes), "file", options, &resources).materials)
     failures.push_back(material.failure);
   return failures;
 }
@@ -278,17 +277,17 @@ TEST_CASE("Images in files and in URIs stay what they are", "[assets]") {
       textured(kBoth + R"(,"glossinessFactor":0.5)") +
       R"(],"textures":[{"source":0},{"source":1}],"images":[{"uri":"a%20b/wood.jpg"},{"uri":")" + data +
       R"("},{"uri":"a%20b/wood_baseColor.png"}]})";
-  const AssetConversion conversion = convert_asset(MemorySource(text), "file", kCoreProfile, &resources);
-  REQUIRE(conversion.result.count(MaterialState::kConverted) == 2);
-  REQUIRE(conversion.result.files.size() == 2);
-  CHECK(conversion.result.files[0].path == "a b/wood_baseColor_2.png");
-  CHECK(conversion.result.files[1].path == "a b/wood_baseColor_3.png");
-  CHECK(pixels_of(conversion.result.files[0].bytes).channels == 3);
-  const SpannedJson json(conversion.result.json, "file");
+  const AssetConversion conversion = convert_gltf(MemorySource(text), "file", kCoreProfile, &resources);
+  REQUIRE(conversion.count(MaterialState::kConverted) == 2);
+  REQUIRE(conversion.files.size() == 2);
+  CHECK(conversion.files[0].path == "a b/wood_baseColor_2.png");
+  CHECK(conversion.files[1].path == "a b/wood_baseColor_3.png");
+  CHECK(pixels_of(conversion.files[0].bytes).channels == 3);
+  const SpannedJson json(conversion.text, "file");
   CHECK(json.root()["images"].children()[3].raw() ==
         R"({"uri":"a%20b/wood_baseColor_2.png","mimeType":"image/png"})");
   CHECK(json.root()["images"].children()[4]["uri"].raw().starts_with("\"data:image/png;base64,"));
-  CHECK(require_others_kept(text, conversion.result.json) == 2);
+  CHECK(require_others_kept(text, conversion.text) == 2);
 }
 
 TEST_CASE("A material whose image is missing fails, and others go on", "[assets]") {
@@ -326,7 +325,7 @@ TEST_CASE("The smaller image of a pair is enlarged on request", "[assets]") {
   small.width = 3;
   small.bytes.resize(3 * 5 * 4);
   const std::string bytes = container_of({random_pixels(3, 1), small}, textured(kBoth));
-  SpecGlossOptions options = kCoreProfile;
+  AssetOptions options = kCoreProfile;
   options.enlarges = true;
   const Reread after = reread(bytes, options);
   const ImagePixels data = after.image(after.material(0)["pbrMetallicRoughness"]["metallicRoughnessTexture"]);
@@ -361,6 +360,6 @@ TEST_CASE("A container of 4 GiB cannot be written", "[assets]") {
   const auto binary = static_cast<std::uint32_t>(0xfffffff0u - head.size() - 8);
   const HugeSource source(head + four_bytes(binary) + four_bytes(kBinaryChunk));
   CHECK_THROWS_WITH(
-      convert_asset(source, "a.glb", kExactProfile),
+      convert_gltf(source, "a.glb", kExactProfile),
       Catch::Contains("a.glb: would have 4294967") && Catch::Contains("(convert it as .gltf with a .bin)"));
 }

@@ -10,6 +10,8 @@
 #include <catch2/catch.hpp>
 
 #include "assets/gltf_asset.hpp"
+#include "assets/gltf_container.hpp"
+#include "assets/gltf_specgloss.hpp"
 #include "assets/json_spans.hpp"
 #include "core/errors.hpp"
 
@@ -40,10 +42,10 @@ inline std::string glb_bytes(std::string json, const std::string& chunks = "", c
 }
 
 // The bytes of the file after a conversion; the source where nothing was converted.
-inline std::string converted_bytes(const std::string& bytes, const SpecGlossOptions& options = {},
+inline std::string converted_bytes(const std::string& bytes, const AssetOptions& options = {},
                                    const AssetResources* resources = nullptr) {
-  const AssetConversion conversion = convert_asset(MemorySource(bytes), "file", options, resources);
-  if (!conversion.result.changed) return bytes;
+  const AssetConversion conversion = convert_gltf(MemorySource(bytes), "file", options, resources);
+  if (!conversion.changed) return bytes;
   std::string result;
   for (const AssetPiece& piece : conversion.pieces)
     result += piece.bytes.empty() ? bytes.substr(piece.begin, piece.end - piece.begin) : piece.bytes;
