@@ -33,10 +33,17 @@ double ward(Brdf variant, double alpha, const LocalGeometry& g) {
   return lobe / (pi * alpha * alpha * g.half_length_2 * cos_half_2 * cos_half_2);
 }
 
-double phong(double alpha, const LocalGeometry& g) {
-  if (g.cos_mirror <= 0.0) return 0.0;
-  const double exponent = phong_exponent(alpha);
-  return (exponent + 2.0) / (2.0 * pi) * std::pow(g.cos_mirror, exponent);
+// The cosine to a power n, of the angle that the lobe is about.
+double power_lobe(Brdf brdf, double alpha, const LocalGeometry& g) {
+  const bool is_mirrored = brdf == Brdf::kPhong || brdf == Brdf::kPlainPhong;
+  const double cosine = is_mirrored ? g.cos_mirror : g.cos_half, exponent = phong_exponent(alpha);
+  if (cosine <= 0.0) return 0.0;
+  const double lobe = std::pow(cosine, exponent);
+  if (brdf == Brdf::kPhong) return (exponent + 2.0) / (2.0 * pi) * lobe;
+  if (brdf == Brdf::kBlinn) return (exponent + 8.0) / (8.0 * pi) * lobe;
+  // A light under which a white diffuse surface has radiance 1 gives the lobe radiance 1 at its peak, however
+  // low the light is.
+  return lobe / (pi * g.cos_light);
 }
 
 // D G / (4 cos_light cos_view): the Torrance-Sparrow lobe without Fresnel.
@@ -90,7 +97,10 @@ double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& g) {
     case Brdf::kWardBalanced:
       return ward(brdf, alpha, g);
     case Brdf::kPhong:
-      return phong(alpha, g);
+    case Brdf::kBlinn:
+    case Brdf::kPlainPhong:
+    case Brdf::kPlainBlinn:
+      return power_lobe(brdf, alpha, g);
     case Brdf::kBeckmann:
     case Brdf::kGgx:
     case Brdf::kAs:

@@ -1,5 +1,5 @@
-// The BRDF models of the hub, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section 4). Values are
-// reflectance per steradian without the cosine of the light.
+// The BRDF models of the hub, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section 4), and the lobes
+// of files that hold an exponent. Values are reflectance per steradian without the cosine of the light.
 #pragma once
 
 #include <string>
@@ -27,7 +27,18 @@ struct Lobe {
   double slope;
 };
 
-enum class Brdf { kWard, kWardDuer, kWardBalanced, kPhong, kBeckmann, kGgx, kAs };
+enum class Brdf {
+  kWard,
+  kWardDuer,
+  kWardBalanced,
+  kPhong,  // normalised to (n + 2) / (2 pi), times the cosine (Lafortune and Willems 1994)
+  kBeckmann,
+  kGgx,
+  kAs,
+  kBlinn,  // N.H, normalised to (n + 8) / (8 pi), times the cosine (Akenine-Moller et al. 2008, section 7.6)
+  kPlainPhong,  // R.V, neither normalised nor times the cosine (Phong 1975)
+  kPlainBlinn,  // N.H, the same (Blinn 1977; OpenGL 1.0, section 2.13; MTL, illum 2)
+};
 enum class Fresnel { kNone, kSchlick };
 
 // The parts of a built-in model.

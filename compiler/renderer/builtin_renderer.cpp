@@ -30,11 +30,18 @@ enum class Reflectance {
   kMetallic,  // `base_color`, `metallic`, `specular`: diffuse and Schlick's F0 by equation (2) of the paper
 };
 
+// Below 1e-4 a lobe is a mirror that no picture of the sweep resolves.
+constexpr Range kAlphaRange{1e-4, 1.0};
+
+// Exponents of 0.1 to 10,000: alpha is the square root of 2 / (n + 2).
+constexpr Range kExponentAlphas{0.014140721622265262, 0.9759000729485332};
+
 struct BuiltinModel {
   const char* name;
   Brdf brdf;
   Reflectance reflectance;
   RoughnessConvention roughness = RoughnessConvention::kAlpha;
+  Range alpha = kAlphaRange;
 };
 
 // Names as in the hub; `-plain` multiplies the microfacet lobe by a constant instead of Schlick's Fresnel.
@@ -63,10 +70,16 @@ constexpr std::array kModels = {
                  RoughnessConvention::kRoughness},
     BuiltinModel{"mitsuba/ggx-metallic", Brdf::kGgx, Reflectance::kMetallic, RoughnessConvention::kRoughness},
     BuiltinModel{"mitsuba/as-metallic", Brdf::kAs, Reflectance::kMetallic, RoughnessConvention::kRoughness},
+    BuiltinModel{"legacy/phong", Brdf::kPlainPhong, Reflectance::kScale, RoughnessConvention::kExponent,
+                 kExponentAlphas},
+    BuiltinModel{"legacy/blinn-phong", Brdf::kPlainBlinn, Reflectance::kScale, RoughnessConvention::kExponent,
+                 kExponentAlphas},
+    BuiltinModel{"legacy/phong-normalised", Brdf::kPhong, Reflectance::kScale, RoughnessConvention::kExponent,
+                 kExponentAlphas},
+    BuiltinModel{"legacy/blinn-phong-normalised", Brdf::kBlinn, Reflectance::kScale,
+                 RoughnessConvention::kExponent, kExponentAlphas},
 };
 
-// Below 1e-4 a lobe is a mirror that no picture of the sweep resolves.
-constexpr Range kAlphaRange{1e-4, 1.0};
 // Dielectrics: from no boundary to germanium in the infrared. Conductors: the measured values of visible
 // light, including the 0 that a projection into a color space gives.
 constexpr Range kIorRange{1.0, 4.0};
@@ -97,11 +110,11 @@ std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
 }
 
 ModelDescription describe(const BuiltinModel& model) {
-  const double bound_a = from_alpha(model.roughness, kAlphaRange.min);
-  const double bound_b = from_alpha(model.roughness, kAlphaRange.max);
+  const double bound_a = from_alpha(model.roughness, model.alpha.min);
+  const double bound_b = from_alpha(model.roughness, model.alpha.max);
   ModelDescription description{model.name,
                                model.roughness,
-                               kAlphaRange,
+                               model.alpha,
                                {{std::string(convention_name(model.roughness)),
                                  ParameterRole::kRoughness,
                                  {std::min(bound_a, bound_b), std::max(bound_a, bound_b)}}}};
