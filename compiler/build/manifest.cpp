@@ -31,15 +31,17 @@ int read_resolution(const Field& field) {
   return static_cast<int>(field.count());
 }
 
-// Returns the ordered pairs of a group: all of its `models`, or its `pairs` in both directions.
+// Returns the ordered pairs of a group: all of its `models`, or its `pairs`, in both directions unless
+// they are `one_way`.
 std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) {
   std::vector<std::pair<std::string, std::string>> pairs;
   if (group.contains("pairs")) {
+    const bool is_one_way = group.flag("one_way");
     group["pairs"].list(1, [&](const Field& entry) {
       const std::vector<std::string> models = entry.list(2, read_text);
       entry.require(models.size() == 2, "two models");
       pairs.emplace_back(models[0], models[1]);
-      pairs.emplace_back(models[1], models[0]);
+      if (!is_one_way) pairs.emplace_back(models[1], models[0]);
       return 0;
     });
     return pairs;
@@ -63,6 +65,7 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   for (const auto& [source, target] : read_pairs(group)) {
     Json text = group.json();
     text.erase("pairs");
+    text.erase("one_way");
     text["models"] = {source, target};
     if (text.contains("speculars"))  // only the range of this source matters
       text["speculars"] = group["speculars"].contains(source) ? group["speculars"][source].json() : Json();

@@ -39,20 +39,9 @@ Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer,
   return parameters;
 }
 
-// Evaluates the fit as generated headers and texremap do: as polynomials in floats, after the domain rule
-// (model/interpreter.hpp).
 Parameters shipped(const EnvironmentsOptions& options, const Fit& fit) {
-  const Lowered& lowered = require_converter(fit).lowered;
-  const double clamped_specular = std::min(options.specular, fit.domain.specular.max);
-  const double scale = clamped_specular > 0.0 ? options.specular / clamped_specular : 1.0;
   Parameters parameters;
-  for (const double alpha : options.alphas) {
-    const auto width = static_cast<float>(std::clamp(alpha, fit.domain.alpha.min, fit.domain.alpha.max));
-    const auto specular = static_cast<float>(clamped_specular);
-    const double target_specular = static_cast<double>(value(lowered.specular.polynomial, width, specular));
-    parameters.push_back({static_cast<double>(value(lowered.alpha.polynomial, width, specular)),
-                          std::max(0.0, target_specular * scale)});
-  }
+  for (const double alpha : options.alphas) parameters.push_back(shipped_point(fit, alpha, options.specular));
   return parameters;
 }
 
@@ -153,6 +142,17 @@ Search search_of(const SpherePictures& pictures, std::span<const SphereMaterial>
 }
 
 }  // namespace
+
+SamplePoint shipped_point(const Fit& fit, double alpha, double specular) {
+  const Lowered& lowered = require_converter(fit).lowered;
+  const double clamped_specular = std::min(specular, fit.domain.specular.max);
+  const double scale = clamped_specular > 0.0 ? specular / clamped_specular : 1.0;
+  const auto width = static_cast<float>(std::clamp(alpha, fit.domain.alpha.min, fit.domain.alpha.max));
+  const auto inside = static_cast<float>(clamped_specular);
+  const double target_specular = static_cast<double>(value(lowered.specular.polynomial, width, inside));
+  return {static_cast<double>(value(lowered.alpha.polynomial, width, inside)),
+          std::max(0.0, target_specular * scale)};
+}
 
 std::string pair_name(const StudyPair& pair) { return pair.source + " -> " + pair.target; }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lower/fit.hpp"
+#include "measure/sweep_options.hpp"
 #include "report/environment.hpp"
 #include "report/lit_sphere.hpp"
 #include "report/radiance_pyramid.hpp"
@@ -18,6 +19,10 @@ namespace remap {
 struct StudyPair {
   std::string source, target;
 };
+
+// Evaluates the fit as generated headers and texremap do: as polynomials in floats, after the domain rule
+// (lower/interpreter.hpp).
+SamplePoint shipped_point(const Fit& fit, double alpha, double specular);
 
 // Returns `source -> target`.
 std::string pair_name(const StudyPair& pair);

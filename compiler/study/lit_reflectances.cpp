@@ -7,6 +7,7 @@
 
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
+#include "study/display_curve.hpp"
 #include "study/golden_section.hpp"
 
 namespace remap {
@@ -48,38 +49,6 @@ BasisPictures headlight_basis(double alpha, int resolution, const std::vector<st
 constexpr std::size_t kPixelStep = 4;
 constexpr std::size_t kGrid = 33;
 constexpr int kSections = 14, kNewtonSteps = 4;
-
-// The display transfer function and its slope, by linear interpolation in a table of 2^16 values. The error
-// is below 1e-7.
-class DisplayCurve {
- public:
-  DisplayCurve() {
-    for (std::size_t i = 0; i < kCells; ++i) {
-      values_[i] = at(i);
-      slopes_[i] = (at(i + 1) - at(i)) * static_cast<float>(kCells);
-    }
-  }
-  // Value and slope.
-  std::pair<float, float> operator()(float linear) const {
-    if (linear <= 0.0f) return {0.0f, 0.0f};
-    if (linear >= 1.0f) return {1.0f, 0.0f};
-    const auto cell = static_cast<std::size_t>(linear * static_cast<float>(kCells));
-    const float rest = linear - static_cast<float>(cell) / static_cast<float>(kCells);
-    return {values_[cell] + rest * slopes_[cell], slopes_[cell]};
-  }
-
- private:
-  static constexpr std::size_t kCells = 65536;
-  static float at(std::size_t i) {
-    return display_value(static_cast<double>(i) / static_cast<double>(kCells));
-  }
-  std::array<float, kCells> values_{}, slopes_{};
-};
-
-const DisplayCurve& display_curve() {
-  static const DisplayCurve curve;
-  return curve;
-}
 
 // Pictures of one channel under one light, at the compared pixels.
 struct Strip {

@@ -11,7 +11,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("remap-study ") + remap::kVersion);
   app.require_subcommand(1);
   remap::add_environments_study(app);
+  remap::add_exponents_study(app);
   remap::add_reach_study(app);
+  remap::add_short_study(app);
   remap::add_workflows_study(app);
   return remap::run_app(app, argc, argv);
 }

@@ -314,3 +314,34 @@ TEST_CASE("renderer: parameters out of range, unknown or missing are refused by 
   CHECK_THROWS_WITH(renderer->render(good, {0, 1, {}}), Catch::Contains("resolution"));
   CHECK_THROWS_WITH(renderer->render(good, {8, 1, {0.0, 0.5}}), Catch::Contains("light distance"));
 }
+
+TEST_CASE("Lobes of an exponent are what their sources print", "[renderer]") {
+  const PixelGeometry g = pixel_geometry();
+  const double irradiance = g.cos_light / g.distance_2;
+  // The mirrored light: 2 (N.L) N - L, and its cosine to the camera, from that of light and camera.
+  const double cos_between = 2.0 * g.cos_light_half * g.cos_light_half - 1.0,
+               cos_mirror = 2.0 * g.cos_light * g.cos_view - cos_between;
+  constexpr double kKs = 0.7, kKd = 0.3;
+  for (const double n : {0.1, 5.0, 96.08, 10000.0}) {
+    CAPTURE(n);
+    const auto pixel = [&](const char* name) {
+      return pixel_of({name, {{"exponent", {n}}, {"specular", {kKs}}, {"diffuse", {kKd}}}});
+    };
+    // OpenGL 1.0, section 2.13, with the light that gives a white diffuse surface radiance 1: light times
+    // (Kd N.L + Ks (N.H)^n).
+    const double light = 1.0 / (pi * g.distance_2);
+    CHECK(pixel("legacy/blinn-phong") ==
+          Approx(light * (kKd * g.cos_light + kKs * std::pow(g.cos_half, n))).epsilon(1e-6));
+    CHECK(pixel("legacy/phong") ==
+          Approx(light * (kKd * g.cos_light + kKs * std::pow(cos_mirror, n))).epsilon(1e-6));
+    CHECK(pixel("legacy/blinn-phong-normalised") ==
+          Approx(irradiance * (kKd / pi + kKs * (n + 8.0) / (8.0 * pi) * std::pow(g.cos_half, n)))
+              .epsilon(1e-6));
+    CHECK(pixel("legacy/phong-normalised") ==
+          Approx(irradiance * (kKd / pi + kKs * (n + 2.0) / (2.0 * pi) * std::pow(cos_mirror, n)))
+              .epsilon(1e-6));
+  }
+  CHECK_THROWS_WITH(
+      pixel_of({"legacy/phong", {{"exponent", {0.05}}, {"specular", {1.0}}, {"diffuse", {0.0}}}}),
+      Catch::Matchers::Contains("out of range"));
+}

@@ -1,0 +1,76 @@
+// Judges rules that convert materials by the pictures of what they give.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lower/short_form.hpp"
+#include "study/lobe_pictures.hpp"
+
+namespace remap {
+
+// A material of the source: a lobe and a Lambertian; linear.
+struct LobeMaterial {
+  double alpha = 0.0;
+  Rgb specular{}, diffuse{};
+};
+
+// What a rule makes of it. With `is_constant` the lobe reflects specular in every direction, else by the
+// Fresnel term of the target.
+struct LobeSurface {
+  double alpha = 0.0;
+  Rgb specular{}, diffuse{};
+  bool is_constant = false;
+};
+using LobeRule = std::function<LobeSurface(const LobeMaterial&)>;
+
+// Of one material: the mean RMSE of display values over the environments, in percent, and the error relative
+// to the source under the point light, with the weights of the objective natural-1.
+struct RuleError {
+  double rmse = 0.0, relative = 0.0;
+};
+
+// The least that any parameters reach, each error by its own.
+struct LeastError {
+  RuleError error;
+  LobeSurface by_rmse, by_relative;
+};
+
+class RuleJudge {
+ public:
+  // The alphas of `materials` are among those of `source`. All must outlive it.
+  RuleJudge(const StudyLights& lights, const LobePictures& source, const LobePictures& target,
+            std::vector<LobeMaterial> materials);
+
+  const std::vector<LobeMaterial>& materials() const { return materials_; }
+  std::vector<RuleError> errors(const LobeRule& rule) const;
+  // The least errors of surfaces whose specular is that of the material times a number, whose diffuse is the
+  // rule's, and whose alpha is within a factor of 2.5 of that of the rule. Alpha and the number are searched.
+  std::vector<LeastError> least(const LobeRule& rule) const;
+  // Mean RMSE and SSIM, and the median relative error.
+  ShortFigures figures(const std::vector<LobeSurface>& surfaces) const;
+  ShortFigures figures(const LobeRule& rule) const;
+  // Of the least errors.
+  ShortFigures figures(const std::vector<LeastError>& least) const;
+
+ private:
+  RuleError error_of(std::size_t material, const LobeSurface& surface) const;
+  double rmse_of(std::size_t material, const LobeSurface& surface) const;
+  double relative_of(std::size_t material, const LobeSurface& surface) const;
+  double similarity_of(std::size_t material, const LobeSurface& surface) const;
+  std::vector<float> radiance(std::size_t light, const LobeSurface& surface) const;
+
+  // A material under the lights.
+  struct Shown {
+    std::vector<std::vector<float>> display;  // for each environment
+    std::vector<float> point, weights;        // under the point light: linear, and w^2
+    double power = 0.0;                       // sum of w^2 point^2
+  };
+
+  const StudyLights& lights_;
+  const LobePictures &source_, &target_;
+  std::vector<LobeMaterial> materials_;
+  std::vector<Shown> shown_;
+};
+
+}  // namespace remap

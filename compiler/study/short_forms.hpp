@@ -1,0 +1,28 @@
+// Chooses the constants of short forms and judges them by materials and lights that had no say.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lower/fit.hpp"
+#include "lower/short_form.hpp"
+#include "report/environment.hpp"
+#include "report/lit_sphere.hpp"
+#include "study/conversions.hpp"
+
+namespace remap {
+
+struct ShortFormsOptions : SphereSampling {
+  std::vector<StudyPair> pairs;
+  std::vector<Environment> choosing, judging;  // lights of the choice, and of the figures
+  std::vector<Fit> fits;                       // compiled converters to compare with
+};
+
+// All pairs of hub models, and the lobes of an exponent to `mitsuba/ggx` and back.
+std::vector<StudyPair> short_pairs();
+
+// Calls `finished` for each form.
+void study_short_forms(const ShortFormsOptions& options,
+                       const std::function<void(const ShortForm&)>& finished);
+
+}  // namespace remap
