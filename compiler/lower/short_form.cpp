@@ -136,6 +136,27 @@ std::vector<ShortOutput> outputs_of(const ShortForm& form) {
   return {};
 }
 
+ShortTexel converted(const std::vector<ShortOutput>& outputs, ShortKind kind, double alpha, double specular) {
+  const auto within = [](double value) { return std::isfinite(value) ? std::clamp(value, 1e-3, 1.0) : 1.0; };
+  const auto exponent = [](double value) { return from_alpha(RoughnessConvention::kExponent, value); };
+  std::map<std::string, double> inputs = {
+      {"alpha", alpha}, {"specular", specular},          {"n", exponent(alpha)},
+      {"ks", specular}, {"roughness", std::sqrt(alpha)}, {"f0", specular}};
+  const double width = outputs[0].value.value(inputs);
+  ShortTexel texel{0.0, std::max(0.0, outputs[1].value.value(inputs))};
+  switch (kind) {
+    case ShortKind::kWidths:
+      texel.alpha = within(width);
+      break;
+    case ShortKind::kToExponent:
+      texel.alpha = within(to_alpha(RoughnessConvention::kExponent, std::clamp(width, 0.1, 10000.0)));
+      break;
+    default:
+      texel.alpha = within(width * width);
+  }
+  return texel;
+}
+
 std::string short_forms_json(const std::vector<ShortForm>& forms) {
   Json list = Json::list();
   for (const ShortForm& form : forms) {

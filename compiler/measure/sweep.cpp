@@ -26,6 +26,7 @@ namespace {
 constexpr std::size_t kMostSweepSamples = kMostCsvRows / 2;
 // The law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
+constexpr double kLeastProbedAlpha = 0.1;  // or where the model begins
 // The number of widths whose spheres are compared, spread over those of a table: for each, the usable row
 // whose specular1 is nearest half of the source's range.
 constexpr std::size_t kComparedSpheres = 8;
@@ -260,7 +261,8 @@ std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range&
 
 SpecularResponse specular_response(const Renderer& renderer, const ModelDescription& model) {
   const PictureTaker picture_taker(renderer, objective_preset("natural-1"), kProbeResolution, 1);
-  return probe_specular(picture_taker, model, {0.1, model.alpha.max});
+  return probe_specular(picture_taker, model,
+                        {std::max(kLeastProbedAlpha, model.alpha.min), model.alpha.max});
 }
 
 Range canonical_speculars(const Renderer& renderer, const ModelDescription& model) {

@@ -16,10 +16,6 @@ class FormRule {
   LobeSurface operator()(const LobeMaterial& material) const;
 
  private:
-  LobeSurface widths(const LobeMaterial& material) const;
-  LobeSurface exponent(const LobeMaterial& material) const;
-  LobeSurface to_exponent(const LobeMaterial& material) const;
-
   ShortForm form_;
   std::vector<ShortOutput> outputs_;
 };
