@@ -42,11 +42,14 @@ constexpr std::string_view kUnitySpecular = "specular setup: diffuse counts 1 - 
 constexpr std::string_view kPrincipled = "the Principled BSDF of Blender 5";
 constexpr std::string_view kUnrealLit =
     "default lit: base color (1 - metallic), F0 0.04 at a Specular of 0.5";
-constexpr std::array<ModelAlias, 44> kAliases = {{
+constexpr std::string_view kBlinn =
+    "(N.H)^n, neither normalised nor times the cosine of the light; roughness is the exponent n";
+constexpr std::array<ModelAlias, 48> kAliases = {{
     {"ambientcg", "metallic", kPlainMetal},
     {"arnold", "gltf", kLayered},
     {"babylon", "gltf", kLayered},
     {"blender", "cycles-5/principled", kPrincipled},
+    {"blinn-phong", "legacy/blinn-phong", kBlinn},
     {"cycles/principled", "cycles-5/principled", kPrincipled},
     {"filament", "metallic", kPlainMetal},
     {"glb", "gltf", kLayered},
@@ -60,8 +63,11 @@ constexpr std::array<ModelAlias, 44> kAliases = {{
     {"metallic-roughness", "metallic", kPlainMetal},
     {"metalness", "metallic", kPlainMetal},
     {"metalrough", "metallic", kPlainMetal},
+    {"mtl", "legacy/blinn-phong", kBlinn},
+    {"opengl", "legacy/blinn-phong", kBlinn},
     {"openpbr", "gltf", kLayered},
     {"pbr", "metallic", kPlainMetal},
+    {"phong", "legacy/phong", "(R.V)^n, neither normalised nor times the cosine of the light"},
     {"playcanvas", "metallic", kPlainMetal},
     {"polyhaven", "metallic", kPlainMetal},
     {"preview-surface", "usd-preview-surface", "UsdPreviewSurface with metallic"},

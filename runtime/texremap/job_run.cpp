@@ -312,6 +312,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   const Stopwatch stopwatch;
   require_as_listed(job);
   TextureSet set = open_texture_set(job.request);
+  require_scale(set, set.convention.value_or(chosen_.info().source.roughness));
   report.inputs = files_of(set);
   report.left_behind = job.left_behind;
   if (const SetParameter* specular = set.map_of(Parameter::kSpecular))

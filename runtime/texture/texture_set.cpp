@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
@@ -366,6 +367,17 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
   for (const SetParameter* parameter : mapped_parameters(set))
     require_same_texels(set.maps[set.first_map()], set.maps[parameter->channels.front().map]);
   return set;
+}
+
+void require_scale(const TextureSet& set, RoughnessConvention width) {
+  const SetParameter* map = set.map_of(Parameter::kRoughness);
+  if (width != RoughnessConvention::kExponent || map == nullptr || !map->factors.empty()) return;
+  const ChannelPlace place = map->channels.front();
+  if (is_integer(set.maps[place.map].layout().channels[place.channel].type))
+    throw input_error(
+        set.maps[place.map].path().string() +
+        ": holds whole numbers, and an exponent is wanted (--roughness-factor says which exponent "
+        "white is: 1000 in MTL files, 128 in OpenGL, 100 for percent)");
 }
 
 std::vector<std::string> remarks(const TextureSet& set) {

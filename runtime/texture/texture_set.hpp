@@ -115,6 +115,10 @@ struct TextureSet {
 // parameter is a map.
 TextureSet open_texture_set(const TextureSetRequest& request);
 
+// Whole numbers stand for 0 to 1, and an exponent for more: throws kInput where the roughness map holds them,
+// is read as `width`, an exponent, and has no factor.
+void require_scale(const TextureSet& set, RoughnessConvention width);
+
 // Warnings about the set, one message each.
 std::vector<std::string> remarks(const TextureSet& set);
 

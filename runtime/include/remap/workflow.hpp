@@ -209,10 +209,10 @@ const std::vector<WorkflowModel>& workflow_models();
 // Null for an unknown name.
 const WorkflowModel* find_workflow_model(std::string_view name);
 
-// A name that people use for a workflow model.
+// A name that people use for a workflow model, or for a BRDF model of the graph.
 struct ModelAlias {
   std::string_view name;     // lower case, words joined by '-'
-  std::string_view model;    // of workflow_models()
+  std::string_view model;    // of workflow_models(), or such as `legacy/phong`
   std::string_view meaning;  // of materials of that name, after its documentation or source code
 };
 std::span<const ModelAlias> model_aliases();
