@@ -30,6 +30,8 @@ class ImageCodec {
   virtual ImagePixels decode(std::string_view bytes, const std::string& place) const = 0;
   // A PNG file. Throws kOutput.
   virtual std::string encode_png(const ImagePixels& pixels) const = 0;
+  // A JPEG file, of 8 bits and without alpha. `quality`: 1 to 100. Throws kOutput.
+  virtual std::string encode_jpeg(const ImagePixels& pixels, int quality) const = 0;
 };
 
 }  // namespace remap

@@ -60,22 +60,39 @@ class AssetCodec final : public ImageCodec {
   }
 
   std::string encode_png(const ImagePixels& pixels) const override {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const OIIO::TypeDesc type =
-        pixels.type == PixelType::kUint16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
-    OIIO::ImageSpec spec(static_cast<int>(pixels.width), static_cast<int>(pixels.height),
-                         static_cast<int>(pixels.channels), type);
-    spec.attribute(kUnassociatedAlpha, 1);
+    OIIO::ImageSpec spec = spec_of(pixels);
     spec.attribute("png:compressionLevel", kPngLevel);
-    const auto output = OIIO::ImageOutput::create("memory.png", &memory);
-    if (!output || !output->open("memory.png", spec) || !output->write_image(type, pixels.bytes.data()) ||
-        !output->close())
-      throw output_error("PNG image: cannot be encoded: " + (output ? output->geterror() : OIIO::geterror()));
-    return {bytes.begin(), bytes.end()};
+    return encoded(pixels, spec, "png");
+  }
+
+  std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
+    OIIO::ImageSpec spec = spec_of(pixels);
+    spec.attribute("CompressionQuality", quality);
+    return encoded(pixels, spec, "jpg");
   }
 
  private:
+  static OIIO::ImageSpec spec_of(const ImagePixels& pixels) {
+    OIIO::ImageSpec spec(static_cast<int>(pixels.width), static_cast<int>(pixels.height),
+                         static_cast<int>(pixels.channels),
+                         pixels.type == PixelType::kUint16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+    spec.attribute(kUnassociatedAlpha, 1);
+    return spec;
+  }
+
+  static std::string encoded(const ImagePixels& pixels, const OIIO::ImageSpec& spec,
+                             const std::string& extension) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const std::string name = "memory." + extension;
+    const auto output = OIIO::ImageOutput::create(name, &memory);
+    if (!output || !output->open(name, spec) || !output->write_image(spec.format, pixels.bytes.data()) ||
+        !output->close())
+      throw output_error(extension +
+                         " image: cannot be encoded: " + (output ? output->geterror() : OIIO::geterror()));
+    return {bytes.begin(), bytes.end()};
+  }
+
   static ImagePixels pixels_of(OIIO::ImageInput* input, const std::string& place) {
     const auto refuse = [&](const std::string& reason) {
       throw input_error(place + ": cannot be read: " + first_line(reason, "the image is damaged"));

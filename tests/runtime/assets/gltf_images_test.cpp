@@ -5,7 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "assets/specgloss_maps.hpp"
+#include "assets/map_pixels.hpp"
+#include "assets/specgloss_factors.hpp"
 #include "core/base64.hpp"
 #include "runtime/assets/gltf_texts.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "assets/gltf_asset.hpp"
 #include "assets/gltf_container.hpp"
-#include "assets/gltf_specgloss.hpp"
+#include "assets/gltf_extensions.hpp"
 #include "assets/json_spans.hpp"
 #include "core/errors.hpp"
 
@@ -89,6 +89,10 @@ class PlainCodec final : public ImageCodec {
       bytes += static_cast<char>(number);
     for (const std::byte byte : pixels.bytes) bytes += static_cast<char>(byte);
     return bytes;
+  }
+  // What begins as JPEG files do, and cannot be read again.
+  std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
+    return "\xff\xd8" + std::to_string(quality) + encode_png(pixels);
   }
 };
 
