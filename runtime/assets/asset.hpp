@@ -82,7 +82,8 @@ struct AssetOptions {
   // What only converted materials used goes: bytes of images, and extensions of textures.
   bool compacts = false;
   bool bakes = false;  // maps of a material whose KHR_texture_transform differ go onto the grid of the first
-  // Quality, 1 to 100, of new images of color whose model is a JPEG file; none for PNG.
+  // Quality, 1 to 100, of new images of color: JPEG, unless they have alpha or come from a map of color that
+  // is none. None for PNG.
   std::optional<int> jpeg_quality = std::nullopt;
 };
 

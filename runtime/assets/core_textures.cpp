@@ -91,7 +91,7 @@ std::optional<SpecGlossTexts> CoreTextures::specgloss(CoreMaterial& material, co
   if (is_new) {
     result.images = specgloss_images(used.maps(material), converter);
     if (const auto diffuse = std::exchange(result.images.diffuse, std::nullopt))
-      result.diffuse_image = textures_.add_color(*diffuse, used.color_model(), kDiffuseSuffix);
+      result.diffuse_image = textures_.add_color(*diffuse, used.color_model(), used.base, kDiffuseSuffix);
     if (const auto specgloss = std::exchange(result.images.specgloss, std::nullopt))
       result.specgloss_image = textures_.add_data(*specgloss, used.data_model(), kSpecGlossSuffix);
   }
@@ -124,7 +124,7 @@ std::optional<CoreTexts> CoreTextures::folded(CoreMaterial& material, const Conv
   if (is_new) {
     result.maps = remap::folded(used.maps(material), converter);
     if (const auto base = std::exchange(result.maps.base_color, std::nullopt))
-      result.base_image = textures_.add_color(*base, used.color_model(), kBaseSuffix);
+      result.base_image = textures_.add_color(*base, used.color_model(), used.base, kBaseSuffix);
     if (const auto data = std::exchange(result.maps.metal_rough, std::nullopt))
       result.metal_rough_image = textures_.add_data(*data, used.data_model(), kMetalRoughSuffix);
   }

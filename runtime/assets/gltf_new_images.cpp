@@ -48,10 +48,12 @@ GltfNewImages::GltfNewImages(const SpannedJson& json, const GltfContainer& conta
 }
 
 std::size_t GltfNewImages::add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
-                                     std::optional<int> jpeg_quality) {
+                                     const ImageCoding& coding) {
   const ImageCodec& codec = resources_.codec();
-  new_images_.push_back({jpeg_quality ? codec.encode_jpeg(pixels, *jpeg_quality) : codec.encode_png(pixels),
-                         jpeg_quality ? kJpeg : kPng, model, std::string(suffix)});
+  const std::optional<int> quality = coding.jpeg_quality;
+  new_images_.push_back(
+      {quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.effort),
+       quality ? kJpeg : kPng, model, std::string(suffix)});
   return new_images_.size() - 1;
 }
 
@@ -194,7 +196,8 @@ GltfNewImages::Location GltfNewImages::cheapest_location() const {
   const auto is_short = [](const Location& location) { return location.back().first == "mimeType"; };
   if (const auto found = std::ranges::find_if(locations_, is_short); found != locations_.end()) return *found;
   const ImagePixels texel{1, 1, 1, PixelType::kUint8, std::vector<std::byte>(1)};
-  return {{"uri", "\"data:image/png;base64," + base64(resources_.codec().encode_png(texel)) + "\""}};
+  return {{"uri", "\"data:image/png;base64," +
+                      base64(resources_.codec().encode_png(texel, PngEffort::kFast)) + "\""}};
 }
 
 // Spare places that no new image took: an image must have bytes and a view must have one, so they share

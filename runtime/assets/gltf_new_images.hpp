@@ -21,6 +21,11 @@
 
 namespace remap {
 
+struct ImageCoding {
+  std::optional<int> jpeg_quality = std::nullopt;  // none for PNG
+  PngEffort effort = PngEffort::kFast;
+};
+
 class GltfNewImages {
  public:
   // All must outlive it.
@@ -28,9 +33,9 @@ class GltfNewImages {
                 const std::string& place);
 
   // Adds an image beside its model, an image of the file. `suffix` goes to names: `_baseColor`.
-  // `jpeg_quality`: none for PNG. Returns its number among the new ones.
+  // Returns its number among the new ones.
   std::size_t add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
-                        std::optional<int> jpeg_quality);
+                        const ImageCoding& coding);
   // A texture of that new image with the sampler of its model, a texture of the file. Returns its number, of
   // one that was added before where they agree.
   std::size_t add_texture(std::size_t image, std::size_t model);

@@ -9,6 +9,7 @@
 #include "assets/gltf_direction.hpp"
 #include "assets/gltf_extensions.hpp"
 #include "core/errors.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {
@@ -49,10 +50,7 @@ class CoreToSpecGloss final : public GltfDirection {
 
   MaterialEdit convert(SpanValue material, AssetMaterial& report) override {
     CoreMaterial read = read_core_material(material, report.warnings);
-    for (const SpanValue& extension : material["extensions"].children())
-      if (const std::string name = extension.key();
-          is_reflecting(name) && name != kSpecularExtension && name != kIorExtension)
-        throw input_error("has " + name + ", which must not stand beside spec-gloss (remove it)");
+    require_alone(material["extensions"]);
     const SpecGlossTexts texts = texts_of(read, report);
     report.becomes = specgloss_summary(texts);
     MaterialEdit edit;
@@ -76,6 +74,19 @@ class CoreToSpecGloss final : public GltfDirection {
   }
 
  private:
+  // Beside spec-gloss, viewers ignore extensions that change what a material reflects.
+  static void require_alone(SpanValue extensions) {
+    for (const SpanValue& extension : extensions.children()) {
+      const std::string name = extension.key();
+      if (name == kSpecularExtension || name == kIorExtension) continue;
+      if (is_reflecting(name) || !is_known_extension(name))
+        throw input_error(
+            "has " + plain(name) + ", which " +
+            (is_reflecting(name) ? "viewers ignore" : "is unknown here and may have no meaning") +
+            " beside spec-gloss (remove it, or leave the material as it is)");
+    }
+  }
+
   // Constant maps are factors of `read` from here on.
   SpecGlossTexts texts_of(CoreMaterial& read, AssetMaterial& report) {
     const Converter& converter = read.has_dielectric ? *dielectric_ : *plain_;

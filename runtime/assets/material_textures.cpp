@@ -107,15 +107,16 @@ void MaterialTextures::resample(UsedTexture& texture, const TextureGrid& grid) c
 }
 
 std::size_t MaterialTextures::add_color(const ImagePixels& pixels, const UsedTexture& model,
-                                        std::string_view suffix) {
-  const bool is_jpeg = model.image.is_jpeg && !pixels.has_alpha() && pixels.type == PixelType::kUint8;
+                                        const std::optional<UsedTexture>& color, std::string_view suffix) {
+  const bool is_exact =
+      pixels.has_alpha() || pixels.type != PixelType::kUint8 || (color && !color->image.is_jpeg);
   return new_images_.add_image(pixels, model.image.image, suffix,
-                               is_jpeg ? options_.jpeg_quality : std::nullopt);
+                               {is_exact ? std::nullopt : options_.jpeg_quality, effort()});
 }
 
 std::size_t MaterialTextures::add_data(const ImagePixels& pixels, const UsedTexture& model,
                                        std::string_view suffix) {
-  return new_images_.add_image(pixels, model.image.image, suffix, std::nullopt);
+  return new_images_.add_image(pixels, model.image.image, suffix, {std::nullopt, effort()});
 }
 
 TextureText MaterialTextures::text_of(const UsedTexture& model, std::size_t image) {

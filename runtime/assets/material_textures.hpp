@@ -52,14 +52,17 @@ class MaterialTextures {
   void align(const std::vector<UsedTexture*>& textures, const GridReason& reason,
              std::vector<std::string>& warnings) const;
 
-  // Data stays PNG, color may become JPEG where its model is. Returns the number of the new image.
-  std::size_t add_color(const ImagePixels& pixels, const UsedTexture& model, std::string_view suffix);
+  // Returns the number of the new image. Data is PNG. Color may be JPEG, unless it has alpha or comes from a
+  // map of color, `color`, that is none.
+  std::size_t add_color(const ImagePixels& pixels, const UsedTexture& model,
+                        const std::optional<UsedTexture>& color, std::string_view suffix);
   std::size_t add_data(const ImagePixels& pixels, const UsedTexture& model, std::string_view suffix);
   // The info of the model with a texture of a new image.
   TextureText text_of(const UsedTexture& model, std::size_t image);
 
  private:
   void require_one_grid(const UsedTexture& first, const UsedTexture& other, const GridReason& reason) const;
+  PngEffort effort() const { return options_.compacts ? PngEffort::kSmallest : PngEffort::kFast; }
   void enlarge(const std::vector<UsedTexture*>& textures) const;
   void resample(UsedTexture& texture, const TextureGrid& grid) const;
 

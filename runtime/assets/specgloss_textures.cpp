@@ -42,7 +42,7 @@ const SpecGlossTextures::Converted& SpecGlossTextures::converted(const std::opti
                            material.factors()},
                           projection_);
   if (const auto base = std::exchange(result.maps.base_color, std::nullopt))
-    result.base_image = textures_.add_color(*base, diffuse ? *diffuse : *specgloss, kBaseSuffix);
+    result.base_image = textures_.add_color(*base, diffuse ? *diffuse : *specgloss, diffuse, kBaseSuffix);
   if (const auto data = std::exchange(result.maps.metal_rough, std::nullopt))
     result.metal_rough_image =
         textures_.add_data(*data, specgloss ? *specgloss : *diffuse, kMetalRoughSuffix);

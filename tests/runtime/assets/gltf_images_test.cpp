@@ -33,7 +33,7 @@ ImagePixels constant_pixels(std::initializer_list<int> texel) {
   return pixels;
 }
 
-std::string file_of(const ImagePixels& pixels) { return PlainCodec().encode_png(pixels); }
+std::string file_of(const ImagePixels& pixels) { return PlainCodec().encode_png(pixels, PngEffort::kFast); }
 ImagePixels pixels_of(const std::string& bytes) { return PlainCodec().decode(bytes, "image"); }
 
 // A container with images in its binary chunk, a texture for each, and these materials.
