@@ -64,7 +64,7 @@ std::string GltfBytes::of_uri(const std::string& uri) const {
     case UriKind::kRemote:
       throw input_error(plain(uri, 200) + ": is not in a file here (download it beside the asset)");
     default:
-      throw input_error(plain(uri, 200) + ": leads out of the folder of the asset");
+      throw input_error(plain(uri, 200) + ": is an absolute path (name the file relative to the asset)");
   }
 }
 
