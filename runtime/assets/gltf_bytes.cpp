@@ -68,7 +68,6 @@ std::string GltfBytes::of_uri(const std::string& uri) const {
   }
 }
 
-// The view lies in its buffer, which was checked; of an external buffer the file is compared.
 std::string GltfBytes::of_view(std::size_t index) const {
   const SpanValue view = gltf_entry(views_, index, "bufferView");
   const std::uint64_t offset = view["byteOffset"].whole().value_or(0),
