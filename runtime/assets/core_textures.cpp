@@ -84,12 +84,14 @@ std::optional<SpecGlossTexts> CoreTextures::specgloss(CoreMaterial& material, co
                                                       std::vector<std::string>& warnings) {
   // Diffuse of a dielectric is its base color, by the conventions of both.
   const bool is_dielectric = material.metallic.value == 0.0;
+  if (is_dielectric && material.base_texture) (void)textures_.images().info_of(material.base_texture);
   const CoreUsed used = load(material, !is_dielectric, {"specular color", ""}, warnings);
   if (!used.base && !used.metal_rough && !used.specular && !used.specular_color) return std::nullopt;
   const auto [place, is_new] = to_specgloss_.try_emplace(used.key(material));
   ToSpecGloss& result = place->second;
   if (is_new) {
     result.images = specgloss_images(used.maps(material), converter);
+    if (is_dielectric) result.images.diffuse.reset();
     if (const auto diffuse = std::exchange(result.images.diffuse, std::nullopt))
       result.diffuse_image = textures_.add_color(*diffuse, used.color_model(), used.base, kDiffuseSuffix);
     if (const auto specgloss = std::exchange(result.images.specgloss, std::nullopt))

@@ -70,7 +70,10 @@ void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
   tail_.kept = spares.chunk_end;
   if (const GlbChunk* const chunk = container_.binary_chunk())
     chunk_start_ = (tail_.kept.value_or(chunk->content_size()) + 3) / 4 * 4;
-  for (std::size_t i = 0; i < new_images_.size(); ++i) write_image(new_images_[i], i, edits);
+  for (std::size_t i = 0; i < new_images_.size(); ++i) {
+    write_image(new_images_[i], i, edits);
+    new_images_[i].bytes = std::string();  // they are written, and may be many
+  }
   for (NewTexture& texture : new_textures_) write_texture(texture, edits);
   empty_spares(edits);
   if (tail_.appended.empty() && !tail_.kept) return;

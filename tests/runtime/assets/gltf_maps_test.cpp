@@ -178,6 +178,25 @@ TEST_CASE("Maps of KHR_materials_specular enter texel by texel", "[assets]") {
   CHECK(reread(folded.bytes, with_fold()).bytes == folded.bytes);
 }
 
+TEST_CASE("Diffuse of dielectrics stays where specular leaves nothing for it", "[assets]") {
+  ImagePixels tint = random_pixels(3, 4);
+  std::fill_n(tint.bytes.begin(), 9, std::byte{255});
+  const Reread after =
+      reread(container_of(
+                 {random_pixels(3, 1), tint},
+                 core_textured(
+                     R"("baseColorTexture":{"index":0},"baseColorFactor":[0.5,0.25,1,1],"metallicFactor":0)",
+                     R"(,"extensions":{"KHR_materials_ior":{"ior":0},"KHR_materials_specular":{)"
+                     R"("specularColorTexture":{"index":1}}})")),
+             specgloss_target());
+  CHECK(extension_of(after, 0)["diffuseTexture"].raw() == R"({"index":0})");
+  CHECK(extension_of(after, 0)["diffuseFactor"].raw() == "[0.5,0.25,1,1]");
+  const ImagePixels specgloss = after.image(extension_of(after, 0)["specularGlossinessTexture"]);
+  for (std::size_t i = 0; i < 30; ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      CHECK(value_at(specgloss, i, c) == Approx(value_at(tint, i, c)).margin(1e-6));
+}
+
 TEST_CASE("Folding the exact form of maps gives the maps of core", "[assets]") {
   const ImagePixels diffuse = random_pixels(4, 1), specgloss = random_pixels(4, 2);
   const std::string bytes =
