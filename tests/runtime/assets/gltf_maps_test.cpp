@@ -154,13 +154,22 @@ TEST_CASE("A base map of metals without alpha is not needed for diffuse", "[asse
   CHECK(extension_of(after, 0)["specularGlossinessTexture"]);
 }
 
+TEST_CASE("A constant alpha of a base map that is not needed is a factor", "[assets]") {
+  ImagePixels base = random_pixels(4, 1);
+  for (std::size_t i = 3; i < base.bytes.size(); i += 4) base.bytes[i] = std::byte{51};
+  const Reread after = reread(
+      container_of({base}, core_textured(R"("baseColorTexture":{"index":0},"baseColorFactor":[1,1,1,0.5])")),
+      specgloss_target());
+  CHECK(extension_of(after, 0)["diffuseFactor"].raw() == "[0,0,0,0.1]");
+}
+
 TEST_CASE("Maps of KHR_materials_specular enter texel by texel", "[assets]") {
   const ImagePixels base = random_pixels(3, 1), data = random_pixels(3, 2), strength = random_pixels(4, 3),
                     tint = random_pixels(3, 4);
   const std::string material = core_textured(
       kCoreBoth,
       R"(,"extensions":{"KHR_materials_ior":{"ior":2.5},"KHR_materials_specular":{"specularFactor":0.9,)"
-      R"("specularTexture":{"index":2},"specularColorFactor":[4,2,1],"specularColorTexture":{"index":3}}})");
+      R"("specularTexture":{"index":2},"specularColorFactor":[12,8,1],"specularColorTexture":{"index":3}}})");
   const std::string bytes = container_of({base, data, strength, tint}, material);
   const Reread after = reread(bytes, specgloss_target());
   const ImagePixels specgloss = after.image(extension_of(after, 0)["specularGlossinessTexture"]);
@@ -169,7 +178,7 @@ TEST_CASE("Maps of KHR_materials_specular enter texel by texel", "[assets]") {
     std::array<double, 3> color{}, dielectric{};
     for (std::size_t c = 0; c < 3; ++c) {
       color[c] = linear(value_at(base, i, c));
-      const double factor = std::array{4.0, 2.0, 1.0}[c] * linear(value_at(tint, i, c));
+      const double factor = std::array{12.0, 8.0, 1.0}[c] * linear(value_at(tint, i, c));
       dielectric[c] = std::min(f0 * factor, 1.0) * 0.9 * static_cast<double>(value_at(strength, i, 3));
     }
     const TexelLobes lobes = core_lobes(color, static_cast<double>(value_at(data, i, 2)), dielectric);
@@ -276,6 +285,19 @@ TEST_CASE("Compaction keeps what others use", "[assets]") {
                             with_compaction()) == 1);
 }
 
+TEST_CASE("Compaction cuts no byte that another view has", "[assets]") {
+  const std::string bytes = container_of({random_pixels(3, 1), random_pixels(4, 2)}, textured(kBoth));
+  const GltfContainer container = read_container(MemorySource(bytes), "before");
+  const std::string own = R"({"buffer":0,"byteLength":4})";
+  std::string json = container.json;
+  json.replace(json.find(own), own.size(), R"({"buffer":0,"byteLength":50})");
+  const Reread after =
+      reread(glb_bytes(json, bytes.substr(container.chunks.front().begin)), with_compaction());
+  CHECK(chunk_length(after) == 52 + 96 + 95);
+  CHECK(after.bytes.substr(after.container.chunks[0].content_begin(), 50) ==
+        bytes.substr(container.chunks[0].content_begin(), 50));
+}
+
 TEST_CASE("Spare places that nothing takes share the bytes of others", "[assets]") {
   // Both maps become one factor and one map; a texture of another format no longer names one.
   const std::string bytes =
@@ -312,6 +334,21 @@ TEST_CASE("Textures of other formats lose their extension when they are spare", 
   const Reread after = reread(webp, with_compaction());
   CHECK_FALSE(after.root()["extensionsUsed"]);
   CHECK(after.root()["textures"].children()[1].raw() == R"({"sampler":1,"source":1})");
+}
+
+TEST_CASE("A spare texture of another format keeps its extension where its image stays", "[assets]") {
+  const std::string bytes = container_of(
+      {constant_pixels({255, 0, 0}), random_pixels(4, 2)},
+      R"({"normalTexture":{"index":1},"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},"specularFactor":[0.04,0.04,0.04]}}})");
+  const GltfContainer container = read_container(MemorySource(bytes), "before");
+  std::string json = container.json;
+  const std::string list = R"("textures":[{"source":0,"sampler":0},{"source":1,"sampler":1}])",
+                    both = R"({"extensions":{"EXT_texture_webp":{"source":0}}})";
+  json.replace(json.find(list), list.size(), R"("textures":[)" + both + "," + both + "]");
+  const Reread after =
+      reread(glb_bytes(json, bytes.substr(container.chunks.front().begin)), with_compaction());
+  CHECK(after.material(0)["pbrMetallicRoughness"]["baseColorFactor"].raw() == "[1,0,0,1]");
+  for (const SpanValue& texture : after.root()["textures"].children()) CHECK(texture.raw() == both);
 }
 
 TEST_CASE("Files with unknown extensions are not compacted", "[assets]") {
@@ -500,6 +537,21 @@ TEST_CASE("Maps with different transforms are converted on request", "[assets]")
   for (std::size_t i = 0; i < 30; ++i)
     CHECK(value_at(data, i, 1) ==
           Approx(1.0f - value_at(specgloss, i / 6 * 6 + (i + 3) % 6, 3)).margin(1.01 / 255.0));
+}
+
+TEST_CASE("Pairs that are baked differently are converted apart", "[assets]") {
+  const auto material = [](const std::string& offset) {
+    return textured(R"("diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1,"extensions":{)"
+                    R"("KHR_texture_transform":{"offset":[)" +
+                    offset + ",0]}}}");
+  };
+  AssetOptions options = kCoreProfile;
+  options.bakes = true;
+  const Reread after = reread(container_of({random_pixels(3, 1), random_pixels(4, 2)},
+                                           material("0.5") + "," + material("0.25") + "," + material("0.50")),
+                              options);
+  CHECK(after.root()["images"].size() == 6);
+  CHECK(after.material(2)["pbrMetallicRoughness"].raw() == after.material(0)["pbrMetallicRoughness"].raw());
 }
 
 namespace {
