@@ -40,7 +40,7 @@ std::optional<std::pair<std::size_t, std::string>> pointed_material(std::string_
 struct ImageParts {
   ImageParts(const GltfSource& source, const AssetOptions& options, const AssetResources& resources)
       : bytes(source.json, source.container, source.bytes, resources),
-        images(source.json, bytes, resources.codec()),
+        images(source.json, bytes, resources),
         added(source.json, source.container, resources, source.place),
         textures(options, resources, images, added) {}
 

@@ -56,9 +56,9 @@ std::vector<std::size_t> images_of_texture(SpanValue texture) {
   return found;
 }
 
-GltfImages::GltfImages(const SpannedJson& json, const GltfBytes& bytes, const ImageCodec& codec)
+GltfImages::GltfImages(const SpannedJson& json, const GltfBytes& bytes, const AssetResources& resources)
     : bytes_(bytes),
-      codec_(codec),
+      resources_(resources),
       textures_(json.root()["textures"].entries()),
       samplers_(json.root()["samplers"].entries()) {}
 
@@ -89,9 +89,10 @@ AssetImage GltfImages::load(const TextureInfo& info) {
     }
     try {
       const std::string bytes = bytes_.of_image(image);
-      recent_.push_front({info.texture, image,
-                          std::make_shared<const ImagePixels>(codec_.decode(bytes, image_name(image))),
-                          bytes.starts_with("\xff\xd8")});
+      recent_.push_front(
+          {info.texture, image,
+           std::make_shared<const ImagePixels>(resources_.codec().decode(bytes, image_name(image))),
+           bytes.starts_with("\xff\xd8")});
       if (recent_.size() > kRecentImages) recent_.pop_back();
       return recent_.front();
     } catch (const Error& error) {

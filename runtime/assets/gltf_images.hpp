@@ -41,7 +41,7 @@ struct TextureInfo {
 class GltfImages {
  public:
   // All must outlive it.
-  GltfImages(const SpannedJson& json, const GltfBytes& bytes, const ImageCodec& codec);
+  GltfImages(const SpannedJson& json, const GltfBytes& bytes, const AssetResources& resources);
 
   // Throws kInput for an index or a transform that cannot be read.
   TextureInfo info_of(SpanValue texture_info) const;
@@ -53,7 +53,7 @@ class GltfImages {
 
  private:
   const GltfBytes& bytes_;
-  const ImageCodec& codec_;
+  const AssetResources& resources_;  // its codec takes time to load, and many files have no images
   std::vector<SpanValue> textures_, samplers_;
   std::list<AssetImage> recent_;  // the newest first
 };

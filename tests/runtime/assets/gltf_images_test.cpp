@@ -262,3 +262,25 @@ TEST_CASE("A container of 4 GiB cannot be written", "[assets]") {
       convert_gltf(source, "a.glb", kExactProfile),
       Catch::Contains("a.glb: would have 4294967") && Catch::Contains("(convert it as .gltf with a .bin)"));
 }
+
+namespace {
+
+class NoLibrary final : public AssetResources {
+ public:
+  std::unique_ptr<ByteSource> open(const std::string& path) const override { throw input_error(path); }
+  const ImageCodec& codec() const override { throw numeric_error("the image library was loaded"); }
+  ImagePixels enlarged(const ImagePixels& pixels, std::size_t, std::size_t) const override { return pixels; }
+};
+
+}  // namespace
+
+TEST_CASE("Materials without textures load no image library", "[assets]") {
+  const std::string text = specgloss_text("{}");
+  const NoLibrary resources;
+  AssetOptions back;
+  back.target = AssetTarget::kSpecGloss;
+  back.compacts = true;
+  const std::string core = converted_bytes(text, kCoreProfile, &resources);
+  CHECK(core == converted_bytes(text));
+  CHECK_NOTHROW(converted_bytes(core, back, &resources));
+}
