@@ -11,14 +11,14 @@ namespace {
 constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf", kMarkOfBigUtf16 = "\xfe\xff",
                            kMarkOfLittleUtf16 = "\xff\xfe";
 
+}  // namespace
+
 // Without a mark, every other byte of a text in English is 0.
 bool is_utf16(std::string_view text) {
   return text.starts_with(kMarkOfBigUtf16) || text.starts_with(kMarkOfLittleUtf16) ||
          (text.size() >= 4 && (text[0] == '\0') != (text[1] == '\0') &&
           (text[0] == '\0') == (text[2] == '\0') && (text[1] == '\0') == (text[3] == '\0'));
 }
-
-}  // namespace
 
 std::string in_lower_case(std::string_view text) {
   std::string result(text);

@@ -62,6 +62,9 @@ class MtlDocument {
   std::vector<MtlBlock> materials_;
 };
 
+// Whether a text is UTF-16, with a byte order mark or by its zeros.
+bool is_utf16(std::string_view text);
+
 // ASCII letters in lower case.
 std::string in_lower_case(std::string_view text);
 

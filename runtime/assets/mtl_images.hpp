@@ -47,6 +47,7 @@ class MtlImages {
   // that change its values.
   std::shared_ptr<const ImagePixels> load(const MtlMap& map, std::vector<std::string>& warnings);
   const AssetResources& resources() const { return *resources_; }
+  const std::string& folder() const noexcept { return folder_; }
 
  private:
   std::vector<std::string> candidates(const std::string& file) const;

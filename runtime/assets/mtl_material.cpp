@@ -104,6 +104,7 @@ class MapReader {
       if (option == "-s") map_.scale[i] = numbers[i];
       if (option == "-o") map_.offset[i] = numbers[i];
     }
+    if (option == "-bm" && !numbers.empty()) map_.strength = numbers.front();
     const bool has_effect =
         (option == "-t" && std::ranges::any_of(numbers, [](double number) { return number != 0.0; })) ||
         (option == "-mm" && !numbers.empty() &&

@@ -23,6 +23,7 @@ struct MtlMap {
   std::string file;           // the name with '/' between folders; may hold spaces; may be empty
   std::string options;        // as they are written before the name
   std::array<double, 2> scale = {1.0, 1.0}, offset = {0.0, 0.0};  // -s and -o: u and v
+  double strength = 1.0;                                          // -bm
   bool clamps = false;                                            // -clamp on
   char channel = '\0';                                            // -imfchan; 0 where it is not said
   std::vector<std::string> unusual;  // options that change what it looks like, and are not applied

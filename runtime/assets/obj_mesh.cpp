@@ -1,0 +1,319 @@
+#include "assets/obj_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <unordered_map>
+#include <utility>
+
+#define TINYOBJLOADER_IMPLEMENTATION
+#include <tiny_obj_loader.h>
+
+#include "assets/mtl_document.hpp"
+#include "core/errors.hpp"
+#include "core/plain_text.hpp"
+#include "core/report_text.hpp"
+
+namespace remap {
+namespace {
+
+// Rewrites an OBJ for the importer, which takes names of materials to end at a space and does not join lines:
+// materials become numbers, and lines that are not geometry go.
+class ObjText {
+ public:
+  ObjText(std::string_view text, ObjScene& scene) : text_(text), scene_(scene) {
+    materials_.push_back({"", false});
+    result_.reserve(text.size() + 16);
+    result_ += "mtllib materials\n";
+  }
+
+  std::string run() {
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    for (std::size_t at = text_.starts_with(kMark) ? kMark.size() : 0; at < text_.size();) at = add_line(at);
+    if (dropped_ > 0)
+      scene_.warnings.push_back(counted(dropped_, "line") + " of points, lines, curves or surfaces left out");
+    if (small_ > 0)
+      scene_.warnings.push_back(counted(small_, "face") + " of fewer than three corners left out");
+    if (fans_ > 0)
+      scene_.warnings.push_back(counted(fans_, "polygon") + " of more than " +
+                                std::to_string(kMostClippedCorners) +
+                                " corners cut as fans, which is right where they are convex");
+    return std::move(result_);
+  }
+
+  // By their numbers, of which 0 is that of faces without one.
+  const std::vector<ObjMaterialName>& materials() const { return materials_; }
+
+ private:
+  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+  // Appends the line as it counts, with lines joined that a backslash joins. Returns where the next begins.
+  std::size_t read_line(std::size_t begin) {
+    line_.clear();
+    for (std::size_t at = begin;;) {
+      const std::size_t end = std::min(text_.find_first_of("\r\n", at), text_.size());
+      const std::string_view part = text_.substr(at, end - at);
+      const bool is_comment = line_.empty() && part.starts_with('#');
+      line_ += part;
+      at = end;
+      if (at < text_.size()) at += text_.substr(at, 2) == "\r\n" ? 2 : 1;
+      if (is_comment || end >= text_.size() || !part.ends_with('\\')) return at;
+      line_.back() = ' ';
+    }
+  }
+
+  std::size_t add_line(std::size_t begin) {
+    const std::size_t next = read_line(begin);
+    // The importer takes a line to end at a NUL.
+    std::ranges::replace(line_, '\0', ' ');
+    std::size_t first = 0, last = line_.size();
+    while (first < last && is_space(line_[first])) ++first;
+    while (last > first && is_space(line_[last - 1])) --last;
+    const std::string_view line = std::string_view(line_).substr(first, last - first);
+    std::size_t word_end = 0;
+    while (word_end < line.size() && !is_space(line[word_end])) ++word_end;
+    std::size_t rest = word_end;
+    while (rest < line.size() && is_space(line[rest])) ++rest;
+    add_statement(line, line.substr(0, word_end), line.substr(rest));
+    return next;
+  }
+
+  void add_statement(std::string_view line, std::string_view word, std::string_view rest) {
+    constexpr std::array<std::string_view, 4> kGeometry = {"v", "vn", "vt", "o"};
+    constexpr std::array<std::string_view, 6> kDropped = {"p", "l", "curv", "curv2", "surf", "mg"};
+    if (std::ranges::find(kGeometry, word) != kGeometry.end()) return pass(line);
+    if (word == "g") return pass(rest.empty() ? "o " : line);
+    if (word == "f" || word == "fo") return add_face(rest);
+    if (word == "usemtl") return pass("usemtl " + std::to_string(number_of(std::string(rest))));
+    if (word == "mtllib") scene_.libraries.emplace_back(rest);
+    dropped_ += std::ranges::find(kDropped, word) != kDropped.end();
+  }
+
+  void add_face(std::string_view rest) {
+    std::vector<std::string_view> corners;
+    for (std::size_t at = 0; at < rest.size();) {
+      const std::size_t begin = at;
+      while (at < rest.size() && !is_space(rest[at])) ++at;
+      corners.push_back(rest.substr(begin, at - begin));
+      while (at < rest.size() && is_space(rest[at])) ++at;
+    }
+    small_ += corners.size() < 3;
+    if (corners.size() <= kMostClippedCorners) return pass("f " + std::string(rest));
+    ++fans_;
+    for (std::size_t i = 2; i < corners.size(); ++i)
+      ((((((result_ += "f ") += corners[0]) += ' ') += corners[i - 1]) += ' ') += corners[i]) += '\n';
+  }
+
+  void pass(std::string_view line) { (result_ += line) += '\n'; }
+
+  std::size_t number_of(const std::string& name) {
+    const auto [entry, is_new] = numbers_.try_emplace(name, materials_.size());
+    if (is_new) materials_.push_back({name, true});
+    return entry->second;
+  }
+
+  std::string_view text_;
+  ObjScene& scene_;
+  std::string line_, result_;
+  std::size_t dropped_ = 0, small_ = 0, fans_ = 0;
+  std::vector<ObjMaterialName> materials_;
+  std::map<std::string, std::size_t> numbers_;
+};
+
+// Says to the importer that every number is a material.
+class NumberedMaterials final : public tinyobj::MaterialReader {
+ public:
+  explicit NumberedMaterials(std::size_t count) : count_(count) {}
+  bool operator()(const std::string&, std::vector<tinyobj::material_t>*, std::map<std::string, int>* numbers,
+                  std::string*, std::string*) override {
+    for (std::size_t i = 0; i < count_; ++i) numbers->emplace(std::to_string(i), static_cast<int>(i));
+    return true;
+  }
+
+ private:
+  std::size_t count_;
+};
+
+// Text in memory, without a copy.
+class MemoryBuffer final : public std::streambuf {
+ public:
+  explicit MemoryBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
+};
+
+struct ObjCorner {
+  int position, texcoord, normal;
+  bool operator==(const ObjCorner&) const = default;
+};
+struct ObjCornerHash {
+  std::size_t operator()(const ObjCorner& corner) const noexcept {
+    std::uint64_t hash = 0;
+    for (const int part : {corner.position, corner.texcoord, corner.normal})
+      hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(hash ^ hash >> 32);
+  }
+};
+
+// Triangles of one shape and material.
+class PrimitiveBuilder {
+ public:
+  PrimitiveBuilder(const tinyobj::attrib_t& attributes, std::size_t material) : attributes_(attributes) {
+    primitive_.material = material;
+  }
+
+  void add(const tinyobj::index_t& index) {
+    const ObjCorner corner{index.vertex_index, index.texcoord_index, index.normal_index};
+    const auto [entry, is_new] =
+        vertices_.try_emplace(corner, static_cast<std::uint32_t>(primitive_.vertex_count()));
+    primitive_.indices.push_back(entry->second);
+    if (!is_new) return;
+    append(attributes_.vertices, corner.position, 3, primitive_.positions);
+    if (corner.texcoord >= 0) {
+      append(attributes_.texcoords, corner.texcoord, 2, primitive_.texcoords);
+      primitive_.texcoords.back() = 1.0f - primitive_.texcoords.back();
+      has_texcoords_ = true;
+    } else {
+      primitive_.texcoords.insert(primitive_.texcoords.end(), 2, 0.0f);
+    }
+    add_normal(corner.normal);
+    if (!attributes_.colors.empty()) {
+      append(attributes_.colors, corner.position, 3, primitive_.colors);
+      for (std::size_t c = 0; c < 3; ++c) {
+        float& value = primitive_.colors[primitive_.colors.size() - 3 + c];
+        value = std::clamp(value, 0.0f, 1.0f);
+      }
+    }
+  }
+
+  // Normals that are missing or have no direction leave the primitive without any.
+  ObjPrimitive result() {
+    if (!has_texcoords_) primitive_.texcoords.clear();
+    if (!has_normals_) primitive_.normals.clear();
+    return std::move(primitive_);
+  }
+  bool lost_normals() const { return !has_normals_ && saw_normal_; }
+
+ private:
+  static void append(const std::vector<float>& from, int index, std::size_t count, std::vector<float>& to) {
+    const float* const first = from.data() + static_cast<std::size_t>(index) * count;
+    to.insert(to.end(), first, first + count);
+  }
+
+  void add_normal(int index) {
+    if (index < 0) {
+      has_normals_ = false;
+      return;
+    }
+    saw_normal_ = true;
+    const float* const normal = attributes_.normals.data() + static_cast<std::size_t>(index) * 3;
+    const double length = std::hypot(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+                                     static_cast<double>(normal[2]));
+    if (!std::isfinite(length) || length <= 0.0) has_normals_ = false;
+    if (!has_normals_) return;
+    for (std::size_t c = 0; c < 3; ++c)
+      primitive_.normals.push_back(static_cast<float>(static_cast<double>(normal[c]) / length));
+  }
+
+  const tinyobj::attrib_t& attributes_;
+  ObjPrimitive primitive_;
+  std::unordered_map<ObjCorner, std::uint32_t, ObjCornerHash> vertices_;
+  bool has_texcoords_ = false, has_normals_ = true, saw_normal_ = false;
+};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view text, const std::string& place) : place_(place) {
+    if (is_utf16(text)) throw input_error(place + ": is UTF-16 text (save it as UTF-8)");
+    if (text.size() > kLongestObj)
+      throw input_error(place + ": has " + std::to_string(text.size()) + " bytes; at most " +
+                        std::to_string(kLongestObj) + " are read");
+    ObjText prepared(text, scene_);
+    std::string geometry = prepared.run();
+    names_ = prepared.materials();
+    load(geometry);
+  }
+
+  ObjScene scene() {
+    for (const tinyobj::shape_t& shape : shapes_) add_shape(shape);
+    if (lost_normals_ > 0)
+      scene_.warnings.push_back(counted(lost_normals_, "mesh") + (lost_normals_ == 1 ? "" : "es") +
+                                " without normals, because some are missing or have length 0");
+    return std::move(scene_);
+  }
+
+ private:
+  void load(std::string& geometry) {
+    MemoryBuffer buffer(geometry);
+    std::istream stream(&buffer);
+    NumberedMaterials materials(names_.size());
+    std::vector<tinyobj::material_t> none;
+    std::string warning, fault;
+    const bool is_read =
+        tinyobj::LoadObj(&attributes_, &shapes_, &none, &warning, &fault, &stream, &materials, true, false);
+    if (!is_read)
+      throw input_error(place_ + ": a face cannot be read (its indices must be whole numbers other than 0)");
+    if (warning.find("invalid vertex index") != std::string::npos ||
+        warning.find("out of bounds") != std::string::npos)
+      throw input_error(place_ + ": a face names a vertex, normal or texture coordinate that is not there");
+    for (const auto* values : {&attributes_.vertices, &attributes_.texcoords, &attributes_.colors})
+      if (!std::ranges::all_of(*values, [](float value) { return std::isfinite(value); }))
+        throw input_error(place_ + ": a coordinate is too large for a number of 32 bits");
+  }
+
+  void require_within(int index, std::size_t count, bool may_be_missing, const char* name,
+                      const std::string& shape) const {
+    if (index >= 0 ? static_cast<std::size_t>(index) < count : may_be_missing && index == -1) return;
+    throw input_error(place_ + ": a face" + (shape.empty() ? "" : " of \"" + plain(shape, 80) + "\"") +
+                      " names a " + name + " that is not there; there are " + std::to_string(count));
+  }
+
+  void add_shape(const tinyobj::shape_t& shape) {
+    std::map<int, PrimitiveBuilder> builders;
+    std::vector<int> order;
+    const std::vector<tinyobj::index_t>& indices = shape.mesh.indices;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      require_within(indices[i].vertex_index, attributes_.vertices.size() / 3, false, "vertex", shape.name);
+      require_within(indices[i].normal_index, attributes_.normals.size() / 3, true, "normal", shape.name);
+      require_within(indices[i].texcoord_index, attributes_.texcoords.size() / 2, true, "texture coordinate",
+                     shape.name);
+      const int material = std::max(shape.mesh.material_ids[i / 3], 0);
+      auto builder = builders.find(material);
+      if (builder == builders.end()) {
+        builder = builders.try_emplace(material, attributes_, used_material(material)).first;
+        order.push_back(material);
+      }
+      builder->second.add(indices[i]);
+    }
+    if (order.empty()) return;
+    ObjShape& added = scene_.shapes.emplace_back();
+    added.name = shape.name;
+    for (const int material : order) {
+      PrimitiveBuilder& builder = builders.at(material);
+      lost_normals_ += builder.lost_normals();
+      added.primitives.push_back(builder.result());
+    }
+  }
+
+  // Numbers those that faces use.
+  std::size_t used_material(int number) {
+    const auto [entry, is_new] = used_.try_emplace(number, scene_.materials.size());
+    if (is_new) scene_.materials.push_back(names_[static_cast<std::size_t>(number)]);
+    return entry->second;
+  }
+
+  const std::string& place_;
+  ObjScene scene_;
+  std::vector<ObjMaterialName> names_;
+  std::map<int, std::size_t> used_;
+  tinyobj::attrib_t attributes_;
+  std::vector<tinyobj::shape_t> shapes_;
+  std::size_t lost_normals_ = 0;
+};
+
+}  // namespace
+
+ObjScene read_obj(std::string_view text, const std::string& place) { return ObjReader(text, place).scene(); }
+
+}  // namespace remap
