@@ -54,6 +54,7 @@ class MapReader {
       while (++at_ < words_.size() && option_at(at_) == kMapOptions.end()) map_.name.end = words_[at_].end;
     }
     // Some tools write options after the name.
+    is_named_ = true;
     while (at_ < words_.size())
       if (!read_option()) ++at_;
     MtlStatement name;
@@ -78,8 +79,9 @@ class MapReader {
       return true;
     }
     std::vector<double> numbers;
-    // The last word is the name even where it is a number.
-    while (numbers.size() < option->most && at_ + 1 < words_.size()) {
+    // Before the name, the last word is it even where it is a number.
+    const std::size_t end = words_.size() - (is_named_ ? 0 : 1);
+    while (numbers.size() < option->most && at_ < end) {
       const auto number = mtl_number(document_.raw(words_[at_]));
       if (!number) break;
       numbers.push_back(*number);
@@ -115,6 +117,7 @@ class MapReader {
   const MtlDocument& document_;
   std::vector<TextSpan> words_;
   std::size_t at_ = 0;
+  bool is_named_ = false;
   MtlMap map_;
 };
 

@@ -190,8 +190,7 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
   if (!output.as_glb) whole["uri"] = uri_of_path(buffer_name);
   file["buffers"] = Json::list({std::move(whole)});
   conversion.text = file.dump();
-  conversion.changed =
-      conversion.materials.empty() || conversion.count(MaterialState::kFailed) < conversion.materials.size();
+  conversion.changed = true;
   if (output.as_glb) {
     conversion.pieces = glb_pieces(conversion.text, std::move(buffer.bytes()), place);
     return conversion;

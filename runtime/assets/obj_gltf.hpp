@@ -15,9 +15,9 @@ struct GltfOutput {
 // Meshes by tinyobjloader (obj_mesh.hpp), a node for each group or object; materials by legacy_material.hpp,
 // those that have Pr or Pm as they are. PNG and JPEG files are embedded in a .glb, and for a .gltf named
 // among `resources`, to be copied; what else is there becomes PNG. A material whose map is missing has the
-// state kFailed and is there without that map. `pieces` hold the whole file; `text`, its JSON. Throws kInput,
-// beginning with `place`, for geometry that cannot be read and a file without triangles; kOutput for 4 GiB or
-// more.
+// state kFailed and is there without that map. `pieces` hold the whole file, whatever failed; `text`, its
+// JSON. Throws kInput, beginning with `place`, for geometry that cannot be read and a file without triangles;
+// kOutput for 4 GiB or more.
 AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, const AssetOptions& options,
                             const AssetResources& resources, const GltfOutput& output = {});
 

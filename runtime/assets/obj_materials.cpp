@@ -140,14 +140,16 @@ struct ObjMaterials::Planned {
   bool blends = false;
 
   // A map that is missing or cannot be read leaves the rest of the material.
-  void attempt(const std::function<void()>& step) {
+  bool attempt(const std::function<void()>& step) {
     try {
       step();
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kInput) throw;
       report.state = MaterialState::kFailed;
       report.failure += (report.failure.empty() ? "" : "; ") + std::string(error.what());
+      return false;
     }
+    return true;
   }
 };
 
@@ -249,11 +251,12 @@ Json ObjMaterials::converted_block(Library& library, const MtlBlock& block, Asse
   color.push_back(float_value(planned.alpha));
   Json factors = Json::object();
   factors["baseColorFactor"] = std::move(color);
-  planned.attempt([&] {
+  const bool has_base = planned.attempt([&] {
     if (planned.base_map == nullptr) return;
     const std::size_t image = base_image_of(planned);
     factors["baseColorTexture"] = texture_info(image, *planned.base_map);
   });
+  if (!has_base) planned.base_map = nullptr;
   factors["metallicFactor"] = float_value(planned.metallic);
   factors["roughnessFactor"] = float_value(planned.roughness);
   factors.update(core);
@@ -285,10 +288,9 @@ std::size_t ObjMaterials::base_image_of(Planned& planned) {
   return planned.base_image;
 }
 
-// A map that fails leaves the factors.
+// A map that fails leaves the factors, and that of diffuse.
 void ObjMaterials::set_reflection(Planned& planned) {
-  planned.base = planned.surface.diffuse.value_or(kWhite);
-  planned.attempt([&] {
+  const bool is_done = planned.attempt([&] {
     if (is_metal_rough(planned.library.document, planned.block)) return set_metal_rough(planned);
     const MtlReflection reflection = reflection_of(planned.surface, planned.report.warnings);
     if (options_.profile == MaterialProfile::kExtensions)
@@ -296,6 +298,10 @@ void ObjMaterials::set_reflection(Planned& planned) {
     else
       set_core(planned, reflection);
   });
+  if (is_done) return;
+  planned.base = planned.surface.diffuse.value_or(kWhite);
+  planned.metallic = 0.0;
+  keep_diffuse_map(planned);
 }
 
 void ObjMaterials::keep_diffuse_map(Planned& planned) {

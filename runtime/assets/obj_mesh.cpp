@@ -238,7 +238,7 @@ class ObjReader {
   ObjScene scene() {
     for (const tinyobj::shape_t& shape : shapes_) add_shape(shape);
     if (lost_normals_ > 0)
-      scene_.warnings.push_back(counted(lost_normals_, "mesh") + (lost_normals_ == 1 ? "" : "es") +
+      scene_.warnings.push_back(counted(lost_normals_, "mesh part") +
                                 " without normals, because some are missing or have length 0");
     return std::move(scene_);
   }
