@@ -24,7 +24,8 @@ namespace {
 // materials become numbers, and lines that are not geometry go.
 class ObjText {
  public:
-  ObjText(std::string_view text, ObjScene& scene) : text_(text), scene_(scene) {
+  ObjText(std::string_view text, const std::string& place, ObjScene& scene)
+      : text_(text), place_(place), scene_(scene) {
     materials_.push_back({"", false});
     result_.reserve(text.size() + 16);
     result_ += "mtllib materials\n";
@@ -84,12 +85,28 @@ class ObjText {
   void add_statement(std::string_view line, std::string_view word, std::string_view rest) {
     constexpr std::array<std::string_view, 4> kGeometry = {"v", "vn", "vt", "o"};
     constexpr std::array<std::string_view, 6> kDropped = {"p", "l", "curv", "curv2", "surf", "mg"};
-    if (std::ranges::find(kGeometry, word) != kGeometry.end()) return pass(line);
+    if (std::ranges::find(kGeometry, word) != kGeometry.end())
+      return pass(word == "o" ? line : bounded(line));
     if (word == "g") return pass(rest.empty() ? "o " : line);
     if (word == "f" || word == "fo") return add_face(rest);
     if (word == "usemtl") return pass("usemtl " + std::to_string(number_of(std::string(rest))));
     if (word == "mtllib") scene_.libraries.emplace_back(rest);
     dropped_ += std::ranges::find(kDropped, word) != kDropped.end();
+  }
+
+  // The importer takes exponents of ten digits for whole numbers of 32 bits. No coordinate has six.
+  std::string_view bounded(std::string_view line) const {
+    constexpr std::size_t kMostDigits = 5;
+    std::size_t digits = 0;
+    bool is_exponent = false;
+    for (const char c : line) {
+      const bool is_digit_of_exponent = is_exponent && c >= '0' && c <= '9';
+      digits = is_digit_of_exponent ? digits + 1 : 0;
+      is_exponent = c == 'e' || c == 'E' || (is_exponent && (is_digit_of_exponent || c == '-' || c == '+'));
+      if (digits > kMostDigits)
+        throw input_error(place_ + ": " + plain(line, 80) + ": its exponent is too large");
+    }
+    return line;
   }
 
   void add_face(std::string_view rest) {
@@ -116,6 +133,7 @@ class ObjText {
   }
 
   std::string_view text_;
+  const std::string& place_;
   ObjScene& scene_;
   std::string line_, result_;
   std::size_t dropped_ = 0, small_ = 0, fans_ = 0;
@@ -229,7 +247,7 @@ class ObjReader {
     if (text.size() > kLongestObj)
       throw input_error(place + ": has " + std::to_string(text.size()) + " bytes; at most " +
                         std::to_string(kLongestObj) + " are read");
-    ObjText prepared(text, scene_);
+    ObjText prepared(text, place, scene_);
     std::string geometry = prepared.run();
     names_ = prepared.materials();
     load(geometry);
