@@ -161,36 +161,40 @@ ObjMaterials::~ObjMaterials() = default;
 
 void ObjMaterials::read_libraries(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
-    // A line is one name with spaces, or several names.
+    // A line is one name with spaces, or several names. A name that leads elsewhere may lie here.
     if (read_library(line)) continue;
     std::vector<std::string> missing;
-    for (const std::string& name : parts_between(line, ' '))
-      if (!name.empty() && !read_library(name)) missing.push_back(name);
-    if (line.empty() || !missing.empty())
-      conversion_.warnings.push_back("mtllib " +
-                                     plain(missing.size() == 1 ? missing.front() : line, kLongestShown) +
-                                     ": is not there; its materials count as white");
+    std::size_t found = 0;
+    for (const std::string& name : parts_between(line, ' ')) {
+      if (name.empty()) continue;
+      if (read_library(name) || read_library(file_name_of(name)))
+        ++found;
+      else
+        missing.push_back(name);
+    }
+    if (found == 0 && read_library(file_name_of(line))) continue;
+    if (found > 0 && missing.empty()) continue;
+    conversion_.warnings.push_back("mtllib " +
+                                   plain(missing.size() == 1 ? missing.front() : line, kLongestShown) +
+                                   ": is not there; its materials count as white");
   }
   reads_tr_ = is_tr_opacity();
 }
 
 bool ObjMaterials::read_library(const std::string& name) {
-  for (const std::string& candidate : {name, file_name_of(name)}) {
-    const std::optional<std::string> path = path_within("", candidate);
-    if (!path || !is_there(resources_, *path)) continue;
-    if (!library_paths_.insert(*path).second) return true;
-    auto library =
-        std::make_unique<Library>(mtl_text(*resources_.open(*path), plain(*path)), *path, resources_);
-    for (std::size_t i = 0; i < library->document.materials().size(); ++i)
-      blocks_.try_emplace(library->document.materials()[i].name, library.get(), i);
-    for (std::size_t i = 0; i < library->document.statements().size(); ++i)
-      if (is_mtl_map(library->document.word(library->document.statements()[i])))
-        if (const auto taken = library->images.place_of(read_mtl_map(library->document, i).file))
-          names_.take(*taken);
-    libraries_.push_back(std::move(library));
-    return true;
-  }
-  return false;
+  const std::optional<std::string> path = path_within("", name);
+  if (!path || !is_there(resources_, *path)) return false;
+  if (!library_paths_.insert(*path).second) return true;
+  auto library =
+      std::make_unique<Library>(mtl_text(*resources_.open(*path), plain(*path)), *path, resources_);
+  const MtlDocument& document = library->document;
+  for (std::size_t i = 0; i < document.materials().size(); ++i)
+    blocks_.try_emplace(document.materials()[i].name, library.get(), i);
+  for (std::size_t i = 0; i < document.statements().size(); ++i)
+    if (is_mtl_map(document.word(document.statements()[i])))
+      if (const auto taken = library->images.place_of(read_mtl_map(document, i).file)) names_.take(*taken);
+  libraries_.push_back(std::move(library));
+  return true;
 }
 
 // MeshLab writes Tr 1 for what is opaque, where the specification has 1 - d.

@@ -83,11 +83,11 @@ class ObjText {
   }
 
   void add_statement(std::string_view line, std::string_view word, std::string_view rest) {
-    constexpr std::array<std::string_view, 4> kGeometry = {"v", "vn", "vt", "o"};
+    constexpr std::array<std::string_view, 3> kGeometry = {"v", "vn", "vt"};
     constexpr std::array<std::string_view, 6> kDropped = {"p", "l", "curv", "curv2", "surf", "mg"};
-    if (std::ranges::find(kGeometry, word) != kGeometry.end())
-      return pass(word == "o" ? line : bounded(line));
-    if (word == "g") return pass(rest.empty() ? "o " : line);
+    if (std::ranges::find(kGeometry, word) != kGeometry.end()) return pass(bounded(line));
+    if (word == "o" || (word == "g" && rest.empty())) return pass("o " + std::string(rest));
+    if (word == "g") return pass(line);
     if (word == "f" || word == "fo") return add_face(rest);
     if (word == "usemtl") return pass("usemtl " + std::to_string(number_of(std::string(rest))));
     if (word == "mtllib") scene_.libraries.emplace_back(rest);

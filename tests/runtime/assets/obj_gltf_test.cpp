@@ -200,7 +200,7 @@ TEST_CASE("Images: PNG and JPEG as they are, others as PNG, each once", "[assets
   REQUIRE(beside.resources.size() == 2);
   CHECK(beside.resources[0].path == "a b.png");
   REQUIRE(beside.files.size() == 2);
-  CHECK(beside.files[0].path == "c_2.png");
+  CHECK(beside.files[0].path == "c.png");
   CHECK(beside.files[1].path == "my mesh.bin");
 }
 
