@@ -68,9 +68,9 @@ class LegacyMapPass {
                : maps.specular != nullptr ? *maps.specular
                                           : *maps.exponent),
         width_(color_.width),
-        base_(blank(3)),
-        data_(blank(3)),
-        specular_(blank(maps.as_dielectric ? 4 : 0)),
+        base_(white_image(color_, 3)),
+        data_(white_image(color_, 3)),
+        specular_(white_image(color_, maps.as_dielectric ? 4 : 0)),
         diffuse_row_(color_row(width_)),
         specular_row_(color_row(width_)),
         base_row_(color_row(width_)),
@@ -96,12 +96,6 @@ class LegacyMapPass {
   }
 
  private:
-  ImagePixels blank(std::size_t channels) const {
-    ImagePixels pixels{color_.width, color_.height, channels, color_.type, {}};
-    pixels.bytes.assign(pixels.width * pixels.height * pixels.texel_bytes(), std::byte{255});
-    return pixels;
-  }
-
   void load(std::size_t y) {
     load_color(maps_.diffuse, maps_.factors.diffuse, y, diffuse_row_);
     load_color(maps_.specular, maps_.factors.specular, y, specular_row_);
@@ -240,6 +234,32 @@ void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, flo
     load_channel(pixels, c, y, row.data());
     for (std::size_t x = 0; x < pixels.width; ++x) values[x] += kWeights[c] * row[x];
   }
+}
+
+void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel) {
+  FloatRow row(pixels.width);
+  for (std::size_t y = 0; y < pixels.height; ++y) {
+    load_scalar_row(from, from_channel, y, row.data());
+    store_channel(pixels, channel, y, row.data());
+  }
+}
+
+ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, char channel) {
+  ImagePixels result = white_image(color != nullptr ? *color : *opacity, opacity != nullptr ? 4 : 3);
+  FloatRow row(result.width);
+  for (std::size_t y = 0; color != nullptr && y < result.height; ++y)
+    for (std::size_t c = 0; c < 3; ++c) {
+      load_channel(*color, color->is_grey() ? 0 : c, y, row.data());
+      store_channel(result, c, y, row.data());
+    }
+  if (opacity != nullptr) set_channel(result, 3, *opacity, channel);
+  return result;
+}
+
+ImagePixels white_image(const ImagePixels& model, std::size_t channels) {
+  ImagePixels pixels{model.width, model.height, channels, model.type, {}};
+  pixels.bytes.assign(pixels.width * pixels.height * pixels.texel_bytes(), std::byte{255});
+  return pixels;
 }
 
 }  // namespace remap

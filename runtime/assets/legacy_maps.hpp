@@ -36,6 +36,16 @@ LegacyMapResult converted_maps(const LegacyMaps& maps);
 // One channel of an image as an image of grey.
 ImagePixels channel_of(const ImagePixels& pixels, std::size_t channel);
 
+// An image of three channels, or four with opacity: the colors of `color`, or white, and as alpha a channel
+// of `opacity` (load_scalar_row()). One of them may be null; both have one size.
+ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, char channel);
+
+// Replaces a channel by one of a map of the same size (load_scalar_row()).
+void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
+
+// An image whose every value is the largest.
+ImagePixels white_image(const ImagePixels& model, std::size_t channels);
+
 // The channel of a map that holds one value, as MTL selects it (-imfchan), from 0 to 1: `count` values of row
 // `y`.
 void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, float* values);

@@ -35,7 +35,7 @@ struct NamedMap {
 void require_one_place(const std::vector<NamedMap>& maps) {
   for (const NamedMap& other : maps) {
     const MtlMap &first = *maps.front().map, &second = *other.map;
-    if (first.scale != second.scale || first.offset != second.offset || first.clamps != second.clamps)
+    if (!first.lies_like(second))
       throw input_error(plain(first.file, kLongestShownName) + " and " +
                         plain(second.file, kLongestShownName) +
                         " lie on the surface in different places (-s, -o, -clamp); use one for both");
@@ -101,15 +101,11 @@ std::optional<std::string> MtlImages::find(const std::string& file, std::vector<
   const auto [entry, is_new] = found_.try_emplace(file);
   std::optional<std::string>& found = entry->second;
   if (is_new && resources_ != nullptr)
-    for (const std::string& path : candidates(file)) {
-      try {
-        (void)resources_->open(path);
+    for (const std::string& path : candidates(file))
+      if (is_there(*resources_, path)) {
         found = path;
         break;
-      } catch (const Error& error) {
-        if (error.kind() != ErrorKind::kInput) throw;
       }
-    }
   if (found && path_within(folder_, file) != found)
     warnings.push_back(plain(file, kLongestShownName) + " is read from " + plain(*found, kLongestShownName));
   return found;
@@ -140,16 +136,29 @@ std::shared_ptr<const ImagePixels> MtlImages::load(const std::string& path) {
   return pixels;
 }
 
-std::shared_ptr<const ImagePixels> MtlImages::load(const MtlMap& map, std::vector<std::string>& warnings) {
+std::string MtlImages::require(const MtlMap& map, std::vector<std::string>& warnings) {
+  const std::string name = plain(map.file, kLongestShownName);
   if (!map.unusual.empty())
-    throw input_error(plain(map.file, kLongestShownName) + ": has " + map.unusual.front() +
+    throw input_error(name + ": has " + map.unusual.front() +
                       ", which is not applied (bake it into the image)");
-  if (resources_ == nullptr)
-    throw input_error(plain(map.file, kLongestShownName) + ": cannot be read, because no files can be");
+  if (resources_ == nullptr) throw input_error(name + ": cannot be read, because no files can be");
   const std::optional<std::string> path = find(map.file, warnings);
-  if (!path)
-    throw input_error(plain(map.file, kLongestShownName) + ": is not there (put it beside the MTL file)");
-  return load(*path);
+  if (!path) throw input_error(name + ": is not there (put it beside the MTL file)");
+  return *path;
+}
+
+std::shared_ptr<const ImagePixels> MtlImages::load(const MtlMap& map, std::vector<std::string>& warnings) {
+  return load(require(map, warnings));
+}
+
+bool is_there(const AssetResources& resources, const std::string& path) {
+  try {
+    (void)resources.open(path);
+    return true;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    return false;
+  }
 }
 
 std::string NewImageNames::free_name(const std::string& model, std::string_view suffix) {

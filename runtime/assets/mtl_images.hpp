@@ -43,8 +43,9 @@ class MtlImages {
   std::string bytes_of(const std::string& path) const;
   // Its pixels; the last few stay decoded.
   std::shared_ptr<const ImagePixels> load(const std::string& path);
-  // A map of a surface: find() and load(). Throws kInput, naming the map, where it is missing or has options
-  // that change its values.
+  // find(). Throws kInput, naming the map, where it is missing or has options that change what it looks like.
+  std::string require(const MtlMap& map, std::vector<std::string>& warnings);
+  // A map of a surface: require() and load().
   std::shared_ptr<const ImagePixels> load(const MtlMap& map, std::vector<std::string>& warnings);
   const AssetResources& resources() const { return *resources_; }
   const std::string& folder() const noexcept { return folder_; }
@@ -57,6 +58,9 @@ class MtlImages {
   std::map<std::string, std::optional<std::string>> found_;  // by the name in the MTL file
   std::list<std::pair<std::string, std::shared_ptr<const ImagePixels>>> recent_;  // the newest first
 };
+
+// Whether a file can be opened.
+bool is_there(const AssetResources& resources, const std::string& path);
 
 // Names of new images beside those that the asset names.
 class NewImageNames {

@@ -28,7 +28,10 @@ struct MtlMap {
   char channel = '\0';                                            // -imfchan; 0 where it is not said
   std::vector<std::string> unusual;  // options that change what it looks like, and are not applied
 
-  bool operator==(const MtlMap&) const = default;
+  // Whether it lies in the same place on the surface.
+  bool lies_like(const MtlMap& other) const {
+    return scale == other.scale && offset == other.offset && clamps == other.clamps;
+  }
 };
 
 // The file of a statement that names one. Options may also follow the name, as some tools write them.

@@ -41,8 +41,9 @@ std::string bytes_of_values(std::span<const Value> values) {
 
 class SceneWriter {
  public:
-  SceneWriter(ObjScene scene, GltfMaterialLists lists, GltfBuffer& buffer, AssetConversion& conversion)
-      : scene_(std::move(scene)), lists_(std::move(lists)), buffer_(buffer), conversion_(conversion) {}
+  SceneWriter(ObjScene scene, const std::vector<SceneMaterial>& materials, GltfBuffer& buffer,
+              AssetConversion& conversion)
+      : scene_(std::move(scene)), materials_(materials), buffer_(buffer), conversion_(conversion) {}
 
   // The JSON without its buffers.
   Json run() {
@@ -62,29 +63,19 @@ class SceneWriter {
           "faces of " + counted(without_texcoords_, "mesh part") +
           " have no texture coordinates, but a texture: they show one point of it");
     Json file{{"asset", Json{{"version", "2.0"}, {"generator", std::string("texremap ") + kVersion}}}};
-    if (!lists_.extensions.empty())
-      file["extensionsUsed"] = std::vector<std::string>(lists_.extensions.begin(), lists_.extensions.end());
     file["scene"] = 0;
     Json scene = Json::object();
     scene["nodes"] = std::move(roots);
     file["scenes"] = Json::list({std::move(scene)});
     file["nodes"] = std::move(nodes);
     file["meshes"] = std::move(meshes);
-    add_list(file, "materials", lists_.materials);
-    add_list(file, "textures", lists_.textures);
-    add_list(file, "images", lists_.images);
-    add_list(file, "samplers", lists_.samplers);
     file["accessors"] = std::move(accessors_);
     return file;
   }
 
  private:
-  static void add_list(Json& file, const char* name, Json& list) {
-    if (!list.empty()) file[name] = std::move(list);
-  }
-
   Json primitive_of(ObjPrimitive& primitive) {
-    if (primitive.texcoords.empty() && lists_.has_texture[primitive.material]) {
+    if (primitive.texcoords.empty() && materials_[primitive.material].has_texture) {
       primitive.texcoords.assign(primitive.vertex_count() * 2, 0.0f);
       ++without_texcoords_;
     }
@@ -142,12 +133,16 @@ class SceneWriter {
   }
 
   ObjScene scene_;
-  GltfMaterialLists lists_;
+  const std::vector<SceneMaterial>& materials_;
   GltfBuffer& buffer_;
   AssetConversion& conversion_;
   Json accessors_ = Json::list();
   std::size_t without_texcoords_ = 0;
 };
+
+void add_list(Json& file, const char* name, Json list) {
+  if (!list.empty()) file[name] = std::move(list);
+}
 
 // The header, the JSON and the binary chunk (glTF 2.0, section 4).
 std::vector<AssetPiece> glb_pieces(std::string json, std::string binary, const std::string& place) {
@@ -178,12 +173,23 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
   AssetConversion conversion;
   conversion.warnings = scene.warnings;
   GltfBuffer buffer;
-  ObjMaterials materials(options, resources,
-                         output.as_glb ? ObjMaterials::ImagePlace::kBuffer : ObjMaterials::ImagePlace::kFiles,
-                         buffer, conversion);
-  materials.read_libraries(scene.libraries);
-  GltfMaterialLists lists = materials.converted(scene.materials);
-  Json file = SceneWriter(std::move(scene), std::move(lists), buffer, conversion).run();
+  GltfTextures textures(resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles, buffer,
+                        conversion);
+  MtlLibraries libraries(resources);
+  libraries.read(scene.libraries, conversion.warnings);
+  for (const std::string& path : libraries.image_paths()) textures.take(path);
+  ObjMaterials converter(options, resources, libraries, textures, conversion);
+  const std::vector<SceneMaterial> materials = converter.converted(scene.materials);
+  Json file = SceneWriter(std::move(scene), materials, buffer, conversion).run();
+  Json extensions = Json::list(), material_list = Json::list();
+  if (converter.has_specular()) extensions.push_back(kKhrSpecular);
+  if (textures.has_transforms()) extensions.push_back(kTextureTransform);
+  for (const SceneMaterial& material : materials) material_list.push_back(material.json);
+  add_list(file, "extensionsUsed", std::move(extensions));
+  add_list(file, "materials", std::move(material_list));
+  add_list(file, "textures", textures.textures());
+  add_list(file, "images", textures.images());
+  add_list(file, "samplers", textures.samplers());
   file["bufferViews"] = buffer.views();
   Json whole{{"byteLength", buffer.bytes().size()}};
   const std::string buffer_name = output.name + ".bin";

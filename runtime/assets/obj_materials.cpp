@@ -18,13 +18,9 @@
 namespace remap {
 namespace {
 
-constexpr std::string_view kSpecular = "KHR_materials_specular", kTextureTransform = "KHR_texture_transform";
 constexpr std::array<double, 3> kWhite = {1.0, 1.0, 1.0};
-constexpr int kClampToEdge = 33071;
 constexpr std::size_t kLongestShown = 200;
 constexpr std::size_t kNoImage = std::numeric_limits<std::size_t>::max();
-
-double float_value(double value) { return decimal_value(static_cast<float>(value)); }
 
 Json numbers_of(const std::array<double, 3>& values) {
   Json list = Json::list();
@@ -38,44 +34,10 @@ std::string numbers_text(const std::array<double, 3>& values) {
   return text;
 }
 
-// The type of an image that glTF holds as it is; empty for others.
-const char* core_type_of(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
-  return bytes.starts_with("\xff\xd8\xff") ? "image/jpeg" : "";
-}
-
-std::string stem_of(const std::string& path) {
-  const std::string name = file_name_of(path);
-  const std::size_t dot = name.find_last_of('.');
-  return dot == std::string::npos || dot == 0 ? name : name.substr(0, dot);
-}
-
-bool lies_alike(const MtlMap& a, const MtlMap& b) {
-  return a.scale == b.scale && a.offset == b.offset && a.clamps == b.clamps;
-}
-
-// An image of three or four channels: colors of `color`, or white, and alpha of a channel of `opacity`, which
-// is as large. Null for none.
-ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, char channel) {
-  const ImagePixels& model = color != nullptr ? *color : *opacity;
-  ImagePixels result{model.width, model.height, opacity != nullptr ? 4u : 3u, model.type, {}};
-  result.bytes.assign(result.width * result.height * result.texel_bytes(), std::byte{255});
-  const std::size_t bytes = byte_count(model.type);
-  if (color != nullptr)
-    for (std::size_t i = 0; i < model.width * model.height; ++i)
-      for (std::size_t c = 0; c < 3; ++c)
-        std::memcpy(result.bytes.data() + i * result.texel_bytes() + c * bytes,
-                    color->bytes.data() + i * color->texel_bytes() + (color->is_grey() ? 0 : c * bytes),
-                    bytes);
-  if (opacity == nullptr) return result;
-  std::vector<float> row(model.width);
-  for (std::size_t y = 0; y < model.height; ++y) {
-    load_scalar_row(*opacity, channel, y, row.data());
-    (void)store_values(result.type, row.data(), row.size(),
-                       result.bytes.data() + y * result.width * result.texel_bytes() + 3 * bytes,
-                       result.texel_bytes());
-  }
-  return result;
+Json specular_of(double specular, const std::array<double, 3>& color) {
+  std::array<double, 3> scaled{};
+  for (std::size_t c = 0; c < 3; ++c) scaled[c] = kDielectricScale * color[c];
+  return Json{{"specularFactor", float_value(specular)}, {"specularColorFactor", numbers_of(scaled)}};
 }
 
 // Opacity is the alpha of a map that has one, as most tools write it, else its luminance.
@@ -84,32 +46,7 @@ char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
   return pixels.has_alpha() ? 'm' : 'l';
 }
 
-bool is_there(const AssetResources& resources, const std::string& path) {
-  try {
-    (void)resources.open(path);
-    return true;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kInput) throw;
-    return false;
-  }
-}
-
 }  // namespace
-
-// An MTL file and its images.
-struct ObjMaterials::Library {
-  std::string text;
-  MtlDocument document;
-  MtlImages images;
-
-  Library(std::string content, const std::string& path, const AssetResources& resources)
-      : text(std::move(content)), document(text, plain(path)), images(&resources, folder_of(path)) {}
-
-  static std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.find_last_of('/');
-    return slash == std::string::npos ? "" : path.substr(0, slash);
-  }
-};
 
 // What a conversion of maps became, without its pixels; kNoImage where it is a factor.
 struct ObjMaterials::ConvertedImages {
@@ -120,10 +57,10 @@ struct ObjMaterials::ConvertedImages {
 
 // A material on its way into the file.
 struct ObjMaterials::Planned {
-  Planned(Library& own_library, const MtlBlock& own_block, AssetMaterial& own_report)
+  Planned(MtlLibrary& own_library, const MtlBlock& own_block, AssetMaterial& own_report)
       : library(own_library), block(own_block), report(own_report) {}
 
-  Library& library;
+  MtlLibrary& library;
   const MtlBlock& block;
   AssetMaterial& report;
   MtlSurface surface;
@@ -153,103 +90,55 @@ struct ObjMaterials::Planned {
   }
 };
 
-ObjMaterials::ObjMaterials(const AssetOptions& options, const AssetResources& resources, ImagePlace place,
-                           GltfBuffer& buffer, AssetConversion& conversion)
-    : options_(options), resources_(resources), place_(place), buffer_(buffer), conversion_(conversion) {}
+ObjMaterials::ObjMaterials(const AssetOptions& options, const AssetResources& resources,
+                           const MtlLibraries& libraries, GltfTextures& textures, AssetConversion& conversion)
+    : options_(options),
+      resources_(resources),
+      libraries_(libraries),
+      textures_(textures),
+      conversion_(conversion),
+      reads_tr_(!libraries.has_tr_for_opaque()) {
+  if (!reads_tr_)
+    conversion.warnings.push_back(
+        "Tr is 1 in every material and d in none, as MeshLab writes it: the materials are opaque");
+}
 
 ObjMaterials::~ObjMaterials() = default;
 
-void ObjMaterials::read_libraries(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) {
-    // A line is one name with spaces, or several names. A name that leads elsewhere may lie here.
-    if (read_library(line)) continue;
-    std::vector<std::string> missing;
-    std::size_t found = 0;
-    for (const std::string& name : parts_between(line, ' ')) {
-      if (name.empty()) continue;
-      if (read_library(name) || read_library(file_name_of(name)))
-        ++found;
-      else
-        missing.push_back(name);
-    }
-    if (found == 0 && read_library(file_name_of(line))) continue;
-    if (found > 0 && missing.empty()) continue;
-    conversion_.warnings.push_back("mtllib " +
-                                   plain(missing.size() == 1 ? missing.front() : line, kLongestShown) +
-                                   ": is not there; its materials count as white");
-  }
-  reads_tr_ = is_tr_opacity();
-}
-
-bool ObjMaterials::read_library(const std::string& name) {
-  const std::optional<std::string> path = path_within("", name);
-  if (!path || !is_there(resources_, *path)) return false;
-  if (!library_paths_.insert(*path).second) return true;
-  auto library =
-      std::make_unique<Library>(mtl_text(*resources_.open(*path), plain(*path)), *path, resources_);
-  const MtlDocument& document = library->document;
-  for (std::size_t i = 0; i < document.materials().size(); ++i)
-    blocks_.try_emplace(document.materials()[i].name, library.get(), i);
-  for (std::size_t i = 0; i < document.statements().size(); ++i)
-    if (is_mtl_map(document.word(document.statements()[i])))
-      if (const auto taken = library->images.place_of(read_mtl_map(document, i).file)) names_.take(*taken);
-  libraries_.push_back(std::move(library));
-  return true;
-}
-
-// MeshLab writes Tr 1 for what is opaque, where the specification has 1 - d.
-bool ObjMaterials::is_tr_opacity() const {
-  bool has_material = false;
-  for (const std::unique_ptr<Library>& library : libraries_)
-    for (const MtlBlock& block : library->document.materials()) {
-      std::vector<std::string> ignored;
-      try {
-        const MtlCover cover = read_mtl_cover(library->document, block, ignored);
-        if (cover.opacity || cover.transparency.value_or(0.0) < 1.0) return true;
-      } catch (const Error&) {
-        return true;
-      }
-      has_material = true;
-    }
-  if (has_material)
-    conversion_.warnings.push_back(
-        "Tr is 1 in every material and d in none, as MeshLab writes it: the materials are opaque");
-  return !has_material;
-}
-
-GltfMaterialLists ObjMaterials::converted(const std::vector<ObjMaterialName>& names) {
+std::vector<SceneMaterial> ObjMaterials::converted(const std::vector<ObjMaterialName>& names) {
+  std::vector<SceneMaterial> materials;
   for (std::size_t i = 0; i < names.size(); ++i) {
     AssetMaterial& report = conversion_.materials.emplace_back();
     report.index = i;
     report.name = names[i].name;
-    const std::size_t before = texture_uses_;
-    lists_.materials.push_back(material_of(names[i], report));
-    lists_.has_texture.push_back(texture_uses_ > before);
+    const std::size_t before = textures_.info_count();
+    SceneMaterial& material = materials.emplace_back();
+    material.json = material_of(names[i], report);
+    material.has_texture = textures_.info_count() > before;
   }
-  return std::move(lists_);
+  return materials;
 }
 
 Json ObjMaterials::material_of(const ObjMaterialName& name, AssetMaterial& report) {
-  const auto found = name.is_given ? blocks_.find(name.name) : blocks_.end();
-  if (found == blocks_.end()) {
-    Json material = Json::object();
-    if (!name.name.empty()) material["name"] = utf8_name(name.name);
-    material["pbrMetallicRoughness"] = Json{{"metallicFactor", 0}};
-    if (name.is_given) report.warnings.push_back("is in no MTL file that is there, and counts as white");
-    return material;
-  }
-  Library& library = *found->second.first;
-  return converted_block(library, library.document.materials()[found->second.second], report);
+  const auto found = name.is_given ? libraries_.find(name.name) : std::nullopt;
+  if (found) return converted_block(*found->library, *found->block, report);
+  Json material = Json::object();
+  if (!name.name.empty()) material["name"] = utf8_name(name.name);
+  material["pbrMetallicRoughness"] = Json{{"metallicFactor", 0}};
+  if (name.is_given) report.warnings.push_back("is in no MTL file that is there, and counts as white");
+  return material;
 }
 
-Json ObjMaterials::converted_block(Library& library, const MtlBlock& block, AssetMaterial& report) {
+Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, AssetMaterial& report) {
   Planned planned(library, block, report);
   report.state = MaterialState::kConverted;
   if (!block.name.empty()) planned.material["name"] = utf8_name(block.name);
-  planned.attempt([&] { planned.surface = read_mtl_surface(library.document, block, report.warnings); });
+  const bool is_read =
+      planned.attempt([&] { planned.surface = read_mtl_surface(library.document, block, report.warnings); });
   planned.attempt([&] { planned.cover = read_mtl_cover(library.document, block, report.warnings); });
-  set_reflection(planned);
-  planned.attempt([&] { set_opacity(planned); });
+  if (is_read) set_reflection(planned);
+  // What lacks its opacity is not shared.
+  if (!planned.attempt([&] { set_opacity(planned); })) planned.shared_image = nullptr;
   Json& core = planned.core;
   Json color = numbers_of(planned.base);
   color.push_back(float_value(planned.alpha));
@@ -258,7 +147,7 @@ Json ObjMaterials::converted_block(Library& library, const MtlBlock& block, Asse
   const bool has_base = planned.attempt([&] {
     if (planned.base_map == nullptr) return;
     const std::size_t image = base_image_of(planned);
-    factors["baseColorTexture"] = texture_info(image, *planned.base_map);
+    factors["baseColorTexture"] = textures_.info(image, *planned.base_map);
   });
   if (!has_base) planned.base_map = nullptr;
   factors["metallicFactor"] = float_value(planned.metallic);
@@ -284,10 +173,11 @@ Json ObjMaterials::converted_block(Library& library, const MtlBlock& block, Asse
 }
 
 std::size_t ObjMaterials::base_image_of(Planned& planned) {
-  if (planned.keeps_file) return add_file_image(planned.library, *planned.base_map, planned.report.warnings);
+  if (planned.keeps_file)
+    return textures_.add_file(planned.library.images, *planned.base_map, planned.report.warnings);
   if (planned.base_image == kNoImage)
     planned.base_image =
-        add_new_image(planned.library, *planned.base_pixels, *planned.base_map, "_baseColor");
+        textures_.add_pixels(planned.library.images, *planned.base_pixels, *planned.base_map, "_baseColor");
   if (planned.shared_image != nullptr) *planned.shared_image = planned.base_image;
   return planned.base_image;
 }
@@ -327,8 +217,8 @@ void ObjMaterials::set_metal_rough(Planned& planned) {
   if (const auto pixels = packed_metal_rough(planned, &model)) {
     if (surface.roughness_map) planned.roughness = 1.0;
     if (surface.metallic_map) planned.metallic = 1.0;
-    planned.core["metallicRoughnessTexture"] =
-        texture_info(add_new_image(planned.library, *pixels, *model, "_metallicRoughness"), *model);
+    planned.core["metallicRoughnessTexture"] = textures_.info(
+        textures_.add_pixels(planned.library.images, *pixels, *model, "_metallicRoughness"), *model);
   }
 }
 
@@ -340,21 +230,13 @@ std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(Planned& pla
         planned.library.images.load(*map, planned.report.warnings);
     if (packed && (packed->width != pixels->width || packed->height != pixels->height))
       throw input_error("map_Pr and map_Pm differ in size (make them equal)");
-    if (*model != nullptr && !lies_alike(**model, *map))
+    if (*model != nullptr && !(*model)->lies_like(*map))
       throw input_error("map_Pr and map_Pm lie on the surface in different places (-s, -o, -clamp)");
     if (!packed) {
-      packed = std::make_shared<ImagePixels>(ImagePixels{pixels->width, pixels->height, 3, pixels->type, {}});
-      packed->bytes.assign(packed->width * packed->height * packed->texel_bytes(), std::byte{255});
+      packed = std::make_shared<ImagePixels>(white_image(*pixels, 3));
       *model = &*map;
     }
-    std::vector<float> row(pixels->width);
-    const std::size_t texel = packed->texel_bytes();
-    for (std::size_t y = 0; y < pixels->height; ++y) {
-      load_scalar_row(*pixels, map->channel, y, row.data());
-      (void)store_values(
-          packed->type, row.data(), row.size(),
-          packed->bytes.data() + y * packed->width * texel + channel * byte_count(packed->type), texel);
-    }
+    set_channel(*packed, channel, *pixels, map->channel);
   };
   add(planned.surface.roughness_map, 1);
   add(planned.surface.metallic_map, 2);
@@ -377,28 +259,25 @@ void ObjMaterials::set_core(Planned& planned, const MtlReflection& reflection) {
 void ObjMaterials::set_dielectric(Planned& planned, const MtlReflection& reflection) {
   const MtlSurface& surface = planned.surface;
   planned.base = reflection.factors.diffuse;
-  Json specular = Json::object();
   if (!reflection.has_highlight) {
-    specular["specularFactor"] = 0;
     keep_diffuse_map(planned);
-  } else {
-    // A map of diffuse alone is divided by 1 - F as a factor is.
-    LegacyMaterial white = reflection.factors;
-    const LegacyDielectric result = dielectric_of_legacy(white);
-    const bool is_factor = std::ranges::none_of(result.base_color, [](double value) { return value >= 1.0; });
-    const bool has_maps = surface.specular_map || surface.exponent_map || (surface.diffuse_map && !is_factor);
-    if (has_maps) return set_converted_maps(planned, reflection, true);
-    planned.base = result.base_color;
-    planned.roughness = result.roughness;
-    keep_diffuse_map(planned);
-    specular["specularFactor"] = float_value(result.specular);
-    std::array<double, 3> color{};
-    for (std::size_t c = 0; c < 3; ++c) color[c] = kDielectricScale * result.specular_color[c];
-    specular["specularColorFactor"] = numbers_of(color);
+    return set_specular(planned, Json{{"specularFactor", 0}});
   }
-  lists_.extensions.emplace(kSpecular);
+  // A map of diffuse alone is divided by 1 - F as a factor is.
+  const LegacyDielectric result = dielectric_of_legacy(reflection.factors);
+  const bool is_factor = std::ranges::none_of(result.base_color, [](double value) { return value >= 1.0; });
+  if (surface.specular_map || surface.exponent_map || (surface.diffuse_map && !is_factor))
+    return set_converted_maps(planned, reflection, true);
+  planned.base = result.base_color;
+  planned.roughness = result.roughness;
+  keep_diffuse_map(planned);
+  set_specular(planned, specular_of(result.specular, result.specular_color));
+}
+
+void ObjMaterials::set_specular(Planned& planned, Json specular) {
+  has_specular_ = true;
   planned.material["extensions"] = Json::object();
-  planned.material["extensions"][std::string(kSpecular)] = specular;
+  planned.material["extensions"][std::string(kKhrSpecular)] = std::move(specular);
 }
 
 void ObjMaterials::set_converted_maps(Planned& planned, const MtlReflection& reflection, bool as_dielectric) {
@@ -407,54 +286,54 @@ void ObjMaterials::set_converted_maps(Planned& planned, const MtlReflection& ref
                            : surface.exponent_map ? *surface.exponent_map
                                                   : *surface.diffuse_map;
   if (surface.exponent_map) planned.report.warnings.push_back(exponent_warning(surface));
-  const std::string opacity = planned.cover.opacity_map ? planned.cover.opacity_map->file : "";
-  const std::string key = planned.library.images.folder() + '\0' + opacity + '\0' +
-                          (is_transparent(planned) ? "1" : "0") + key_of(surface, reflection.factors);
-  std::shared_ptr<ConvertedImages>& known = converted_[key];
-  std::shared_ptr<const ImagePixels> base_pixels;
-  if (!known || (known->has_own_base && known->base == kNoImage)) {
-    auto images = std::make_shared<ConvertedImages>();
-    const SurfaceMaps maps = load_maps(surface, planned.library.images, options_, planned.report.warnings);
-    images->result = converted_maps(maps.with(reflection.factors, surface, as_dielectric));
-    LegacyMapResult& result = images->result;
-    images->has_own_base = result.base_color.has_value();
-    if (result.base_color) base_pixels = std::make_shared<const ImagePixels>(*std::move(result.base_color));
-    if (result.metal_rough)
-      images->metal_rough =
-          add_new_image(planned.library, *result.metal_rough, data_map, "_metallicRoughness");
-    if (result.specular)
-      images->specular = add_new_image(planned.library, *result.specular, data_map, "_specular");
-    result.base_color.reset();
-    result.metal_rough.reset();
-    result.specular.reset();
-    known = std::move(images);
-  }
-  const LegacyMapResult& result = known->result;
+  ConvertedImages& images = converted_images(planned, reflection, as_dielectric, data_map);
+  const LegacyMapResult& result = images.result;
   planned.base = result.base;
   planned.metallic = as_dielectric ? 0.0 : result.metallic;
   planned.roughness = result.roughness;
   if (result.keeps_diffuse) keep_diffuse_map(planned);
-  if (known->has_own_base) {
+  if (images.has_own_base) {
     planned.base_map = surface.diffuse_map ? &*surface.diffuse_map : &data_map;
-    planned.base_pixels = base_pixels;
-    planned.base_image = known->base;
-    planned.shared_image = &known->base;
+    planned.base_image = images.base;
+    planned.shared_image = &images.base;
   }
-  if (known->metal_rough != kNoImage)
-    planned.core["metallicRoughnessTexture"] = texture_info(known->metal_rough, data_map);
+  if (images.metal_rough != kNoImage)
+    planned.core["metallicRoughnessTexture"] = textures_.info(images.metal_rough, data_map);
   if (!as_dielectric) return;
-  Json specular = Json::object();
-  std::array<double, 3> color{};
-  for (std::size_t c = 0; c < 3; ++c) color[c] = kDielectricScale * result.specular_color[c];
-  specular["specularFactor"] = float_value(result.specular_factor);
-  specular["specularColorFactor"] = numbers_of(color);
-  if (known->specular != kNoImage) {
-    specular["specularTexture"] = texture_info(known->specular, data_map);
-    specular["specularColorTexture"] = texture_info(known->specular, data_map);
+  Json specular = specular_of(result.specular_factor, result.specular_color);
+  if (images.specular != kNoImage) {
+    specular["specularTexture"] = textures_.info(images.specular, data_map);
+    specular["specularColorTexture"] = textures_.info(images.specular, data_map);
   }
-  lists_.extensions.emplace(kSpecular);
-  planned.material["extensions"] = Json::object();
-  planned.material["extensions"][std::string(kSpecular)] = specular;
+  set_specular(planned, std::move(specular));
+}
+
+// Materials with the same maps, factors and opacity share what they become. The base color of a first one is
+// in `planned`, so that opacity is added before it goes into the file.
+ObjMaterials::ConvertedImages& ObjMaterials::converted_images(Planned& planned,
+                                                              const MtlReflection& reflection,
+                                                              bool as_dielectric, const MtlMap& data_map) {
+  MtlImages& images = planned.library.images;
+  const std::string opacity = planned.cover.opacity_map ? planned.cover.opacity_map->file : "";
+  const std::string key = images.folder() + '\0' + opacity + '\0' + (is_transparent(planned) ? "1" : "0") +
+                          key_of(planned.surface, reflection.factors);
+  std::shared_ptr<ConvertedImages>& known = converted_[key];
+  if (known && (!known->has_own_base || known->base != kNoImage)) return *known;
+  const SurfaceMaps maps = load_maps(planned.surface, images, options_, planned.report.warnings);
+  auto made = std::make_shared<ConvertedImages>();
+  made->result = converted_maps(maps.with(reflection.factors, planned.surface, as_dielectric));
+  LegacyMapResult& result = made->result;
+  made->has_own_base = result.base_color.has_value();
+  if (result.base_color)
+    planned.base_pixels = std::make_shared<const ImagePixels>(*std::move(result.base_color));
+  if (result.metal_rough)
+    made->metal_rough = textures_.add_pixels(images, *result.metal_rough, data_map, "_metallicRoughness");
+  if (result.specular) made->specular = textures_.add_pixels(images, *result.specular, data_map, "_specular");
+  result.base_color.reset();
+  result.metal_rough.reset();
+  result.specular.reset();
+  known = std::move(made);
+  return *known;
 }
 
 double ObjMaterials::alpha_of(const MtlCover& cover) const {
@@ -471,32 +350,40 @@ void ObjMaterials::set_opacity(Planned& planned) {
   const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
   planned.alpha = alpha_of(planned.cover);
   planned.blends = is_transparent(planned);
-  const bool has_base_map = planned.base_map != nullptr;
-  if (!planned.blends || planned.base_image != kNoImage || (!has_base_map && !opacity_map)) return;
-  MtlImages& images = planned.library.images;
-  std::vector<std::string>& warnings = planned.report.warnings;
-  if (planned.keeps_file) {
+  const bool has_map = planned.base_map != nullptr || opacity_map;
+  if (!planned.blends || planned.base_image != kNoImage || !has_map) return;
+  if (planned.base_pixels == nullptr) {
     // Other materials may have the same two files.
-    const std::string key = images.folder() + '\0' + planned.base_map->file + '\0' +
+    const std::string key = planned.library.images.folder() + '\0' +
+                            (planned.base_map != nullptr ? planned.base_map->file : "") + '\0' +
                             (opacity_map ? opacity_map->file + '\0' + opacity_map->options : "");
     planned.shared_image = &composed_.try_emplace(key, kNoImage).first->second;
     planned.base_image = *planned.shared_image;
-    planned.keeps_file = planned.base_image == kNoImage;
-    if (!planned.keeps_file) return;
   }
+  const bool is_new = planned.base_image != kNoImage || add_opacity(planned);
+  if (!is_new) return;
+  planned.keeps_file = false;
+  if (planned.base_map == nullptr) planned.base_map = &*opacity_map;
+}
+
+// Returns whether there are other pixels than those of the file.
+bool ObjMaterials::add_opacity(Planned& planned) {
+  const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
+  MtlImages& images = planned.library.images;
+  std::vector<std::string>& warnings = planned.report.warnings;
   std::shared_ptr<const ImagePixels> color = planned.base_pixels, opacity;
   if (planned.keeps_file) color = images.load(*planned.base_map, warnings);
   char channel = 'l';
   if (opacity_map) {
     opacity = images.load(*opacity_map, warnings);
     channel = opacity_channel(*opacity_map, *opacity);
-    if (has_base_map && !lies_alike(*planned.base_map, *opacity_map))
+    if (planned.base_map != nullptr && !planned.base_map->lies_like(*opacity_map))
       throw input_error("map_Kd and map_d lie on the surface in different places (-s, -o, -clamp)");
   } else if (!planned.keeps_file || !color->has_alpha()) {
-    return;
+    return !planned.keeps_file;
   }
   // Many materials name one file for both.
-  if (planned.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return;
+  if (planned.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
     if (!options_.enlarges)
       throw input_error(plain(opacity_map->file, kLongestShown) +
@@ -507,8 +394,7 @@ void ObjMaterials::set_opacity(Planned& planned) {
     opacity = std::make_shared<const ImagePixels>(resources_.enlarged(*opacity, width, height));
   }
   planned.base_pixels = std::make_shared<const ImagePixels>(with_alpha(color.get(), opacity.get(), channel));
-  planned.keeps_file = false;
-  if (!has_base_map) planned.base_map = &*opacity_map;
+  return true;
 }
 
 void ObjMaterials::set_emission(Planned& planned) {
@@ -519,8 +405,9 @@ void ObjMaterials::set_emission(Planned& planned) {
     if (cover.has_emissive && is_dark)
       planned.report.warnings.push_back("Ke is 0 beside map_Ke, and counts as 1");
     if (is_dark) factor = kWhite;
-    const std::size_t image = add_file_image(planned.library, *cover.emissive_map, planned.report.warnings);
-    planned.material["emissiveTexture"] = texture_info(image, *cover.emissive_map);
+    const std::size_t image =
+        textures_.add_file(planned.library.images, *cover.emissive_map, planned.report.warnings);
+    planned.material["emissiveTexture"] = textures_.info(image, *cover.emissive_map);
   }
   if (cover.emissive_map || !is_dark) planned.material["emissiveFactor"] = numbers_of(factor);
 }
@@ -528,90 +415,9 @@ void ObjMaterials::set_emission(Planned& planned) {
 void ObjMaterials::set_normals(Planned& planned) {
   const std::optional<MtlMap>& map = planned.cover.normal_map;
   if (!map) return;
-  Json info = texture_info(add_file_image(planned.library, *map, planned.report.warnings), *map);
+  Json info = textures_.info(textures_.add_file(planned.library.images, *map, planned.report.warnings), *map);
   if (map->strength != 1.0) info["scale"] = float_value(map->strength);
   planned.material["normalTexture"] = std::move(info);
-}
-
-std::size_t ObjMaterials::add_file_image(Library& library, const MtlMap& map,
-                                         std::vector<std::string>& warnings) {
-  if (!map.unusual.empty()) (void)library.images.load(map, warnings);  // throws
-  const std::optional<std::string> path = library.images.find(map.file, warnings);
-  if (!path)
-    throw input_error(plain(map.file, kLongestShown) + ": is not there (put it beside the MTL file)");
-  if (const auto known = file_images_.find(*path); known != file_images_.end()) return known->second;
-  const std::string bytes = library.images.bytes_of(*path);
-  const char* const type = core_type_of(bytes);
-  std::size_t index = 0;
-  if (*type == '\0') {
-    index = add_new_image(library, *library.images.load(*path), map, "");
-  } else if (place_ == ImagePlace::kBuffer) {
-    index = add_image_bytes(bytes, type, utf8_name(stem_of(*path)));
-  } else {
-    lists_.images.push_back(Json{{"uri", uri_of_path(*path)}});
-    conversion_.resources.push_back({"", *path, UriKind::kFile});
-    index = lists_.images.size() - 1;
-  }
-  return file_images_[*path] = index;
-}
-
-std::size_t ObjMaterials::add_new_image(Library& library, const ImagePixels& pixels, const MtlMap& model,
-                                        std::string_view suffix) {
-  const std::string name = names_.free_name(library.images.place_of(model.file).value_or("material"), suffix);
-  const std::string png = resources_.codec().encode_png(pixels);
-  if (place_ == ImagePlace::kBuffer) return add_image_bytes(png, "image/png", utf8_name(stem_of(name)));
-  conversion_.files.push_back({name, png});
-  lists_.images.push_back(Json{{"uri", uri_of_path(name)}});
-  return lists_.images.size() - 1;
-}
-
-std::size_t ObjMaterials::add_image_bytes(std::string_view bytes, const char* type, const std::string& name) {
-  lists_.images.push_back(Json{{"bufferView", buffer_.add_view(bytes)}, {"mimeType", type}, {"name", name}});
-  return lists_.images.size() - 1;
-}
-
-// MTL counts v from the bottom: v' = s v + o becomes 1 - v' = s (1 - v) + 1 - s - o.
-Json ObjMaterials::texture_info(std::size_t image, const MtlMap& map) {
-  ++texture_uses_;
-  const auto [known, is_new] = textures_.try_emplace({image, map.clamps}, lists_.textures.size());
-  if (is_new) {
-    if (lists_.samplers.empty()) lists_.samplers.push_back(Json::object());
-    Json texture{{"source", image}, {"sampler", 0}};
-    if (map.clamps) {
-      if (lists_.samplers.size() < 2)
-        lists_.samplers.push_back(Json{{"wrapS", kClampToEdge}, {"wrapT", kClampToEdge}});
-      texture["sampler"] = 1;
-    }
-    lists_.textures.push_back(std::move(texture));
-  }
-  Json info{{"index", known->second}};
-  if (map.scale == std::array{1.0, 1.0} && map.offset == std::array{0.0, 0.0}) return info;
-  Json transform = Json::object();
-  transform["offset"] =
-      Json::list({float_value(map.offset[0]), float_value(1.0 - map.scale[1] - map.offset[1])});
-  transform["scale"] = Json::list({float_value(map.scale[0]), float_value(map.scale[1])});
-  info["extensions"] = Json::object();
-  info["extensions"][std::string(kTextureTransform)] = std::move(transform);
-  lists_.extensions.emplace(kTextureTransform);
-  return info;
-}
-
-std::string uri_of_path(const std::string& path) {
-  constexpr std::string_view kPlain = "-._~/";
-  std::string uri;
-  for (const char c : path) {
-    const bool is_plain_byte = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                               kPlain.find(c) != std::string_view::npos;
-    uri += is_plain_byte ? std::string(1, c) : percent_code(c);
-  }
-  return uri;
-}
-
-std::string utf8_name(const std::string& text) {
-  if (is_utf8(text)) return text;
-  std::string result;
-  for (const char c : text) result += utf8_of(static_cast<std::uint8_t>(c));
-  return result;
 }
 
 }  // namespace remap

@@ -1,15 +1,18 @@
 // OBJ files as glTF: geometry, materials, images, and damaged files.
 #include "assets/obj_gltf.hpp"
 
-#include <bit>
 #include <cstring>
+#include <filesystem>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 
 #include "assets/legacy_material.hpp"
 #include "assets/obj_mesh.hpp"
+#include "core/read_file.hpp"
 #include "runtime/assets/mtl_texts.hpp"
 #include "support/build_speed.hpp"
+#include "support/shared_data.hpp"
 
 using namespace remap;
 
@@ -312,4 +315,40 @@ TEST_CASE("Large polygons and lines take seconds", "[assets][slow]") {
 TEST_CASE("Names that are not UTF-8 are read as Latin-1", "[assets]") {
   const MadeScene scene = made(kTriangle + "o caf\xe9\nf 1 2 3\n");
   CHECK(scene.entry("nodes", 0)["name"].text() == "caf\xc3\xa9");
+}
+
+TEST_CASE("Public OBJ files: every triangle arrives, and accessors lie in their views", "[assets][needs]") {
+  const std::filesystem::path folder = shared_data("assets");
+  if (folder.empty()) return;
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".obj") continue;
+    ++count;
+    const std::string text = read_file(entry.path());
+    // A polygon of n corners is n - 2 triangles.
+    std::size_t expected = 0, triangles = 0;
+    for (const std::string& line : lines_in(text)) {
+      std::istringstream words(line);
+      std::string word;
+      std::size_t corners = 0;
+      words >> word;
+      if (word != "f") continue;
+      while (words >> word) ++corners;
+      expected += corners - 2;
+    }
+    const MadeScene scene = made(text);
+    for (const SpanValue& mesh : scene.root()["meshes"].children())
+      for (const SpanValue& primitive : mesh["primitives"].children())
+        triangles += *scene.entry("accessors", *primitive["indices"].whole())["count"].whole() / 3;
+    INFO(entry.path());
+    CHECK(triangles == expected);
+    for (const SpanValue& accessor : scene.root()["accessors"].children()) {
+      const SpanValue view = scene.entry("bufferViews", *accessor["bufferView"].whole());
+      const std::string type = accessor["type"].text().value_or("");
+      const std::size_t components = type == "VEC3" ? 3 : type == "VEC2" ? 2 : 1;
+      const std::size_t bytes = accessor["componentType"].whole() == 5123u ? 2 : 4;
+      CHECK(*accessor["count"].whole() * components * bytes == *view["byteLength"].whole());
+    }
+  }
+  CHECK(count >= 15);
 }
