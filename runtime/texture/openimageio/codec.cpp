@@ -18,6 +18,10 @@ constexpr int kPngLevel = 3;
 
 constexpr auto kOpaque = decltype(ImagePixels::bytes)::value_type(255);
 
+std::string_view part_of(std::string_view bytes, std::size_t begin, std::size_t count) {
+  return bytes.size() < begin ? std::string_view() : bytes.substr(begin, count);
+}
+
 // Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
 bool is_targa(std::string_view bytes) {
   if (bytes.size() <= 18) return false;
@@ -30,7 +34,7 @@ bool is_targa(std::string_view bytes) {
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "png";
   if (bytes.starts_with("\xff\xd8")) return "jpg";
-  if (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return "webp";
+  if (bytes.starts_with("RIFF") && part_of(bytes, 8, 4) == "WEBP") return "webp";
   if (bytes.starts_with("BM")) return "bmp";
   if (bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4)))
     return "tif";
@@ -39,7 +43,7 @@ std::string extension_of(std::string_view bytes) {
 
 std::string known_name(std::string_view bytes) {
   if (bytes.starts_with("\xabKTX")) return "KTX2";
-  if (bytes.substr(4, 8) == "ftypavif") return "AVIF";
+  if (part_of(bytes, 4, 8) == "ftypavif") return "AVIF";
   if (bytes.starts_with("DDS ")) return "DDS";
   return "";
 }
