@@ -39,6 +39,9 @@ class MapReader {
  public:
   MapReader(const MtlDocument& document, std::size_t statement)
       : document_(document), words_(document.words(document.statements()[statement])) {
+    constexpr std::array<std::string_view, 4> kColors = {"map_ka", "map_kd", "map_ke", "map_ks"};
+    const std::string word = document.word(document.statements()[statement]);
+    is_color_ = std::ranges::find(kColors, word) != kColors.end();
     map_.statement = statement;
     const std::size_t end = document.statements()[statement].arguments.end;
     map_.name = {end, end};
@@ -94,11 +97,9 @@ class MapReader {
   void apply_word(std::string_view option, const std::string& word) {
     if (option == "-clamp") map_.clamps = word == "on";
     if (option == "-imfchan" && !word.empty()) map_.channel = word.front();
-    const bool changes_colors = (option == "-cc" && word == "on") ||
-                                (option == "-colorspace" && word != "srgb" && word != "linear") ||
-                                (option == "-type" && word != "sphere");
-    if (changes_colors && option != "-type")
-      map_.unusual.push_back(std::string(option) + " " + plain(word, 40));
+    const bool changes_values = (option == "-cc" && word == "on") ||
+                                (option == "-colorspace" && word != (is_color_ ? "srgb" : "linear"));
+    if (changes_values) map_.unusual.push_back(std::string(option) + " " + plain(word, 40));
   }
 
   void apply_numbers(std::string_view option, const std::vector<double>& numbers) {
@@ -117,7 +118,7 @@ class MapReader {
   const MtlDocument& document_;
   std::vector<TextSpan> words_;
   std::size_t at_ = 0;
-  bool is_named_ = false;
+  bool is_color_ = false, is_named_ = false;
   MtlMap map_;
 };
 

@@ -139,7 +139,6 @@ Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, A
   if (is_read) set_reflection(planned);
   // What lacks its opacity is not shared.
   if (!planned.attempt([&] { set_opacity(planned); })) planned.shared_image = nullptr;
-  Json& core = planned.core;
   Json color = numbers_of(planned.base);
   color.push_back(float_value(planned.alpha));
   Json factors = Json::object();
@@ -152,24 +151,29 @@ Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, A
   if (!has_base) planned.base_map = nullptr;
   factors["metallicFactor"] = float_value(planned.metallic);
   factors["roughnessFactor"] = float_value(planned.roughness);
-  factors.update(core);
+  factors.update(planned.core);
   planned.material["pbrMetallicRoughness"] = factors;
   planned.attempt([&] { set_normals(planned); });
   planned.attempt([&] { set_emission(planned); });
   if (planned.blends) planned.material["alphaMode"] = "BLEND";
   if (planned.cover.has_height)
     report.warnings.push_back("loses its bump map: it is a map of heights, and glTF has maps of normals");
+  describe(planned);
+  return std::move(planned.material);
+}
+
+void ObjMaterials::describe(const Planned& planned) {
+  AssetMaterial& report = planned.report;
   report.becomes = "base color " + std::string(planned.base_map != nullptr ? "map times " : "") +
                    numbers_text(planned.base);
   if (planned.alpha != 1.0 || planned.blends) report.becomes += ", alpha " + number_text(planned.alpha);
-  const bool has_map = core.contains("metallicRoughnessTexture");
+  const bool has_map = planned.core.contains("metallicRoughnessTexture");
   report.becomes += ", metallic " + number_text(float_value(planned.metallic)) + ", roughness " +
                     number_text(float_value(planned.roughness)) + (has_map ? ", both times map" : "");
   if (!has_map && planned.base_map == nullptr)
     report.factors = {{"base_color", {planned.base.begin(), planned.base.end()}},
                       {"metallic", {planned.metallic}},
                       {"roughness", {planned.roughness}}};
-  return std::move(planned.material);
 }
 
 std::size_t ObjMaterials::base_image_of(Planned& planned) {

@@ -39,6 +39,7 @@ class ObjMaterials {
 
   Json material_of(const ObjMaterialName& name, AssetMaterial& report);
   Json converted_block(MtlLibrary& library, const MtlBlock& block, AssetMaterial& report);
+  static void describe(const Planned& planned);
   void set_reflection(Planned& planned);
   void set_metal_rough(Planned& planned);
   void set_core(Planned& planned, const MtlReflection& reflection);

@@ -100,6 +100,8 @@ TEST_CASE("Names of maps are found between options", "[assets]") {
   CHECK(map_of("map_Ns -t 0.1 0.2 0.3 high light.jpg").file == "high light.jpg");
   CHECK(map_of("map_Ns -t 0.1 0.2 0.3 high light.jpg").unusual == std::vector<std::string>{"-t"});
   CHECK(map_of("map_Ns -mm 0 1 a.jpg").unusual.empty());
+  CHECK(map_of("map_Kd -colorspace linear a.jpg").unusual.size() == 1);
+  CHECK(map_of("map_Ns -colorspace linear -type sphere a.jpg").unusual.empty());
   CHECK(map_of("map_bump -imfchan r bump map 2.jpg -bm 1.5").file == "bump map 2.jpg");
   CHECK(map_of("map_bump -imfchan r bump map 2.jpg -bm 1.5").strength == 1.5);
   CHECK(map_of("map_bump -imfchan r bumpmap2.jpg -bm 1.5").channel == 'r');
