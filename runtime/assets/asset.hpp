@@ -44,12 +44,14 @@ class MemorySource final : public ByteSource {
 class AssetResources {
  public:
   virtual ~AssetResources() = default;
-  // A file by its path relative to the asset, which does not lead out of its folder. Throws kInput.
+  // A file by its path relative to the asset. Throws kInput, for one that leads out of what may be read, too.
   virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
   virtual const ImageCodec& codec() const = 0;
   // The image at a size that is at least its own in both directions: bilinear, in linear light, with all
   // channels but alpha in sRGB.
   virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
+  // What the names of new images begin with; not empty where another asset may add an image of the same name.
+  virtual std::string image_prefix() const { return ""; }
 };
 
 enum class MaterialProfile {
@@ -110,7 +112,7 @@ struct NewResource {
 
 // A URI of a file that is not in the asset.
 struct AssetResource {
-  std::string where;  // `/images/2/uri`; only of the first that is kOutside, since counting takes time
+  std::string where;  // `/images/2/uri`; only of the first that leads up or is absolute: counting takes time
   std::string path;   // relative to the asset, without percent signs; of kRemote the address
   UriKind kind = UriKind::kFile;
 };

@@ -41,16 +41,24 @@ std::string percent_decoded(std::string_view text) {
   return result;
 }
 
+std::string percent_encoded(std::string_view text) {
+  std::string result;
+  for (const char c : text)
+    if (is_letter(c) || (c >= '0' && c <= '9') || std::string_view("-._~").find(c) != std::string_view::npos)
+      result += c;
+    else
+      result += percent_code(c);
+  return result;
+}
+
 UriKind uri_kind(std::string_view uri) {
   const std::string scheme = scheme_of(uri);
   if (scheme == "data") return UriKind::kData;
   if (scheme.size() > 1 && scheme != "file") return UriKind::kRemote;
   std::string path = percent_decoded(uri);
   std::ranges::replace(path, '\\', '/');
-  if (!scheme.empty() || path.starts_with('/') || path.find('\0') != std::string::npos)
-    return UriKind::kOutside;
-  const std::vector<std::string> parts = parts_between(path, '/');
-  return std::ranges::find(parts, "..") == parts.end() ? UriKind::kFile : UriKind::kOutside;
+  const bool is_absolute = !scheme.empty() || path.starts_with('/') || path.find('\0') != std::string::npos;
+  return is_absolute ? UriKind::kAbsolute : UriKind::kFile;
 }
 
 }  // namespace remap

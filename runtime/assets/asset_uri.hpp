@@ -10,11 +10,14 @@ namespace remap {
 // `a b` of `a%20b`. A percent sign without two digits stays.
 std::string percent_decoded(std::string_view text);
 
+// `a%20b` of `a b`: everything but letters, digits and - . _ ~ (RFC 3986, section 2.3).
+std::string percent_encoded(std::string_view text);
+
 enum class UriKind {
-  kData,     // the bytes are in the URI
-  kFile,     // a relative path below the folder of the asset
-  kOutside,  // an absolute path, or one that leads out of the folder
-  kRemote,   // of another scheme, such as https
+  kData,      // the bytes are in the URI
+  kFile,      // a relative path; whether its `..` lead too far up, AssetResources decide
+  kAbsolute,  // a path from a root, a drive or a host
+  kRemote,    // of another scheme, such as https
 };
 UriKind uri_kind(std::string_view uri);
 

@@ -34,7 +34,7 @@ bool is_in_extras(SpanValue value) {
 std::vector<AssetResource> resources_of(const SpannedJson& json) {
   std::vector<AssetResource> resources;
   std::set<std::string> known;
-  bool is_outside_known = false;
+  bool is_up_known = false;
   for (std::size_t i = 1; i < json.value_count(); ++i) {
     const SpanValue value = json.value(i);
     if (!value.has_key("uri") || !value.is(SpanKind::kText) || value.raw().starts_with("\"data:")) continue;
@@ -43,7 +43,8 @@ std::vector<AssetResource> resources_of(const SpannedJson& json) {
     if (kind == UriKind::kData || is_in_extras(value)) continue;
     const std::string path = kind == UriKind::kRemote ? uri : percent_decoded(uri);
     if (!known.insert(path).second) continue;
-    const bool is_first = kind == UriKind::kOutside && !std::exchange(is_outside_known, true);
+    const bool is_up = kind == UriKind::kAbsolute || path.find("..") != std::string::npos;
+    const bool is_first = is_up && !std::exchange(is_up_known, true);
     resources.push_back({is_first ? pointer_of(value) : "", path, kind});
   }
   return resources;
@@ -106,6 +107,11 @@ class ViewCheck {
 };
 
 }  // namespace
+
+std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& place) {
+  const GltfContainer container = read_container(source, place);
+  return resources_of(SpannedJson(container.json, place));
+}
 
 AssetConversion convert_gltf(const ByteSource& source, const std::string& place, const AssetOptions& options,
                              const AssetResources* resources) {

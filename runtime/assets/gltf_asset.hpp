@@ -2,10 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "assets/asset.hpp"
 
 namespace remap {
+
+// The files that an asset names. Throws as convert_gltf().
+std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& place);
 
 // Reads and converts a file of either form. Throws kInput, beginning with `place`, for a container or a text
 // that cannot be read, and for views that lie outside of their buffers; kOutput as with_json(). Without

@@ -151,7 +151,7 @@ std::string GltfImages::bytes_of_uri(const std::string& uri) const {
     case UriKind::kRemote:
       throw input_error(plain(uri, 200) + ": is not in a file here (download it beside the asset)");
     default:
-      throw input_error(plain(uri, 200) + ": leads out of the folder of the asset");
+      throw input_error(plain(uri, 200) + ": is an absolute path (name the file relative to the asset)");
   }
 }
 
@@ -206,7 +206,10 @@ bool GltfImages::is_in_chunk(SpanValue image) const {
 std::string GltfImages::free_uri(const std::string& model, std::string_view suffix) {
   const std::size_t slash = model.find_last_of('/'), dot = model.find_last_of('.');
   const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  const std::string stem = model.substr(0, has_extension ? dot : model.size()) + std::string(suffix);
+  const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
+  const std::string stem = model.substr(0, name) + percent_encoded(resources_.image_prefix()) +
+                           model.substr(name, (has_extension ? dot : model.size()) - name) +
+                           std::string(suffix);
   for (std::size_t number = 1;; ++number) {
     const std::string uri = stem + (number == 1 ? "" : "_" + std::to_string(number)) + ".png";
     if (std::ranges::find(uris_, percent_decoded(uri)) != uris_.end()) continue;

@@ -136,9 +136,13 @@ void NewFile::add(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail_to_write(path_, errno);
 }
 
+const fs::path& NewFile::finish() {
+  if (file_ != nullptr && std::fclose(std::exchange(file_, nullptr)) != 0) fail_to_write(path_, errno);
+  return unfinished_;
+}
+
 void NewFile::commit(Flush flush) {
-  const bool is_closed = std::fclose(std::exchange(file_, nullptr)) == 0;
-  if (!is_closed) fail_to_write(path_, errno);
+  finish();
   commit_file(std::exchange(unfinished_, {}), path_, flush);
 }
 

@@ -39,6 +39,9 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
 
   void add(std::string_view text);
+  // Ends the content. Returns the name that the file has until commit().
+  const std::filesystem::path& finish();
+  const std::filesystem::path& path() const noexcept { return path_; }
   void commit(Flush flush = Flush::kYes);
 
  private:

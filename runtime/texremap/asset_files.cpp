@@ -16,14 +16,16 @@ namespace {
 
 constexpr std::uint64_t kCopiedAtOnce = std::uint64_t{1} << 20;
 
-bool are_same_files(const fs::path& a, const fs::path& b) {
-  const FileSource first(a), second(b);
-  if (first.size() != second.size()) return false;
-  for (std::uint64_t at = 0; at < first.size(); at += kCopiedAtOnce) {
-    const std::uint64_t count = std::min(kCopiedAtOnce, first.size() - at);
-    if (first.read(at, count) != second.read(at, count)) return false;
-  }
-  return true;
+// The path below a root that `path` means, seen from a folder below it.
+fs::path below(const fs::path& folder, const fs::path& root, const std::string& path) {
+  std::string slashes = path;
+  std::ranges::replace(slashes, '\\', '/');
+  const fs::path inner = folder.lexically_normal().lexically_relative(root.lexically_normal());
+  for (const fs::path& place : {(inner / path).lexically_normal(), (inner / slashes).lexically_normal()})
+    if (place.empty() || place.is_absolute() || *place.begin() == "..")
+      throw input_error(shown(path) + ": leads out of " + shown(root) +
+                        " (copy it into this folder, or name one above that holds both by --root)");
+  return (inner / path).lexically_normal();
 }
 
 }  // namespace
@@ -53,6 +55,10 @@ fs::path folder_of_asset(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+std::unique_ptr<ByteSource> FolderResources::open(const std::string& path) const {
+  return std::make_unique<FileSource>(input(path));
+}
+
 const ImageCodec& FolderResources::codec() const { return image_library().codec(); }
 
 ImagePixels FolderResources::enlarged(const ImagePixels& pixels, std::size_t width,
@@ -60,40 +66,61 @@ ImagePixels FolderResources::enlarged(const ImagePixels& pixels, std::size_t wid
   return enlarged_pixels(pixels, width, height);
 }
 
+fs::path FolderResources::input(const std::string& path) const {
+  return job_.input_root / below(folder_of_asset(job_.input), job_.input_root, path);
+}
+
+fs::path FolderResources::output(const std::string& path) const {
+  return job_.output_root / below(folder_of_asset(job_.output), job_.output_root, path);
+}
+
+bool are_same_files(const fs::path& a, const fs::path& b) {
+  const FileSource first(a), second(b);
+  if (first.size() != second.size()) return false;
+  for (std::uint64_t at = 0; at < first.size(); at += kCopiedAtOnce) {
+    const std::uint64_t count = std::min(kCopiedAtOnce, first.size() - at);
+    if (first.read(at, count) != second.read(at, count)) return false;
+  }
+  return true;
+}
+
 bool have_same_bytes(const fs::path& file, std::string_view bytes) {
   const FileSource source(file);
   return source.size() == bytes.size() && source.read(0, bytes.size()) == bytes;
 }
 
-void write_pieces(const fs::path& path, const std::vector<AssetPiece>& pieces, const ByteSource& source) {
-  NewFile file(path);
+void add_pieces(NewFile& file, const std::vector<AssetPiece>& pieces, const ByteSource& source) {
   for (const AssetPiece& piece : pieces) {
     file.add(piece.bytes);
     for (std::uint64_t at = piece.begin; at < piece.end; at += kCopiedAtOnce)
       file.add(source.read(at, std::min(kCopiedAtOnce, piece.end - at)));
   }
-  file.commit();
 }
 
-ResourcePlan plan_resources(const fs::path& input, const fs::path& output,
-                            const std::vector<AssetResource>& resources, bool force) {
+ResourcePlan plan_resources(const AssetJob& job, const std::vector<AssetResource>& resources, bool force) {
   ResourcePlan plan;
-  const fs::path from = folder_of_asset(input), to = folder_of_asset(output);
-  const bool is_same_folder = same_file(from, to);
+  const FolderResources files(job);
   for (const AssetResource& resource : resources) {
     if (resource.kind == UriKind::kRemote) continue;
-    if (resource.kind == UriKind::kOutside)
-      throw input_error(shown(input) + ": " + resource.where + ": " + shown(resource.path) +
-                        " leads out of the folder of the asset (copy it into this folder)");
-    const fs::path source = from / resource.path, target = to / resource.path;
+    const std::string place = shown(job.input) + ": " + (resource.where.empty() ? "" : resource.where + ": ");
+    if (resource.kind == UriKind::kAbsolute)
+      throw input_error(place + shown(resource.path) +
+                        " is an absolute path (name the file relative to the asset)");
+    fs::path source, target;
+    try {
+      source = files.input(resource.path);
+      target = files.output(resource.path);
+    } catch (const Error& error) {
+      throw input_error(place + error.what());
+    }
     std::error_code ignored;
-    if (same_file(source, input))
-      throw input_error(shown(input) + ": " + shown(resource.path) + " names the asset itself as its part");
+    if (same_file(source, job.input))
+      throw input_error(place + shown(resource.path) + " names the asset itself as its part");
     if (!fs::is_regular_file(source, ignored)) {
       plan.warnings.push_back("names " + shown(resource.path) + ", which is not there");
       continue;
     }
-    if (is_same_folder || same_file(source, target)) continue;
+    if (same_file(source, target)) continue;
     if (fs::is_regular_file(target, ignored)) {
       if (are_same_files(source, target)) continue;
       require_new(target, force);

@@ -5,13 +5,24 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "assets/asset.hpp"
+#include "core/files.hpp"
 #include "core/open_file.hpp"
 
 namespace remap {
+
+// An asset and its result. Files that it names are read below `input_root` and written to the same places
+// below `output_root`.
+struct AssetJob {
+  std::filesystem::path input, output;
+  std::filesystem::path input_root, output_root;
+  std::string image_prefix;  // of new images beside it
+
+  // The path below the root, as bytes.
+  std::string name() const { return input.lexically_relative(input_root).generic_string(); }
+};
 
 // The bytes of a file that stays open: it is read to its end even where its name is given to another.
 class FileSource final : public ByteSource {
@@ -28,29 +39,27 @@ class FileSource final : public ByteSource {
   std::uint64_t size_ = 0;
 };
 
-// Files in the folder of an asset, and the image library of the program.
-class FolderResources final : public AssetResources {
- public:
-  explicit FolderResources(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  std::unique_ptr<ByteSource> open(const std::string& path) const override {
-    return std::make_unique<FileSource>(folder_ / path);
-  }
-  const ImageCodec& codec() const override;
-  ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override;
-
- private:
-  std::filesystem::path folder_;
-};
-
 // The folder that the files of an asset are relative to.
 std::filesystem::path folder_of_asset(const std::filesystem::path& asset);
 
-// Whether the file holds these bytes. Throws kInput.
-bool have_same_bytes(const std::filesystem::path& file, std::string_view bytes);
+// The files that the asset of a job may read, and the image library of the program.
+class FolderResources final : public AssetResources {
+ public:
+  // `job` must outlive it.
+  explicit FolderResources(const AssetJob& job) : job_(job) {}
+  std::unique_ptr<ByteSource> open(const std::string& path) const override;
+  const ImageCodec& codec() const override;
+  ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override;
+  std::string image_prefix() const override { return job_.image_prefix; }
 
-// Writes a result, a megabyte at a time, complete or not at all. Throws kOutput.
-void write_pieces(const std::filesystem::path& path, const std::vector<AssetPiece>& pieces,
-                  const ByteSource& source);
+  // Where a file that the asset names is, and where the result finds it. Throws kInput for a name that leads
+  // out of the root.
+  std::filesystem::path input(const std::string& path) const;
+  std::filesystem::path output(const std::string& path) const;
+
+ private:
+  const AssetJob& job_;
+};
 
 // A file that the asset names, and its copy.
 struct ResourceCopy {
@@ -62,10 +71,16 @@ struct ResourcePlan {
   std::vector<std::string> warnings;  // files that the asset names and that are not there
 };
 
-// What must be copied so that `output` finds the files that `input` names; nothing in one folder. Throws
-// kInput for a name that leads out of the folder of the asset or to the asset itself, kOutput where another
-// file has the name of a copy, unless `force`.
-ResourcePlan plan_resources(const std::filesystem::path& input, const std::filesystem::path& output,
-                            const std::vector<AssetResource>& resources, bool force);
+// What must be copied so that the result finds the files that the asset names; nothing in one folder. Throws
+// kInput for a name that leads out of the root or to the asset itself, kOutput where another file has the
+// name of a copy, unless `force`.
+ResourcePlan plan_resources(const AssetJob& job, const std::vector<AssetResource>& resources, bool force);
+
+// Whether the file holds these bytes. Throws kInput.
+bool have_same_bytes(const std::filesystem::path& file, std::string_view bytes);
+bool are_same_files(const std::filesystem::path& a, const std::filesystem::path& b);
+
+// Adds the bytes of the pieces, a megabyte at a time.
+void add_pieces(NewFile& file, const std::vector<AssetPiece>& pieces, const ByteSource& source);
 
 }  // namespace remap

@@ -78,6 +78,7 @@ void print_asset(const AssetReport& report, bool dry_run, bool failures_only) {
   if (!failures_only)
     for (const std::string& warning : report.warnings) print_message(kProgram, "warning: " + place + warning);
   if (!report.failure.empty()) return print_message(kProgram, "failed: " + report.failure);
+  if (report.was_done) return;
   for (const AssetMaterial& material : report.materials)
     print_material(material, place, dry_run, failures_only);
   if (!failures_only) print_message(kProgram, place + outcome_text(report, dry_run));
@@ -86,7 +87,8 @@ void print_asset(const AssetReport& report, bool dry_run, bool failures_only) {
 Json asset_json(const AssetReport& report, bool dry_run) {
   Json json = {{"asset", report.input.string()},
                {"output", report.is_written ? Json(report.output.string()) : Json()},
-               {"dry_run", dry_run}};
+               {"dry_run", dry_run},
+               {"was_done", report.was_done}};
   for (const auto& state : kMaterialStates) json[std::string(state.name)] = report.count(state.value);
   json["materials"] = Json::list();
   for (const AssetMaterial& material : report.materials) json["materials"].push_back(material_json(material));
@@ -99,6 +101,40 @@ Json asset_json(const AssetReport& report, bool dry_run) {
   json["failure"] = report.failure.empty() ? Json() : Json(report.failure);
   json["seconds"] = rounded(report.seconds, 3);
   return json;
+}
+
+AssetSummary summary_of(const std::vector<AssetReport>& reports) {
+  AssetSummary summary;
+  summary.asset_count = reports.size();
+  for (const AssetReport& report : reports) {
+    summary.written += report.is_written && report.failure.empty() ? 1 : 0;
+    summary.done_before += report.was_done ? 1 : 0;
+    summary.failed += report.has_failed() ? 1 : 0;
+    summary.materials += report.count(MaterialState::kConverted);
+  }
+  return summary;
+}
+
+std::string summary_text(const AssetSummary& summary, bool dry_run) {
+  const std::string would = dry_run ? "would be " : "";
+  std::string text = std::to_string(summary.written) + " of " + counted(summary.asset_count, "asset") + " " +
+                     would + "written, " + counted(summary.materials, "material") + " " + would + "converted";
+  if (summary.done_before > 0) text += ", " + std::to_string(summary.done_before) + " done before";
+  if (summary.failed > 0) text += ", " + std::to_string(summary.failed) + " failed";
+  return text + " in " + fixed(summary.seconds, 2) + " s";
+}
+
+Json summary_json(const AssetSummary& summary) {
+  Json problems = Json::list();
+  for (const std::string& problem : summary.problems) problems.push_back(problem);
+  return {{"summary",
+           {{"assets", summary.asset_count},
+            {"written", summary.written},
+            {"done_before", summary.done_before},
+            {"failed", summary.failed},
+            {"materials_converted", summary.materials},
+            {"problems", problems},
+            {"seconds", rounded(summary.seconds, 3)}}}};
 }
 
 }  // namespace remap

@@ -14,10 +14,12 @@ namespace remap {
 struct AssetReport {
   std::filesystem::path input, output;
   bool is_written = false;  // or would be, in a dry run
+  bool was_done = false;    // by an earlier run
   std::vector<AssetMaterial> materials;
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> copies, images;  // images: new ones in files of their own
   std::string failure;                                // of the whole file; empty for none
+  int failure_code = 0;                               // errno of a call that failed
   double seconds = 0.0;
 
   std::size_t count(MaterialState state) const {
@@ -31,5 +33,16 @@ struct AssetReport {
 void print_asset(const AssetReport& report, bool dry_run, bool failures_only);
 
 Json asset_json(const AssetReport& report, bool dry_run);
+
+// Of a run with several assets. `problems`: files and folders that could not be read.
+struct AssetSummary {
+  std::size_t asset_count = 0, written = 0, done_before = 0, failed = 0;
+  std::size_t materials = 0;  // converted
+  std::vector<std::string> problems;
+  double seconds = 0.0;
+};
+AssetSummary summary_of(const std::vector<AssetReport>& reports);
+std::string summary_text(const AssetSummary& summary, bool dry_run);
+Json summary_json(const AssetSummary& summary);
 
 }  // namespace remap

@@ -56,20 +56,33 @@ void add_behaviour(const Converter& converter, ContentHash& hash) {
     hash.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
 }
 
-}  // namespace
-
-ConversionNote conversion_note(const ChosenConverter& chosen, const ConvertOptions& options) {
-  const ConverterInfo& info = chosen.info();
-  ConversionNote note{info.source.model, info.target.model, "", {}};
-  note.details = {
-      {"converter", converter_ids(chosen)}, {"options", result_options_text(options)}, {"version", kVersion}};
+ConversionNote hashed_note(ConversionNote note, const Converter& converter) {
   ContentHash hash;
   hash.add(note.source);
   hash.add(note.target);
   for (const auto& [name, value] : note.details) hash.add(value);
-  add_behaviour(chosen.converter(), hash);
+  add_behaviour(converter, hash);
   note.hash = hash.hex();
   return note;
+}
+
+}  // namespace
+
+ConversionNote conversion_note(const ChosenConverter& chosen, const ConvertOptions& options) {
+  const ConverterInfo& info = chosen.info();
+  return hashed_note({info.source.model,
+                      info.target.model,
+                      "",
+                      {{"converter", converter_ids(chosen)},
+                       {"options", result_options_text(options)},
+                       {"version", kVersion}}},
+                     chosen.converter());
+}
+
+ConversionNote conversion_note(const std::string& source, const std::string& target,
+                               const Converter& converter, const ConvertOptions& options) {
+  return hashed_note({source, target, "", {{"options", result_options_text(options)}, {"version", kVersion}}},
+                     converter);
 }
 
 std::string inputs_hash(const std::vector<std::filesystem::path>& files, const ConversionJob& job) {

@@ -14,6 +14,9 @@ namespace remap {
 // Everything besides the inputs that results depend on. The converter is hashed by what it makes of texels
 // all over its domain: its numbers and its code.
 ConversionNote conversion_note(const ChosenConverter& chosen, const ConvertOptions& options);
+// Of assets, whose materials go through `converter`.
+ConversionNote conversion_note(const std::string& source, const std::string& target,
+                               const Converter& converter, const ConvertOptions& options);
 
 // A hash of the files of a set, and of what is taken from where.
 std::string inputs_hash(const std::vector<std::filesystem::path>& files, const ConversionJob& job);

@@ -4,8 +4,12 @@
 #include <map>
 #include <set>
 
+#include "core/errors.hpp"
+#include "core/report_text.hpp"
 #include "remap/error.hpp"
 #include "sets/discovery.hpp"
+#include "sets/folder_walk.hpp"
+#include "texremap/asset_formats.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/set_choice.hpp"
 
@@ -113,6 +117,7 @@ class FolderJobs {
 JobList FolderJobs::list() {
   jobs_.is_tree = true;
   for (const fs::path& image : found_.unrecognised) jobs_.unrecognised.push_back(root_ / image);
+  jobs_.asset_count = found_.others.size();
   for (const WalkProblem& problem : found_.problems) fail(problem.message);
   for (FoundSet& set : found_.sets) add(std::move(set));
   require_no_collisions();
@@ -398,7 +403,13 @@ std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
   discovery.naming = &naming;
   discovery.excluded = {options.output};
   if (!options.diagnose.empty()) discovery.excluded.push_back(options.diagnose);
-  return find_sets(options.folder, discovery);
+  discovery.also = asset_extensions("");
+  Discovery found = find_sets(options.folder, discovery);
+  if (found.sets.empty() && found.problems.empty() && !found.others.empty())
+    throw usage_error(shown(options.folder) + ": no texture set found by file names, but " +
+                      counted(found.others.size(), "asset") + ", such as " + shown(found.others.front()) +
+                      " (--assets converts them)");
+  return found;
 }
 
 JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,

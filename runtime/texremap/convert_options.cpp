@@ -131,6 +131,16 @@ void add_source_options(Command& command, ConvertOptions& options) {
       .add_flag("-r,--recursive", options.recursive,
                 "Convert the subfolders of DIR, too; results mirror the tree")
       ->tag(kNeedsFolder);
+  command
+      .add_flag("--assets", options.assets,
+                "Convert the assets (glTF files) in DIR, not the texture sets that the names of images tell")
+      ->tag(kNeedsAsset);
+  command
+      .add_option(
+          "--root FOLDER", options.asset_root,
+          "Assets may name files below this folder, whose tree the results mirror (default: the folder "
+          "of the asset; with --assets DIR)")
+      ->tag(kNeedsAsset);
   Option* manifest =
       command.add_option("--manifest FILE", options.manifest,
                          "Convert the sets that texremap index has listed; DIR is where the tree lies now");
@@ -150,7 +160,7 @@ void add_source_options(Command& command, ConvertOptions& options) {
                   "Materials of glTF files: core metallic-roughness, or exact for viewers that read "
                   "KHR_materials_specular and KHR_materials_ior")
       ->default_text("core")
-      ->tag(kNeedsAsset);
+      ->tag(kChangesResults | kNeedsAsset);
 }
 
 // The footer of the command explains the value MAP.

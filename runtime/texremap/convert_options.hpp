@@ -30,7 +30,7 @@ enum : OptionTags {
   kNotWithWorkflow = 1u << 5u,
   kNotWithWarp = 1u << 6u,
   kNotWithDiffuseWarp = 1u << 7u,  // a warp whose source is a diffuse map alone
-  kNeedsAsset = 1u << 8u,          // a glTF file in place of the folder
+  kNeedsAsset = 1u << 8u,          // assets in place of texture sets
 };
 
 using MapSource = std::variant<MapName, ConstantValues>;
@@ -58,6 +58,8 @@ struct ConvertOptions {
 
   std::filesystem::path folder;  // of texture sets, or a glTF file; empty where the options name one set
   std::vector<std::filesystem::path> more_assets;
+  bool assets = false;                               // the folder is of assets, not of texture sets
+  std::filesystem::path asset_root;                  // below which assets may name files
   MaterialProfile profile = MaterialProfile::kCore;  // of assets
   ModelName from, to;
   std::vector<std::string> via;

@@ -270,6 +270,9 @@ void print_unrecognised(const std::string& program, const JobList& list) {
 void print_summary(const std::string& program, const Outcome& outcome) {
   if (!outcome.list.is_tree) return;
   print_unrecognised(program, outcome.list);
+  if (const std::size_t assets = outcome.list.asset_count; assets > 0)
+    print_message(program,
+                  counted(assets, "asset") + " left out (--assets converts assets in place of sets)");
   std::size_t texels = 0, done = 0, done_before = 0;
   for (const JobReport& report : outcome.reports) {
     done += !report.failure && !report.was_done;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -21,7 +20,7 @@
 #include "texremap/conversion_hash.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/journal.hpp"
-#include "texture/content_hash.hpp"
+#include "texremap/repeats.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_pass.hpp"
 
@@ -101,11 +100,6 @@ void require_free(const std::vector<std::filesystem::path>& files, const Journal
                                           "--force overwrites)");
 }
 
-FinishedFile finished_file(const std::filesystem::path& path, const std::filesystem::path& content) {
-  flush_to_disk(content, path);
-  return {path, std::filesystem::file_size(content), hash_of_file(content)};
-}
-
 // Refuses options that apply to none of the results.
 void require_effect(const ConvertOptions& options, const JobReport& report) {
   if (options.dither && !report.has_8_bits)
@@ -157,15 +151,6 @@ JobReport::Result result_of(const PlannedMap& planned) {
       result.mask |= std::holds_alternative<MaskChannel>(channel);
     }
   return result;
-}
-
-// How often a set is tried again after a failure that passes soon.
-constexpr int kMostRepeats = 3;
-
-// Waits before the next time, longer from time to time; an interruption ends the wait.
-void wait_before(int repeat) {
-  for (int i = 0; i < 5 << repeat && !interruption(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 class JobRunner {
@@ -500,31 +485,23 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
       line.advance(now - shown);
       shown = now;
     };
-    std::vector<std::string> troubles;
-    for (bool is_tried = false; !is_tried;) {
-      is_tried = true;
-      report = {};
-      report.name = job.name;
-      if (!job.tile.empty()) report.tiles = {job.tile};
-      try {
+    try {
+      const std::vector<std::string> troubles = with_repeats([&] {
+        report = {};
+        report.name = job.name;
+        if (!job.tile.empty()) report.tiles = {job.tile};
         run_job(runner, job, advance, report);
-      } catch (const Error& error) {
-        if (passes_soon(error.system_code()) && troubles.size() < kMostRepeats && !interruption()) {
-          wait_before(static_cast<int>(troubles.size()));
-          troubles.emplace_back(error.what());
-          is_tried = false;
-          continue;
-        }
-        if (!list.is_tree) throw;
-        if (error.kind() == ErrorKind::kInterrupted)
-          throw Error(error.kind(), "interrupted: finished sets are complete (--resume converts the others)",
-                      options.part ? EINTR : 0);
-        report.failure = error.what();
-        report.failure_code = error.system_code();
-        report.tiles.clear();
-      }
+      });
+      for (const std::string& trouble : troubles) report.warnings.push_back("tried again after " + trouble);
+    } catch (const Error& error) {
+      if (!list.is_tree) throw;
+      if (error.kind() == ErrorKind::kInterrupted)
+        throw Error(error.kind(), "interrupted: finished sets are complete (--resume converts the others)",
+                    options.part ? EINTR : 0);
+      report.failure = error.what();
+      report.failure_code = error.system_code();
+      report.tiles.clear();
     }
-    for (const std::string& trouble : troubles) report.warnings.push_back("tried again after " + trouble);
     advance(1.0);
     line.finish(report.statistics.texel_count);
     sets.finish(i, std::move(report));

@@ -48,6 +48,8 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
 struct Content {
   std::optional<ConversionNote> owner;
   std::map<std::string, Entry> files;  // by name, the last line counts
+  std::map<std::string, std::vector<const std::string*>>
+      sets;  // names of their files, which are keys of `files`
   std::map<fs::path, std::streamoff> read_bytes;
 
   void read(const fs::path& journal);
@@ -85,13 +87,17 @@ void Content::add(const std::string& line) {
         files[name].conversion = field["conversion"].text();
       }
     if (field.contains("files")) {
+      std::vector<const std::string*>& names = sets[field["set"].any_text()];
+      names.clear();
       const auto read = [&](const Field& file) {
-        files[file["name"].any_text()] = {field["conversion"].text(),
-                                          field["inputs"].text(),
-                                          field["target"].text(),
-                                          true,
-                                          static_cast<std::uintmax_t>(file["bytes"].count()),
-                                          file["hash"].text()};
+        const auto known = files.try_emplace(file["name"].any_text()).first;
+        names.push_back(&known->first);
+        known->second = {field["conversion"].text(),
+                         field["inputs"].text(),
+                         field["target"].text(),
+                         true,
+                         static_cast<std::uintmax_t>(file["bytes"].count()),
+                         file["hash"].text()};
         return true;
       };
       field["files"].list(0, read);
@@ -207,6 +213,11 @@ std::string difference(const ConversionNote& owner, const ConversionNote& own) {
 
 }  // namespace
 
+FinishedFile finished_file(const fs::path& path, const fs::path& unfinished) {
+  flush_to_disk(unfinished, path);
+  return {path, fs::file_size(unfinished), hash_of_file(unfinished)};
+}
+
 struct Journal::State {
   fs::path folder, file;  // the journal that this run writes
   bool is_part = false;
@@ -309,6 +320,15 @@ bool Journal::is_done(const std::string& inputs, const std::vector<fs::path>& fi
   for (std::size_t i = 0; i < files.size(); ++i)
     if (!is_as_written(files[i], entries[i])) return false;
   return true;
+}
+
+std::vector<fs::path> Journal::files_of(const std::string& set) const {
+  const std::lock_guard lock(state_->mutex);
+  std::vector<fs::path> files;
+  const auto found = state_->content.sets.find(set);
+  if (found == state_->content.sets.end()) return files;
+  for (const std::string* name : found->second) files.push_back(state_->folder / *name);
+  return files;
 }
 
 void Journal::begin(const std::vector<fs::path>& files) {

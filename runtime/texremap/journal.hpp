@@ -46,6 +46,9 @@ struct FinishedFile {
   std::string hash;
 };
 
+// `unfinished` holds the content of `path`, which is on the disk when this returns.
+FinishedFile finished_file(const std::filesystem::path& path, const std::filesystem::path& unfinished);
+
 // Runs of several processes and threads may share a folder: a set is renamed and noted under a lock of the
 // folder itself (flock), which ends with its process and leaves no file. Parts need none: two runs of one
 // part write the same bytes.
@@ -64,6 +67,8 @@ class Journal {
   bool is_own(const std::filesystem::path& path) const;
   // Whether this conversion wrote all files from `inputs`, and they still are what it wrote.
   bool is_done(const std::string& inputs, const std::vector<std::filesystem::path>& files) const;
+  // The files that this conversion wrote last of the set, in their order; none where it wrote none.
+  std::vector<std::filesystem::path> files_of(const std::string& set) const;
 
   // Notes that the files of a set are about to appear.
   void begin(const std::vector<std::filesystem::path>& files);

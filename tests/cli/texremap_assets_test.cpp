@@ -70,7 +70,7 @@ TEST_CASE("Other assets go on after a failure", "[assets]") {
   CHECK(run.errors.find("1 of 2 assets failed") != std::string::npos);
   CHECK(session.content("out/b.gltf") == session.content("b.gltf"));
   CHECK(session.file_count() == 1);
-  CHECK(std::count(run.output.begin(), run.output.end(), '\n') == 2);
+  CHECK(std::count(run.output.begin(), run.output.end(), '\n') == 3);
 }
 
 TEST_CASE("Textures of an asset become new files beside the old ones", "[assets][slow]") {
@@ -96,6 +96,104 @@ TEST_CASE("Textures of an asset become new files beside the old ones", "[assets]
   CHECK(session.texremap("convert in/wood.gltf --to gltf -o out --force --quiet").exit_code == 0);
   session.put("in/other.gltf", session.content("in/wood.gltf"));
   CHECK(session.texremap("convert in/wood.gltf in/other.gltf --to gltf -o both").exit_code == 0);
+}
+
+namespace {
+
+// A glTF file of one material, which names its images.
+std::string textured(const std::string& diffuse, const std::string& specgloss, const std::string& factor) {
+  return R"({"asset":{"version":"2.0"},"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":)"
+         R"({"diffuseFactor":[)" +
+         factor + R"(,1,1,1],"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}}}}],)" +
+         R"("textures":[{"source":0},{"source":1}],"images":[{"uri":")" + diffuse + R"("},{"uri":")" +
+         specgloss + R"("}]})";
+}
+
+// Two assets that share images of another folder, one whose image is missing, and a plain one.
+void put_library(const AssetSession& session) {
+  std::filesystem::create_directories(session.path("lib/maps"));
+  session.make("lib/maps/d.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  session.make("lib/maps/s.png", test_spec(16, 8, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
+  session.put("lib/chairs/a b.gltf", textured("../maps/d.png", "../maps/s.png", "1"));
+  session.put("lib/chairs/c.gltf", textured("../maps/d.png", "../maps/s.png", "0.5"));
+  session.put("lib/plain.gltf", R"({"asset":{"version":"2.0"}, "odd" : 1.50})");
+}
+
+}  // namespace
+
+TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended", "[assets][slow]") {
+  const AssetSession session;
+  put_library(session);
+  session.put("lib/broken.gltf", textured("maps/none.png", "maps/s.png", "1"));
+  const std::string command = "convert lib --assets --recursive --to gltf -o out";
+  const ProcessResult dry = session.texremap(command + " --dry-run --json");
+  CHECK(dry.exit_code == 1);
+  CHECK_THAT(dry.errors, Catch::Matchers::Contains("material 0: would become base color map times"));
+  CHECK_FALSE(std::filesystem::exists(session.path("out")));
+
+  const ProcessResult run = session.texremap(command + " --json");
+  CHECK(run.exit_code == 1);
+  CHECK(run.last_error() == "texremap: 1 of 4 assets failed");
+  CHECK_THAT(run.output, Catch::Matchers::Contains(R"({"summary":{)") &&
+                             Catch::Matchers::Contains(R"("done_before":0)") &&
+                             Catch::Matchers::Contains(R"("written":3)"));
+  CHECK(session.content("out/plain.gltf") == session.content("lib/plain.gltf"));
+  CHECK(session.content("out/maps/d.png") == session.content("lib/maps/d.png"));
+  // Both would add maps/d_baseColor.png, of other content.
+  CHECK_THAT(session.content("out/chairs/a b.gltf"),
+             Catch::Matchers::Contains(R"("uri":"../maps/a%20b_d_baseColor.png")"));
+  CHECK(std::filesystem::exists(session.path("out/maps/a b_d_baseColor.png")));
+  CHECK(std::filesystem::exists(session.path("out/maps/c_d_baseColor.png")));
+
+  const std::string whole = session.content("out/chairs/c.gltf");
+  session.put("out/chairs/c.gltf", "damaged");
+  session.put("lib/plain.gltf", R"({"asset":{"version":"2.0"}})");
+  session.make("lib/maps/none.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  CHECK(session.texremap(command).exit_code == 1);
+  const ProcessResult resumed = session.texremap(command + " --resume");
+  CHECK(resumed.exit_code == 0);
+  CHECK_THAT(resumed.errors,
+             Catch::Matchers::Contains("2 of 4 assets written, 1 material converted, 2 done before"));
+  CHECK(session.content("out/chairs/c.gltf") == whole);
+  CHECK(session.content("out/plain.gltf") == session.content("lib/plain.gltf"));
+  CHECK_THAT(session.texremap(command + " --resume").errors,
+             Catch::Matchers::Contains("0 of 4 assets written, 0 materials converted, 4 done before"));
+  CHECK_THAT(session.texremap(command + " --resume --profile extensions").last_error(),
+             Catch::Matchers::Contains("belongs to another conversion"));
+  // The same bytes from one thread, without a journal of another run.
+  CHECK(session.texremap("convert lib --assets --recursive --to gltf -o one --threads 1").exit_code == 0);
+  for (const char* name : {"chairs/a b.gltf", "chairs/c.gltf", "maps/a b_d_baseColor.png"})
+    CHECK(session.content(std::string("one/") + name) == session.content(std::string("out/") + name));
+}
+
+TEST_CASE("Assets read what lies below their root", "[assets][slow]") {
+  const AssetSession session;
+  put_library(session);
+  CHECK(
+      session.texremap("convert lib/chairs/c.gltf --to gltf -o out").last_error() ==
+      "texremap: lib/chairs/c.gltf: /images/0/uri: ../maps/d.png: leads out of lib/chairs (copy it into this "
+      "folder, or name one above that holds both by --root)");
+  CHECK_FALSE(std::filesystem::exists(session.path("out")));
+  CHECK(session.texremap("convert lib/chairs/c.gltf --root lib --to gltf -o out").exit_code == 0);
+  CHECK(std::filesystem::exists(session.path("out/chairs/c.gltf")));
+  CHECK(std::filesystem::exists(session.path("out/maps/d_baseColor.png")));
+  CHECK_THAT(session.texremap("convert lib/plain.gltf --root lib/chairs --to gltf -o out2").last_error(),
+             Catch::Matchers::Contains("does not lie below it"));
+}
+
+TEST_CASE("Folders say what they are not", "[assets][slow]") {
+  const AssetSession session;
+  put_library(session);
+  CHECK(session.texremap("convert lib/chairs --to gltf -o out").last_error() ==
+        "texremap: lib/chairs: no texture set found by file names, but 2 assets, such as a b.gltf (--assets "
+        "converts them)");
+  CHECK(session.texremap("convert lib/maps --assets --to gltf -o out").last_error() ==
+        "texremap: lib/maps: no glTF file in it (--recursive looks into its subfolders)");
+  session.make("lib/w_diffuse.png", test_spec(4, 4, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  session.make("lib/w_specularGlossiness.png", test_spec(4, 4, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
+  const ProcessResult maps = session.texremap("convert lib --to gltf -o out");
+  CHECK(maps.exit_code == 0);
+  CHECK_THAT(maps.errors, Catch::Matchers::Contains("1 asset left out"));
 }
 
 // A material of real files by the maps of the same material.

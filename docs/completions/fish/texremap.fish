@@ -10,6 +10,8 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l from -x -a "(te
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l to -x -a "(texremap list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Target model'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l fit -r -F -d 'Convert by this fit'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -s r -l recursive -d 'Convert the subfolders of DIR, too'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l assets -d 'Convert the assets'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l root -r -F -d 'Assets may name files below this folder, whose tree the results mirror'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l manifest -r -F -d 'Convert the sets that texremap index has listed'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l part -x -d 'Convert part I of N of the manifest'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l via -x -a "(texremap list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Model that the path must pass through'

@@ -1,0 +1,229 @@
+#include "texremap/asset_run.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "assets/specgloss_factors.hpp"
+#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/parallel.hpp"
+#include "core/stopwatch.hpp"
+#include "sets/folder_walk.hpp"
+#include "texremap/asset_files.hpp"
+#include "texremap/asset_formats.hpp"
+#include "texremap/conversion_hash.hpp"
+#include "texremap/journal.hpp"
+#include "texremap/repeats.hpp"
+#include "texture/content_hash.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+AssetOptions asset_options(const ConvertOptions& options) {
+  return {options.profile, options.prior, options.instructions, options.resample};
+}
+
+// Files that several assets of a run name are copied by the first; the others find them whole.
+class SharedCopies {
+ public:
+  void copy(const ResourceCopy& copy) {
+    const std::shared_ptr<std::mutex> own = lock_of(copy.to);
+    const std::lock_guard lock(*own);
+    std::error_code ignored;
+    if (fs::is_regular_file(copy.to, ignored) && are_same_files(copy.from, copy.to)) return;
+    create_parent(copy.to);
+    copy_whole_file(copy.from, copy.to);
+  }
+
+ private:
+  std::shared_ptr<std::mutex> lock_of(const fs::path& path) {
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<std::mutex>& own = locks_[path.lexically_normal()];
+    if (!own) own = std::make_shared<std::mutex>();
+    return own;
+  }
+
+  std::mutex mutex_;
+  std::map<fs::path, std::shared_ptr<std::mutex>> locks_;
+};
+
+std::string inputs_hash_of(const AssetJob& job, const std::vector<AssetResource>& resources) {
+  ContentHash hash;
+  hash.add_file(job.input);
+  hash.add(job.image_prefix);
+  const FolderResources files(job);
+  for (const AssetResource& resource : resources) {
+    std::error_code ignored;
+    if (resource.kind != UriKind::kFile) continue;
+    const fs::path file = files.input(resource.path);
+    hash.add(resource.path);
+    if (fs::is_regular_file(file, ignored)) hash.add_file(file);
+  }
+  return hash.hex();
+}
+
+class AssetRunner {
+ public:
+  AssetRunner(const AssetList& list, const ConvertOptions& options)
+      : list_(list),
+        options_(options),
+        conversion_(asset_options(options)),
+        journal_(options.output,
+                 conversion_note("assets", options.to.name,
+                                 *specgloss_projection(options.prior, options.instructions), options),
+                 std::nullopt) {
+    if (list.is_tree && !options.force) journal_.require_own();
+  }
+
+  void run(const AssetJob& job, AssetReport& report) {
+    const Stopwatch stopwatch;
+    const FileSource source(job.input);
+    const std::string inputs =
+        list_.is_tree ? inputs_hash_of(job, resources_of_asset(source, job.input)) : "";
+    if (options_.resume && is_done(job, inputs)) {
+      report.was_done = true;
+      return;
+    }
+    require_free(job.input, job.output);
+    const FolderResources files(job);
+    const AssetConversion conversion = convert_asset(source, job.input, job.output, conversion_, files);
+    report.materials = conversion.materials;
+    report.warnings = conversion.warnings;
+    const ResourcePlan plan = plan_resources(job, conversion.resources, options_.force || options_.resume);
+    report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
+    // A file of which nothing was converted and something failed would be taken for a result.
+    report.is_written = conversion.changed || report.failed_count() == 0;
+    if (report.is_written)
+      for (const ResourceCopy& copy : plan.copies) report.copies.push_back(copy.to);
+    for (const NewResource& file : conversion.files) {
+      report.images.push_back(files.output(file.path));
+      std::error_code ignored;
+      const bool is_same = fs::is_regular_file(report.images.back(), ignored) &&
+                           have_same_bytes(report.images.back(), file.bytes);
+      if (!is_same) require_free({}, report.images.back());
+    }
+    // A resumed run tries again what failed.
+    if (report.is_written && !options_.dry_run)
+      write(job, source, conversion, plan, report.failed_count() == 0 ? inputs : "", report.images);
+    report.seconds = stopwatch.seconds();
+  }
+
+ private:
+  // An input is replaced only by --force, in a resumed run a result of this conversion, too.
+  void require_free(const fs::path& input, const fs::path& output) const {
+    if (options_.force) return;
+    if (!input.empty() && same_file(input, output))
+      throw output_error(shown(output) + ": is the input itself (--force replaces it)");
+    std::error_code ignored;
+    if (!list_.is_tree || !fs::is_regular_file(output, ignored)) return require_new(output, false);
+    if (!journal_.is_own(output))
+      throw output_error(output.string() +
+                         ": already exists, and is not of this conversion (--force overwrites)");
+    if (!options_.resume)
+      throw output_error(output.string() +
+                         ": already exists (--resume skips finished assets, --force overwrites)");
+  }
+
+  bool is_done(const AssetJob& job, const std::string& inputs) const {
+    const std::vector<fs::path> files = journal_.files_of(job.name());
+    return !files.empty() && journal_.is_done(inputs, files);
+  }
+
+  // The asset comes last, so that it never lies without its parts.
+  void write(const AssetJob& job, const ByteSource& source, const AssetConversion& conversion,
+             const ResourcePlan& plan, const std::string& inputs, const std::vector<fs::path>& images) {
+    std::vector<std::unique_ptr<NewFile>> files;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      files.push_back(std::make_unique<NewFile>(images[i]));
+      files.back()->add(conversion.files[i].bytes);
+    }
+    if (conversion.changed || !same_file(job.input, job.output)) {
+      files.push_back(std::make_unique<NewFile>(job.output));
+      if (conversion.changed)
+        add_pieces(*files.back(), conversion.pieces, source);
+      else
+        add_pieces(*files.back(), {{"", 0, source.size()}}, source);
+    }
+    for (const std::unique_ptr<NewFile>& file : files) file->finish();
+    for (const ResourceCopy& copy : plan.copies) copies_.copy(copy);
+    const auto rename = [&] {
+      for (const std::unique_ptr<NewFile>& file : files)
+        file->commit(list_.is_tree ? Flush::kNo : Flush::kYes);
+    };
+    if (!list_.is_tree) return rename();
+    journal_.claim(options_.force);
+    std::vector<FinishedFile> finished;
+    std::vector<fs::path> paths;
+    for (const ResourceCopy& copy : plan.copies) finished.push_back(finished_file(copy.to, copy.to));
+    for (const std::unique_ptr<NewFile>& file : files)
+      finished.push_back(finished_file(file->path(), file->finish()));
+    for (const FinishedFile& file : finished) paths.push_back(file.path);
+    journal_.begin(paths);
+    journal_.commit(job.name(), inputs, finished, options_.force, rename);
+    flush_to_disk(folder_of_asset(job.output), folder_of_asset(job.output));
+  }
+
+  const AssetList& list_;
+  const ConvertOptions& options_;
+  const AssetOptions conversion_;
+  Journal journal_;
+  SharedCopies copies_;
+};
+
+std::string progress_text(std::size_t done, std::size_t all) {
+  return std::to_string(done) + " of " + std::to_string(all) + " assets";
+}
+
+}  // namespace
+
+std::vector<AssetReport> run_assets(const AssetList& list, const ConvertOptions& options,
+                                    const std::function<void(const AssetReport&)>& finished) {
+  const std::size_t threads = options.thread_count > 0
+                                  ? static_cast<std::size_t>(options.thread_count)
+                                  : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  AssetRunner runner(list, options);
+  std::vector<AssetReport> reports(list.jobs.size());
+  Progress line(progress_text(0, list.jobs.size()), list.jobs.size(), !options.quiet);
+  std::mutex mutex;
+  std::size_t done = 0;
+  run_parallel(list.jobs.size(), static_cast<unsigned>(std::min(threads, list.jobs.size())),
+               [&](std::size_t i) {
+                 AssetReport& report = reports[i];
+                 std::vector<std::string> troubles;
+                 try {
+                   if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted", EINTR);
+                   troubles = with_repeats([&] {
+                     report = {};
+                     report.input = list.jobs[i].input;
+                     report.output = list.jobs[i].output;
+                     runner.run(list.jobs[i], report);
+                   });
+                 } catch (const Error& error) {
+                   if (error.kind() == ErrorKind::kInterrupted)
+                     throw Error(error.kind(), std::string("interrupted: finished assets are complete") +
+                                                   (list.is_tree ? " (--resume converts the others)" : ""));
+                   if (list.jobs.size() == 1 && !list.is_tree) throw;
+                   report.failure = error.what();
+                   report.failure_code = error.system_code();
+                 } catch (const std::bad_alloc&) {
+                   report.failure = shown(list.jobs[i].input) + ": out of memory (use fewer --threads)";
+                 }
+                 for (const std::string& trouble : troubles)
+                   report.warnings.push_back("tried again after " + trouble);
+                 const std::lock_guard lock(mutex);
+                 line.hide();
+                 finished(report);
+                 line.relabel(progress_text(++done, list.jobs.size()));
+                 line.advance();
+               });
+  return reports;
+}
+
+}  // namespace remap
