@@ -40,6 +40,18 @@ struct MtlResult {
   std::string base_file, roughness_file, metallic_file;
 };
 
+// The images that a text names, each once.
+std::vector<AssetResource> named_images(const MtlDocument& document, MtlImages& images) {
+  std::vector<AssetResource> resources;
+  std::set<std::string> known;
+  for (std::size_t i = 0; i < document.statements().size(); ++i) {
+    if (!is_mtl_map(document.word(document.statements()[i]))) continue;
+    const std::optional<std::string> path = images.place_of(read_mtl_map(document, i).file);
+    if (path && known.insert(*path).second) resources.push_back({"", *path, UriKind::kFile});
+  }
+  return resources;
+}
+
 // Edits the statements of one material.
 class BlockEditor {
  public:
@@ -145,13 +157,17 @@ class BlockEditor {
 class MtlEditor {
  public:
   MtlEditor(const MtlDocument& document, const AssetOptions& options, const AssetResources* resources)
-      : document_(document), options_(options), images_(resources, "") {}
+      : document_(document),
+        options_(options),
+        images_(resources, ""),
+        names_(resources != nullptr ? resources->image_prefix() : "") {}
 
   AssetConversion result() {
     if (options_.profile == MaterialProfile::kExtensions)
       conversion_.warnings.push_back(
           "MTL has no lines for --profile extensions, and is written with --profile core");
-    find_resources();
+    conversion_.resources = named_images(document_, images_);
+    for (const AssetResource& resource : conversion_.resources) names_.take(resource.path);
     for (std::size_t i = 0; i < document_.materials().size(); ++i) convert(i);
     sort_splices(splices_);
     conversion_.text = spliced(document_.text(), splices_);
@@ -162,17 +178,6 @@ class MtlEditor {
   }
 
  private:
-  void find_resources() {
-    std::set<std::string> known;
-    for (std::size_t i = 0; i < document_.statements().size(); ++i) {
-      if (!is_mtl_map(document_.word(document_.statements()[i]))) continue;
-      const std::optional<std::string> path = images_.place_of(read_mtl_map(document_, i).file);
-      if (!path || !known.insert(*path).second) continue;
-      names_.take(*path);
-      conversion_.resources.push_back({"", *path, UriKind::kFile});
-    }
-  }
-
   void convert(std::size_t index) {
     const MtlBlock& block = document_.materials()[index];
     AssetMaterial& report = conversion_.materials.emplace_back();
@@ -283,6 +288,14 @@ std::string mtl_text(const ByteSource& source, const std::string& place) {
     throw input_error(place + ": has " + std::to_string(source.size()) + " bytes; at most " +
                       std::to_string(kLongestMtl) + " are read");
   return source.read(0, static_cast<std::size_t>(source.size()));
+}
+
+std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& place,
+                                         const AssetResources* resources) {
+  const std::string text = mtl_text(source, place);
+  const MtlDocument document(text, place);
+  MtlImages images(resources, "");
+  return named_images(document, images);
 }
 
 AssetConversion convert_mtl(const ByteSource& source, const std::string& place, const AssetOptions& options,

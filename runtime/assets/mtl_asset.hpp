@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "assets/asset.hpp"
 
@@ -13,6 +14,11 @@ namespace remap {
 // read. Without `resources`, materials whose maps must be read fail.
 AssetConversion convert_mtl(const ByteSource& source, const std::string& place,
                             const AssetOptions& options = {}, const AssetResources* resources = nullptr);
+
+// The images that the file names, each once. With `resources`, where they are found. Throws kInput, beginning
+// with `place`.
+std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& place,
+                                         const AssetResources* resources = nullptr);
 
 // The text of an MTL file. Throws kInput, beginning with `place`, for one that is too long.
 std::string mtl_text(const ByteSource& source, const std::string& place);

@@ -63,23 +63,22 @@ void bring_to_one_size(const std::vector<NamedMap>& maps, const AssetResources& 
 
 }  // namespace
 
-std::optional<std::string> path_within(const std::string& folder, const std::string& name) {
+std::optional<std::string> relative_path(const std::string& folder, const std::string& name) {
   const std::string text = slashed(name);
   if (text.empty() || text.starts_with('/') || text.find('\0') != std::string::npos) return std::nullopt;
   std::vector<std::string> parts;
   for (const std::string& part : parts_between(folder.empty() ? text : slashed(folder) + "/" + text, '/')) {
-    if (part.empty() || part == ".") continue;
     if (is_drive(part)) return std::nullopt;
-    if (part == "..") {
-      if (parts.empty()) return std::nullopt;
+    if (part.empty() || part == ".") continue;
+    if (part == ".." && !parts.empty() && parts.back() != "..")
       parts.pop_back();
-    } else {
+    else
       parts.push_back(part);
-    }
   }
+  if (parts.empty() || parts.back() == "..") return std::nullopt;
   std::string path;
   for (const std::string& part : parts) path += (path.empty() ? "" : "/") + part;
-  return path.empty() ? std::nullopt : std::optional(path);
+  return path;
 }
 
 std::string file_name_of(const std::string& name) {
@@ -92,7 +91,8 @@ std::vector<std::string> MtlImages::candidates(const std::string& file) const {
   std::vector<std::string> paths;
   for (const std::string& name : {file, file_name_of(file)})
     for (const std::string& folder : {folder_, std::string()})
-      if (const auto path = path_within(folder, name); path && std::ranges::find(paths, *path) == paths.end())
+      if (const auto path = relative_path(folder, name);
+          path && std::ranges::find(paths, *path) == paths.end())
         paths.push_back(*path);
   return paths;
 }
@@ -106,7 +106,7 @@ std::optional<std::string> MtlImages::find(const std::string& file, std::vector<
         found = path;
         break;
       }
-  if (found && path_within(folder_, file) != found)
+  if (found && relative_path(folder_, file) != found)
     warnings.push_back(plain(file, kLongestShownName) + " is read from " + plain(*found, kLongestShownName));
   return found;
 }
@@ -114,8 +114,9 @@ std::optional<std::string> MtlImages::find(const std::string& file, std::vector<
 std::optional<std::string> MtlImages::place_of(const std::string& file) {
   std::vector<std::string> ignored;
   if (const auto found = find(file, ignored)) return found;
-  if (const auto path = path_within(folder_, file)) return path;
-  return path_within("", file_name_of(file));
+  // What is not there and leads up may lead out of what may be read.
+  if (const auto path = relative_path(folder_, file); path && !path->starts_with("../")) return path;
+  return relative_path("", file_name_of(file));
 }
 
 std::string MtlImages::bytes_of(const std::string& path) const {
@@ -164,7 +165,10 @@ bool is_there(const AssetResources& resources, const std::string& path) {
 std::string NewImageNames::free_name(const std::string& model, std::string_view suffix) {
   const std::size_t slash = model.find_last_of('/'), dot = model.find_last_of('.');
   const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  const std::string stem = model.substr(0, has_extension ? dot : model.size()) + std::string(suffix);
+  const std::size_t name_begin = slash == std::string::npos ? 0 : slash + 1;
+  const std::size_t name_end = has_extension ? dot : model.size();
+  const std::string stem = model.substr(0, name_begin) + prefix_ +
+                           model.substr(name_begin, name_end - name_begin) + std::string(suffix);
   for (std::size_t& number = ++numbers_[stem];; ++number) {
     std::string name = stem + (number == 1 ? "" : "_" + std::to_string(number)) + ".png";
     if (taken_.insert(name).second) return name;

@@ -18,9 +18,9 @@
 
 namespace remap {
 
-// `materials/a.png` of the folder `materials` and the name `.\a.png`; none for a name that leads out of the
-// folder of the asset, and for one that is empty. A backslash counts as '/'.
-std::optional<std::string> path_within(const std::string& folder, const std::string& name);
+// `materials/a.png` of the folder `materials` and the name `.\a.png`; none for a name that is absolute or no
+// file. A backslash counts as '/'. It may begin with `..`.
+std::optional<std::string> relative_path(const std::string& folder, const std::string& name);
 
 // The name without its folders.
 std::string file_name_of(const std::string& name);
@@ -32,9 +32,9 @@ class MtlImages {
   MtlImages(const AssetResources* resources, std::string folder)
       : resources_(resources), folder_(std::move(folder)) {}
 
-  // Where the image of a map lies, relative to the asset. A name that is absolute or leads out of the folder
-  // counts as its file name beside the MTL file, or beside the asset, and appends a warning. None where
-  // nothing is there.
+  // Where the image of a map lies, relative to the asset. A name that is absolute or leads to nothing that
+  // may be read counts as its file name beside the MTL file, or beside the asset, and appends a warning. None
+  // where nothing is there.
   std::optional<std::string> find(const std::string& file, std::vector<std::string>& warnings);
   // As find(), or where it would have to be; none for a name of no file.
   std::optional<std::string> place_of(const std::string& file);
@@ -65,11 +65,15 @@ bool is_there(const AssetResources& resources, const std::string& path);
 // Names of new images beside those that the asset names.
 class NewImageNames {
  public:
+  // Names begin with `prefix` (AssetResources::image_prefix()).
+  explicit NewImageNames(std::string prefix) : prefix_(std::move(prefix)) {}
+
   void take(const std::string& path) { taken_.insert(path); }
   // `a/wood_baseColor.png` of `a/wood.jpg`, with a number where that is taken.
   std::string free_name(const std::string& model, std::string_view suffix);
 
  private:
+  std::string prefix_;
   std::set<std::string> taken_;
   std::map<std::string, std::size_t> numbers_;  // of the last name of each stem
 };

@@ -42,7 +42,7 @@ void MtlLibraries::read(const std::vector<std::string>& lines, std::vector<std::
 }
 
 bool MtlLibraries::read_file(const std::string& name) {
-  const std::optional<std::string> path = path_within("", name);
+  const std::optional<std::string> path = relative_path("", name);
   if (!path || !is_there(resources_, *path)) return false;
   if (!paths_.insert(*path).second) return true;
   auto library =

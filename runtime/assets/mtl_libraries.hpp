@@ -42,7 +42,8 @@ class MtlLibraries {
   // Whether Tr is 1 in every material and d in none: MeshLab writes Tr 1 for what is opaque, where the
   // specification has 1 - d.
   bool has_tr_for_opaque() const;
-  // The images that all files name, relative to the OBJ file.
+  // The files that were read, and the images that they name, relative to the OBJ file.
+  const std::set<std::string>& paths() const noexcept { return paths_; }
   const std::set<std::string>& image_paths() const noexcept { return image_paths_; }
 
  private:

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -144,6 +145,13 @@ void add_list(Json& file, const char* name, Json list) {
   if (!list.empty()) file[name] = std::move(list);
 }
 
+std::string obj_text(const ByteSource& obj, const std::string& place) {
+  if (obj.size() > kLongestObj)
+    throw input_error(place + ": has " + std::to_string(obj.size()) + " bytes; at most " +
+                      std::to_string(kLongestObj) + " are read");
+  return obj.read(0, static_cast<std::size_t>(obj.size()));
+}
+
 // The header, the JSON and the binary chunk (glTF 2.0, section 4).
 std::vector<AssetPiece> glb_pieces(std::string json, std::string binary, const std::string& place) {
   constexpr std::uint64_t kHeader = 12;
@@ -165,10 +173,7 @@ std::vector<AssetPiece> glb_pieces(std::string json, std::string binary, const s
 
 AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, const AssetOptions& options,
                             const AssetResources& resources, const GltfOutput& output) {
-  if (obj.size() > kLongestObj)
-    throw input_error(place + ": has " + std::to_string(obj.size()) + " bytes; at most " +
-                      std::to_string(kLongestObj) + " are read");
-  ObjScene scene = read_obj(obj.read(0, static_cast<std::size_t>(obj.size())), place);
+  ObjScene scene = read_obj(obj_text(obj, place), place);
   if (scene.shapes.empty()) throw input_error(place + ": has no faces");
   AssetConversion conversion;
   conversion.warnings = scene.warnings;
@@ -207,6 +212,17 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
   conversion.pieces.push_back({conversion.text, 0, 0});
   conversion.files.push_back({buffer_name, std::move(buffer.bytes())});
   return conversion;
+}
+
+std::vector<AssetResource> obj_resources(const ByteSource& obj, const std::string& place,
+                                         const AssetResources& resources) {
+  MtlLibraries libraries(resources);
+  std::vector<std::string> ignored;
+  libraries.read(obj_libraries(obj_text(obj, place)), ignored);
+  std::vector<AssetResource> named;
+  for (const std::set<std::string>* paths : {&libraries.paths(), &libraries.image_paths()})
+    for (const std::string& path : *paths) named.push_back({"", path, UriKind::kFile});
+  return named;
 }
 
 }  // namespace remap

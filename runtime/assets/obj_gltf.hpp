@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "assets/asset.hpp"
 
@@ -20,5 +21,10 @@ struct GltfOutput {
 // kOutput for 4 GiB or more.
 AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, const AssetOptions& options,
                             const AssetResources& resources, const GltfOutput& output = {});
+
+// The MTL files that an OBJ file names and that are there, and their images. Throws kInput, beginning with
+// `place` or the name of an MTL file.
+std::vector<AssetResource> obj_resources(const ByteSource& obj, const std::string& place,
+                                         const AssetResources& resources);
 
 }  // namespace remap

@@ -332,6 +332,24 @@ class ObjReader {
 
 }  // namespace
 
+std::vector<std::string> obj_libraries(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf", kWord = "mtllib", kSpace = " \t\v\f";
+  std::vector<std::string> libraries;
+  for (std::size_t at = 0; (at = text.find(kWord, at)) != std::string_view::npos;) {
+    std::size_t line = at;
+    while (line > 0 && kSpace.find(text[line - 1]) != std::string_view::npos) --line;
+    const bool is_first = line == 0 || text[line - 1] == '\n' || text[line - 1] == '\r' ||
+                          (line == kMark.size() && text.starts_with(kMark));
+    at += kWord.size();
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    std::string_view rest = text.substr(at, end - at);
+    if (!is_first || rest.empty() || kSpace.find(rest.front()) == std::string_view::npos) continue;
+    rest.remove_prefix(std::min(rest.find_first_not_of(kSpace), rest.size()));
+    libraries.emplace_back(rest.substr(0, rest.find_last_not_of(kSpace) + 1));
+  }
+  return libraries;
+}
+
 ObjScene read_obj(std::string_view text, const std::string& place) { return ObjReader(text, place).scene(); }
 
 }  // namespace remap

@@ -46,6 +46,9 @@ struct ObjScene {
   std::vector<std::string> warnings;
 };
 
+// ObjScene::libraries alone, which takes less time.
+std::vector<std::string> obj_libraries(std::string_view text);
+
 // Throws kInput, beginning with `place`, for UTF-16, beyond the limit, for coordinates that are no numbers
 // and for faces that name vertices which are not there.
 ObjScene read_obj(std::string_view text, const std::string& place);

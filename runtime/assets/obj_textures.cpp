@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "assets/asset_uri.hpp"
 #include "assets/json_spans.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -90,13 +91,9 @@ Json GltfTextures::info(std::size_t image, const MtlMap& map) {
 double float_value(double value) { return decimal_value(static_cast<float>(value)); }
 
 std::string uri_of_path(const std::string& path) {
-  constexpr std::string_view kPlain = "-._~/";
   std::string uri;
-  for (const char c : path) {
-    const bool is_plain_byte = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                               kPlain.find(c) != std::string_view::npos;
-    uri += is_plain_byte ? std::string(1, c) : percent_code(c);
-  }
+  for (const std::string& part : parts_between(path, '/'))
+    uri += (uri.empty() ? "" : "/") + percent_encoded(part);
   return uri;
 }
 

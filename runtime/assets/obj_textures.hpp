@@ -26,7 +26,11 @@ class GltfTextures {
   // All must outlive it. New files, and resources that stay, are added to `conversion`.
   GltfTextures(const AssetResources& resources, NewImagePlace place, GltfBuffer& buffer,
                AssetConversion& conversion)
-      : resources_(resources), place_(place), buffer_(buffer), conversion_(conversion) {}
+      : resources_(resources),
+        place_(place),
+        buffer_(buffer),
+        conversion_(conversion),
+        names_(resources.image_prefix()) {}
 
   // Keeps a path from new images.
   void take(const std::string& path) { names_.take(path); }
@@ -68,7 +72,7 @@ inline constexpr std::string_view kTextureTransform = "KHR_texture_transform";
 // Rounded to float, as viewers hold it, with the shortest text.
 double float_value(double value);
 
-// A path as a URI: other characters than letters, digits and `-._~/` are bytes with percent signs.
+// A path as a URI: percent_encoded() between its slashes.
 std::string uri_of_path(const std::string& path);
 
 // A text that JSON can hold: one that is not UTF-8 is read as Latin-1.

@@ -69,6 +69,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)remap::read_or_refuse([&] {
     (void)remap::gltf_of_obj(remap::MemorySource(bytes), "file", core, resources, {true, "file"});
   });
+  (void)remap::read_or_refuse(
+      [&] { (void)remap::obj_resources(remap::MemorySource(bytes), "file", resources); });
   return remap::read_or_refuse([&] {
     (void)remap::gltf_of_obj(remap::MemorySource(bytes), "file", extensions, resources, {false, "file"});
   });

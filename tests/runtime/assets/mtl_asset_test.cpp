@@ -267,6 +267,12 @@ TEST_CASE("Names that lead out of the folder are looked for beside the file", "[
     CHECK(conversion.resources[0].path == "d.png");
   }
   CHECK(converted_mtl("newmtl a\nKd 1 1 1\nmap_Kd /etc/..\n", &resources).resources.empty());
+  // What the resources may read above the folder is read there.
+  resources.files["../up/e.png"] = resources.files["d.png"];
+  const AssetConversion above =
+      converted_mtl("newmtl a\nKd 1 1 1\nKs 1 1 1\nNs 20\nmap_Kd ..\\up\\e.png\n", &resources);
+  CHECK(above.resources.at(0).path == "../up/e.png");
+  CHECK(above.files.at(0).path == "../up/e_baseColor.png");
 }
 
 TEST_CASE("Random texts: all but converted lines stays byte for byte, and a second run changes nothing",

@@ -281,6 +281,11 @@ TEST_CASE("MTL files are found with spaces, backslashes, several on a line", "[a
   CHECK(scene.core(0)["baseColorTexture"]);
   CHECK(scene.core(1)["roughnessFactor"].raw() == "0.5");
   CHECK(scene.core(2)["roughnessFactor"].raw() == "0.125");
+  std::vector<std::string> paths;
+  const std::string obj = "# mtllib d.mtl\n \tmtllib  my mats\\a b.mtl \r\nmtllib c.mtl gone.mtl\nmtllibx\n";
+  for (const AssetResource& resource : obj_resources(MemorySource(obj), "file", resources))
+    paths.push_back(resource.path);
+  CHECK(paths == std::vector<std::string>{"c.mtl", "my mats/a b.mtl", "x.png"});
 }
 
 TEST_CASE("Damaged OBJ files are refused", "[assets]") {
