@@ -268,7 +268,7 @@ TEST_CASE("Names that lead out of the folder are looked for beside the file", "[
   }
   CHECK(converted_mtl("newmtl a\nKd 1 1 1\nmap_Kd /etc/..\n", &resources).resources.empty());
   // What the resources may read above the folder is read there.
-  resources.files["../up/e.png"] = resources.files["d.png"];
+  resources.files["../up/e.png"] = map_bytes({{10, 20, 30}, {200, 100, 90}});
   const AssetConversion above =
       converted_mtl("newmtl a\nKd 1 1 1\nKs 1 1 1\nNs 20\nmap_Kd ..\\up\\e.png\n", &resources);
   CHECK(above.resources.at(0).path == "../up/e.png");
