@@ -174,6 +174,13 @@ struct ObjCornerHash {
   }
 };
 
+using Vector = std::array<double, 3>;
+
+Vector vector_at(const std::vector<float>& values, std::size_t index) {
+  const float* const first = values.data() + index * 3;
+  return {static_cast<double>(first[0]), static_cast<double>(first[1]), static_cast<double>(first[2])};
+}
+
 // Triangles of one shape and material.
 class PrimitiveBuilder {
  public:
@@ -205,13 +212,18 @@ class PrimitiveBuilder {
     }
   }
 
-  // Normals that are missing or have no direction leave the primitive without any.
+  // A normal that is missing or has no direction becomes that of the faces around it.
   ObjPrimitive result() {
     if (!has_texcoords_) primitive_.texcoords.clear();
-    if (!has_normals_) primitive_.normals.clear();
+    if (!has_normals_)
+      primitive_.normals.clear();
+    else if (lacks_normals())
+      fill_normals();
     return std::move(primitive_);
   }
-  bool lost_normals() const { return !has_normals_ && saw_normal_; }
+  bool lacks_normals() const {
+    return has_normals_ && std::ranges::find(is_lacking_, true) != is_lacking_.end();
+  }
 
  private:
   static void append(const std::vector<float>& from, int index, std::size_t count, std::vector<float>& to) {
@@ -220,24 +232,50 @@ class PrimitiveBuilder {
   }
 
   void add_normal(int index) {
-    if (index < 0) {
-      has_normals_ = false;
-      return;
+    Vector normal{};
+    double length = 0.0;
+    if (index >= 0) {
+      normal = vector_at(attributes_.normals, static_cast<std::size_t>(index));
+      length = std::hypot(normal[0], normal[1], normal[2]);
     }
-    saw_normal_ = true;
-    const float* const normal = attributes_.normals.data() + static_cast<std::size_t>(index) * 3;
-    const double length = std::hypot(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
-                                     static_cast<double>(normal[2]));
-    if (!std::isfinite(length) || length <= 0.0) has_normals_ = false;
-    if (!has_normals_) return;
-    for (std::size_t c = 0; c < 3; ++c)
-      primitive_.normals.push_back(static_cast<float>(static_cast<double>(normal[c]) / length));
+    const bool is_given = std::isfinite(length) && length > 0.0;
+    has_normals_ = has_normals_ || is_given;
+    is_lacking_.push_back(!is_given);
+    for (const double part : normal)
+      primitive_.normals.push_back(is_given ? static_cast<float>(part / length) : 0.0f);
+  }
+
+  // Products of edges are as long as triangles are large.
+  void fill_normals() {
+    std::vector<Vector> sums(primitive_.vertex_count());
+    for (std::size_t i = 0; i + 2 < primitive_.indices.size(); i += 3) {
+      const std::uint32_t* const corner = primitive_.indices.data() + i;
+      const Vector a = vector_at(primitive_.positions, corner[0]),
+                   b = vector_at(primitive_.positions, corner[1]),
+                   c = vector_at(primitive_.positions, corner[2]);
+      const Vector u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+      const Vector product = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                              u[0] * v[1] - u[1] * v[0]};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis) sums[corner[k]][axis] += product[axis];
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      if (!is_lacking_[i]) continue;
+      const double length = std::hypot(sums[i][0], sums[i][1], sums[i][2]);
+      const bool has_direction = std::isfinite(length) && length > 0.0;
+      const Vector normal = has_direction
+                                ? Vector{sums[i][0] / length, sums[i][1] / length, sums[i][2] / length}
+                                : Vector{0.0, 0.0, 1.0};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        primitive_.normals[3 * i + axis] = static_cast<float>(normal[axis]);
+    }
   }
 
   const tinyobj::attrib_t& attributes_;
   ObjPrimitive primitive_;
   std::unordered_map<ObjCorner, std::uint32_t, ObjCornerHash> vertices_;
-  bool has_texcoords_ = false, has_normals_ = true, saw_normal_ = false;
+  std::vector<bool> is_lacking_;  // a normal, by vertex
+  bool has_texcoords_ = false, has_normals_ = false;
 };
 
 class ObjReader {
@@ -255,9 +293,9 @@ class ObjReader {
 
   ObjScene scene() {
     for (const tinyobj::shape_t& shape : shapes_) add_shape(shape);
-    if (lost_normals_ > 0)
-      scene_.warnings.push_back(counted(lost_normals_, "mesh part") +
-                                " without normals, because some are missing or have length 0");
+    if (filled_ > 0)
+      scene_.warnings.push_back("normals of " + counted(filled_, "mesh part") +
+                                " that are missing or have length 0 become those of its faces");
     return std::move(scene_);
   }
 
@@ -309,7 +347,7 @@ class ObjReader {
     added.name = shape.name;
     for (const int material : order) {
       PrimitiveBuilder& builder = builders.at(material);
-      lost_normals_ += builder.lost_normals();
+      filled_ += builder.lacks_normals();
       added.primitives.push_back(builder.result());
     }
   }
@@ -327,7 +365,7 @@ class ObjReader {
   std::map<int, std::size_t> used_;
   tinyobj::attrib_t attributes_;
   std::vector<tinyobj::shape_t> shapes_;
-  std::size_t lost_normals_ = 0;
+  std::size_t filled_ = 0;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ inline constexpr std::size_t kMostClippedCorners = 1024;
 struct ObjPrimitive {
   std::size_t material = 0;            // index into ObjScene::materials
   std::vector<float> positions;        // x, y, z
-  std::vector<float> normals;          // of length 1
+  std::vector<float> normals;          // of length 1; one that is missing is that of its faces
   std::vector<float> texcoords;        // u, v, with v from the top as glTF counts
   std::vector<float> colors;           // red, green, blue from 0 to 1
   std::vector<std::uint32_t> indices;  // three for a triangle

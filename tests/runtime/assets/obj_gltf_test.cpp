@@ -103,20 +103,21 @@ TEST_CASE("Polygons are taken to triangles, corners are shared, materials are pa
   CHECK(scene.shapes[0].primitives[0].texcoords.empty());
 }
 
-TEST_CASE("Groups and objects are nodes; normals get length 1 or are left out", "[assets]") {
+TEST_CASE("Groups and objects are nodes; normals get length 1, or are those of faces", "[assets]") {
   const ObjScene scene = read_obj(kTriangle +
-                                      "vn 0 0 2\nvn 0 0 0\ng one two\nf 1//1 2//1 3//1\ng\nf 1//1 2//2 "
-                                      "3//1\no \tbox one\t\nf 1//1 2 3//1\n",
+                                      "vn 0 0 2\nvn 0 0 0\nvn 3 0 4\ng one two\nf 1//1 2//1 3//1\ng\nf 1//3 "
+                                      "2//2 3\no \tbox one\t\nf 1 2//2 3\n",
                                   "file");
   REQUIRE(scene.shapes.size() == 3);
   CHECK(scene.shapes[0].name == "one two");
   CHECK(scene.shapes[1].name.empty());
   CHECK(scene.shapes[2].name == "box one");
   CHECK(scene.shapes[0].primitives[0].normals == std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1});
-  CHECK(scene.shapes[1].primitives[0].normals.empty());
+  CHECK(scene.shapes[1].primitives[0].normals == std::vector<float>{0.6f, 0, 0.8f, 0, 0, 1, 0, 0, 1});
   CHECK(scene.shapes[2].primitives[0].normals.empty());
   CHECK(scene.warnings ==
-        std::vector<std::string>{"2 mesh parts without normals, because some are missing or have length 0"});
+        std::vector<std::string>{
+            "normals of 1 mesh part that are missing or have length 0 become those of its faces"});
 }
 
 TEST_CASE("Vertex colors are kept where every vertex has one", "[assets]") {
