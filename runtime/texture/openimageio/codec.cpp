@@ -19,17 +19,32 @@ constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
 
 constexpr auto kOpaque = decltype(ImagePixels::bytes)::value_type(255);
 
-// The extension of the formats that glTF files hold; empty for others.
+std::string_view part_of(std::string_view bytes, std::size_t begin, std::size_t count) {
+  return bytes.size() < begin ? std::string_view() : bytes.substr(begin, count);
+}
+
+// Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
+bool is_targa(std::string_view bytes) {
+  if (bytes.size() <= 18) return false;
+  const std::string_view types("\1\2\3\11\12\13", 6), depths("\10\17\20\30\40", 5);
+  return (bytes[1] == 0 || bytes[1] == 1) && types.find(bytes[2]) != std::string_view::npos &&
+         depths.find(bytes[16]) != std::string_view::npos;
+}
+
+// The extension of the formats that glTF files hold, and of those that OBJ files name; empty for others.
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "png";
   if (bytes.starts_with("\xff\xd8")) return "jpg";
-  if (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return "webp";
-  return "";
+  if (bytes.starts_with("RIFF") && part_of(bytes, 8, 4) == "WEBP") return "webp";
+  if (bytes.starts_with("BM")) return "bmp";
+  if (bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4)))
+    return "tif";
+  return is_targa(bytes) ? "tga" : "";
 }
 
 std::string known_name(std::string_view bytes) {
   if (bytes.starts_with("\xabKTX")) return "KTX2";
-  if (bytes.substr(4, 8) == "ftypavif") return "AVIF";
+  if (part_of(bytes, 4, 8) == "ftypavif") return "AVIF";
   if (bytes.starts_with("DDS ")) return "DDS";
   return "";
 }
@@ -41,8 +56,9 @@ class AssetCodec final : public ImageCodec {
     if (extension.empty()) {
       const std::string name = known_name(bytes);
       throw input_error(place + ": " +
-                        (name.empty() ? "is no image of a known format (PNG, JPEG and WebP are read)"
-                                      : "is " + name + ", which is not read (convert it to PNG)"));
+                        (name.empty()
+                             ? "is no image of a known format (PNG, JPEG, WebP, BMP, TIFF and Targa are read)"
+                             : "is " + name + ", which is not read (convert it to PNG)"));
     }
     OIIO::ImageSpec config;
     config.attribute(kUnassociatedAlpha, 1);
