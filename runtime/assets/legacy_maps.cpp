@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "assets/specgloss_maps.hpp"
+#include "assets/map_pixels.hpp"
 #include "remap/pixels.hpp"
 
 namespace remap {

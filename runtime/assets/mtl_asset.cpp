@@ -13,7 +13,7 @@
 #include "assets/mtl_document.hpp"
 #include "assets/mtl_images.hpp"
 #include "assets/mtl_material.hpp"
-#include "assets/specgloss_maps.hpp"
+#include "assets/map_pixels.hpp"
 #include "assets/specgloss_material.hpp"
 #include "assets/text_splices.hpp"
 #include "core/errors.hpp"
@@ -253,7 +253,7 @@ class MtlEditor {
                                          : surface.exponent_map          ? surface.exponent_map
                                                                          : surface.diffuse_map;
     const std::string name = names_.free_name(images_.place_of(model->file).value_or("material"), suffix);
-    conversion_.files.push_back({name, images_.resources().codec().encode_png(pixels)});
+    conversion_.files.push_back({name, images_.resources().codec().encode_png(pixels, PngEffort::kFast)});
     return name;
   }
 

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "assets/legacy_material.hpp"
-#include "assets/specgloss_maps.hpp"
+#include "assets/map_pixels.hpp"
 #include "core/number_text.hpp"
 #include "core/read_file.hpp"
 #include "runtime/assets/mtl_texts.hpp"
