@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,12 +41,17 @@ class MemorySource final : public ByteSource {
   std::string_view bytes_;
 };
 
-// Files beside an asset, and what its images need.
-class AssetResources {
+// Files beside an asset.
+class AssetFiles {
  public:
-  virtual ~AssetResources() = default;
+  virtual ~AssetFiles() = default;
   // A file by its path relative to the asset. Throws kInput, for one that leads out of what may be read, too.
   virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
+};
+
+// Files beside an asset, and what its images need.
+class AssetResources : public AssetFiles {
+ public:
   virtual const ImageCodec& codec() const = 0;
   // The image at a size that is at least its own in both directions: bilinear, in linear light, with all
   // channels but alpha in sRGB.
@@ -61,11 +67,26 @@ enum class MaterialProfile {
 inline constexpr NamedValues<MaterialProfile, 2> kMaterialProfiles = {
     {{MaterialProfile::kCore, "core"}, {MaterialProfile::kExtensions, "extensions"}}};
 
+// What materials become.
+enum class AssetTarget {
+  kMetalRough,  // core metallic-roughness, as the profile says
+  kSpecGloss,   // KHR_materials_pbrSpecularGlossiness, with core as its fallback
+};
+
 struct AssetOptions {
   MaterialProfile profile = MaterialProfile::kCore;
   double prior = kCleanPrior;  // of the projection (docs/workflows.md)
   InstructionSet instructions = best_instruction_set();
-  bool enlarges = false;  // images of a material that are smaller than the other one
+  bool enlarges = false;  // images of a material that are smaller than another one
+  AssetTarget target = AssetTarget::kMetalRough;
+  // KHR_materials_specular and _ior go into core, too; with kMetalRough and the profile kCore alone.
+  bool folds_specular = false;
+  // What only converted materials used goes: bytes of images, and extensions of textures.
+  bool compacts = false;
+  bool bakes = false;  // maps of a material whose KHR_texture_transform differ go onto the grid of the first
+  // Quality, 1 to 100, of new images of color: JPEG, unless they have alpha or come from a map of color that
+  // is none. None for PNG.
+  std::optional<int> jpeg_quality = std::nullopt;
 };
 
 enum class MaterialState {

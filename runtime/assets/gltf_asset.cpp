@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "assets/gltf_container.hpp"
-#include "assets/gltf_specgloss.hpp"
+#include "assets/gltf_conversion.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 
@@ -48,6 +48,15 @@ std::vector<AssetResource> resources_of(const SpannedJson& json) {
     resources.push_back({is_first ? pointer_of(value) : "", path, kind});
   }
   return resources;
+}
+
+// A file that only replaced images named is no longer one of the asset.
+void drop_unnamed(AssetConversion& conversion, const std::string& place) {
+  std::set<std::string> named;
+  for (const AssetResource& resource : resources_of(SpannedJson(conversion.text, place)))
+    named.insert(resource.path);
+  std::erase_if(conversion.resources,
+                [&](const AssetResource& resource) { return !named.contains(resource.path); });
 }
 
 // Views lie within their buffers, and the first buffer of a container within its binary chunk.
@@ -119,13 +128,12 @@ AssetConversion convert_gltf(const ByteSource& source, const std::string& place,
   const SpannedJson json(container.json, place);
   std::vector<std::string> warnings = container.notes;
   for (const std::string& warning : ViewCheck(json, container, place).run()) warnings.push_back(warning);
-  std::optional<AssetParts> parts;
-  if (resources != nullptr) parts.emplace(AssetParts{container, source, *resources});
-  SpecGlossResult result = convert_specgloss(json, place, options, parts ? &*parts : nullptr);
+  GltfResult result = convert_materials({json, container, source, place}, options, resources);
   AssetConversion& conversion = result.asset;
   conversion.warnings.insert(conversion.warnings.begin(), warnings.begin(), warnings.end());
   conversion.resources = resources_of(json);
-  if (conversion.changed) conversion.pieces = with_json(container, conversion.text, result.appended, place);
+  if (options.compacts && conversion.changed) drop_unnamed(conversion, place);
+  if (conversion.changed) conversion.pieces = with_json(container, conversion.text, result.tail, place);
   return std::move(conversion);
 }
 

@@ -104,28 +104,27 @@ std::uint64_t size_of(const std::vector<AssetPiece>& pieces) {
 
 namespace {
 
-// The binary chunk with more bytes.
-void add_longer_chunk(const GlbChunk& chunk, const std::string& appended, std::vector<AssetPiece>& pieces) {
-  const std::uint64_t size = chunk.content_size();
-  const std::string gap((4 - size % 4) % 4, '\0'), end((4 - appended.size() % 4) % 4, '\0');
+void add_chunk(const GlbChunk& chunk, const BinaryTail& tail, std::vector<AssetPiece>& pieces) {
+  const std::uint64_t size = tail.kept.value_or(chunk.content_size());
+  const std::string gap((4 - size % 4) % 4, '\0'), end((4 - tail.appended.size() % 4) % 4, '\0');
   // A length of more than 32 bits is refused with the whole file.
-  const auto length = static_cast<std::uint32_t>(size + gap.size() + appended.size() + end.size());
+  const auto length = static_cast<std::uint32_t>(size + gap.size() + tail.appended.size() + end.size());
   pieces.push_back({bytes_of(length) + bytes_of(chunk.type), 0, 0});
-  pieces.push_back({"", chunk.content_begin(), chunk.end});
-  pieces.push_back({gap + appended + end, 0, 0});
+  pieces.push_back({"", chunk.content_begin(), chunk.content_begin() + size});
+  pieces.push_back({gap + tail.appended + end, 0, 0});
 }
 
 }  // namespace
 
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
-                                  const std::string& appended, const std::string& place) {
+                                  const BinaryTail& tail, const std::string& place) {
   if (!container.is_binary) return {{json, 0, 0}};
   std::vector<AssetPiece> pieces(1);
   std::string padded = json;
   padded.append((4 - json.size() % 4) % 4, ' ');
   for (const GlbChunk& chunk : container.chunks)
-    if (!appended.empty() && &chunk == &container.chunks.front())
-      add_longer_chunk(chunk, appended, pieces);
+    if ((tail.kept || !tail.appended.empty()) && &chunk == &container.chunks.front())
+      add_chunk(chunk, tail, pieces);
     else
       pieces.push_back({"", chunk.begin, chunk.end});
   const std::uint64_t size = kHeaderSize + kChunkHeaderSize + padded.size() + size_of(pieces);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,11 +42,16 @@ struct GltfContainer {
 // kInput, beginning with `place`, for a container that is cut off or whose lengths contradict each other.
 GltfContainer read_container(const ByteSource& source, const std::string& place);
 
-// The file with other JSON: chunks stay in their order, and `appended` follows the binary one, from a
-// multiple of four bytes. Throws kOutput, beginning with `place`, for 4 GiB or more, which a container cannot
-// hold.
+// What becomes of the end of the binary chunk.
+struct BinaryTail {
+  std::optional<std::uint64_t> kept;  // bytes from its start; none for all
+  std::string appended;               // from the next multiple of four
+};
+
+// The file with other JSON: chunks stay in their order, the binary one with another tail. Throws kOutput,
+// beginning with `place`, for 4 GiB or more, which a container cannot hold.
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
-                                  const std::string& appended, const std::string& place);
+                                  const BinaryTail& tail, const std::string& place);
 
 // The length of a result.
 std::uint64_t size_of(const std::vector<AssetPiece>& pieces);

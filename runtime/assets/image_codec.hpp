@@ -23,13 +23,20 @@ struct ImagePixels {
   bool is_grey() const noexcept { return channels < 3; }
 };
 
+enum class PngEffort {
+  kFast,      // half the time of the usual, and a tenth larger
+  kSmallest,  // the smallest of several tries
+};
+
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
   // Palettes are expanded. Throws kInput, beginning with `place`, for bytes that are no image that it reads.
   virtual ImagePixels decode(std::string_view bytes, const std::string& place) const = 0;
   // A PNG file. Throws kOutput.
-  virtual std::string encode_png(const ImagePixels& pixels) const = 0;
+  virtual std::string encode_png(const ImagePixels& pixels, PngEffort effort) const = 0;
+  // A JPEG file, of 8 bits and without alpha. `quality`: 1 to 100. Throws kOutput.
+  virtual std::string encode_jpeg(const ImagePixels& pixels, int quality) const = 0;
 };
 
 }  // namespace remap

@@ -2,16 +2,13 @@
 
 #include <cstddef>
 
+#include "assets/material_values.hpp"
+
 namespace remap {
 namespace {
 
-using Row = std::vector<float>;
-
-template <std::size_t Count>
-std::array<Row, Count> rows_of(std::size_t count) {
-  std::array<Row, Count> rows;
-  rows.fill(Row(count));
-  return rows;
+std::vector<float> float_color(const std::array<double, 3>& color) {
+  return {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])};
 }
 
 }  // namespace
@@ -25,30 +22,26 @@ std::unique_ptr<Converter> specgloss_projection(double prior, InstructionSet set
 
 float roughness_of(double glossiness) { return static_cast<float>(1.0 - glossiness); }
 
+MetalRoughFactors metal_rough_of(const MaterialValues& values) {
+  const std::vector<float>& base = values.at(Parameter::kBaseColor);
+  return {{base[0], base[1], base[2]},
+          values.at(Parameter::kMetallic)[0],
+          values.at(Parameter::kRoughness)[0],
+          values.at(Parameter::kResidual)[0]};
+}
+
+MetalRoughFactors projected(const SpecGlossFactors& material, const Converter& converter) {
+  return metal_rough_of(converted(converter, {{Parameter::kDiffuse, float_color(material.diffuse)},
+                                              {Parameter::kSpecular, float_color(material.specular)},
+                                              {Parameter::kRoughness, {roughness_of(material.glossiness)}}}));
+}
+
 std::vector<MetalRoughFactors> projected(const std::vector<SpecGlossFactors>& materials, double prior,
                                          InstructionSet set) {
-  const std::size_t count = materials.size();
-  std::array<Row, 3> diffuse = rows_of<3>(count), specular = rows_of<3>(count), base = rows_of<3>(count);
-  Row roughness(count), metallic(count), residual(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      diffuse[c][i] = static_cast<float>(materials[i].diffuse[c]);
-      specular[c][i] = static_cast<float>(materials[i].specular[c]);
-    }
-    roughness[i] = roughness_of(materials[i].glossiness);
-  }
-  MaterialRows<const float> in;
-  in[Parameter::kDiffuse] = {{diffuse[0].data(), diffuse[1].data(), diffuse[2].data()}, 3};
-  in[Parameter::kSpecular] = {{specular[0].data(), specular[1].data(), specular[2].data()}, 3};
-  in[Parameter::kRoughness] = {{roughness.data()}, 1};
-  MaterialRows<float> out;
-  out[Parameter::kBaseColor] = {{base[0].data(), base[1].data(), base[2].data()}, 3};
-  out[Parameter::kMetallic] = {{metallic.data()}, 1};
-  out[Parameter::kResidual] = {{residual.data()}, 1};
-  specgloss_projection(prior, set)->convert(count, in, out);
-  std::vector<MetalRoughFactors> results(count);
-  for (std::size_t i = 0; i < count; ++i)
-    results[i] = {{base[0][i], base[1][i], base[2][i]}, metallic[i], roughness[i], residual[i]};
+  const std::unique_ptr<Converter> converter = specgloss_projection(prior, set);
+  std::vector<MetalRoughFactors> results;
+  results.reserve(materials.size());
+  for (const SpecGlossFactors& material : materials) results.push_back(projected(material, *converter));
   return results;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "assets/material_values.hpp"
 #include "remap/converter.hpp"
 #include "remap/workflow.hpp"
 
@@ -29,10 +30,15 @@ struct MetalRoughFactors {
 // From gltf-specgloss to gltf, with roughness at both ends.
 std::unique_ptr<Converter> specgloss_projection(double prior, InstructionSet set);
 
+// Of a conversion to gltf with its diagnosis.
+MetalRoughFactors metal_rough_of(const MaterialValues& values);
+
 // 1 - glossiness, rounded once.
 float roughness_of(double glossiness);
 
-// All materials at once, in their order.
+MetalRoughFactors projected(const SpecGlossFactors& material, const Converter& converter);
+
+// All materials, in their order.
 std::vector<MetalRoughFactors> projected(const std::vector<SpecGlossFactors>& materials,
                                          double prior = kCleanPrior,
                                          InstructionSet set = best_instruction_set());

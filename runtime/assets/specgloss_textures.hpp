@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/gltf_images.hpp"
+#include "assets/core_material.hpp"
+#include "assets/material_textures.hpp"
 #include "assets/specgloss_maps.hpp"
 #include "assets/specgloss_material.hpp"
 
@@ -15,10 +16,9 @@ namespace remap {
 
 class SpecGlossTextures {
  public:
-  // `images` must outlive it.
-  // `enlarges`: smaller images of a pair are enlarged, else such a pair fails.
-  SpecGlossTextures(GltfImages& images, double prior, InstructionSet set, bool enlarges)
-      : images_(images), prior_(prior), set_(set), enlarges_(enlarges) {}
+  // Both must outlive it. `projection`: specgloss_projection().
+  SpecGlossTextures(MaterialTextures& textures, const Converter& projection)
+      : textures_(textures), projection_(projection) {}
 
   // By the projection. None where all maps are constant: they are then factors of `material`. Throws kInput
   // for maps that cannot be read or do not lie on one grid.
@@ -27,31 +27,17 @@ class SpecGlossTextures {
   CoreTexts exact(const SpecGlossMaterial& material);
 
  private:
-  // A texture of a material that varies.
-  struct Used {
-    TextureInfo info;
-    AssetImage image;
-  };
   // What became of a pair of images.
   struct Converted {
-    std::optional<std::size_t> base_image, metal_rough_image;
-    float metallic = 1.0f, roughness = 1.0f;
-    bool has_metal = false;
-    double residual = 0.0;
+    std::optional<std::size_t> base_image, metal_rough_image;  // numbers of new images
+    MetalRoughMaps maps;                                       // without their pixels
   };
 
-  std::optional<Used> load(SpanValue texture_info);
-  void require_one_grid(const Used& diffuse, const Used& specgloss, std::vector<std::string>& warnings) const;
-  // Gives both the larger size.
-  void enlarge(Used& diffuse, Used& specgloss) const;
-  const Converted& converted(const std::optional<Used>& diffuse, const std::optional<Used>& specgloss,
-                             const SpecGlossMaterial& material);
-  std::string new_info(const Used& model, std::size_t image);
+  const Converted& converted(const std::optional<UsedTexture>& diffuse,
+                             const std::optional<UsedTexture>& specgloss, const SpecGlossMaterial& material);
 
-  GltfImages& images_;
-  double prior_;
-  InstructionSet set_;
-  bool enlarges_;
+  MaterialTextures& textures_;
+  const Converter& projection_;
   std::map<std::string, Converted> converted_;         // by images and factors
   std::map<std::string, std::size_t> roughness_maps_;  // by image and factor
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/errors.hpp"
-
 namespace remap {
 namespace {
 
@@ -57,7 +55,8 @@ std::string TextEdits::colon_of(SpanValue object) const {
 }
 
 // Before the first child that stays, a removed one goes with what follows it; after, with what precedes it.
-void TextEdits::add_splices(SpanValue container, const Changes& changes, std::vector<Splice>& splices) const {
+void TextEdits::add_splices(SpanValue container, const Changes& changes,
+                            std::vector<TextSplice>& splices) const {
   const std::vector<SpanValue> children = container.children();
   const auto is_kept = [&](const SpanValue& child) { return !changes.removed.contains(child.index()); };
   const auto first_kept = std::ranges::find_if(children, is_kept);
@@ -78,36 +77,16 @@ void TextEdits::add_splices(SpanValue container, const Changes& changes, std::ve
   if (!appended.empty()) splices.push_back({{end, end}, separator + appended});
 }
 
-std::vector<TextEdits::Splice> TextEdits::splices() const {
-  std::vector<Splice> all;
+std::vector<TextSplice> TextEdits::splices() const {
+  std::vector<TextSplice> all;
   for (const auto& [index, text] : replaced_) all.push_back({json_.value(index).span(), text});
   for (const auto& [index, changes] : changed_) add_splices(json_.value(index), changes, all);
-  std::ranges::stable_sort(all, [](const Splice& a, const Splice& b) {
-    return a.span.begin != b.span.begin ? a.span.begin < b.span.begin : a.span.end < b.span.end;
-  });
+  sort_splices(all);
   return all;
 }
 
-std::vector<TextSpan> TextEdits::touched() const {
-  std::vector<TextSpan> spans;
-  for (const Splice& splice : splices())
-    if (splice.span.begin != splice.span.end) spans.push_back(splice.span);
-  return spans;
-}
+std::vector<TextSpan> TextEdits::touched() const { return touched_by(splices()); }
 
-std::string TextEdits::result() const {
-  const std::string_view text = json_.text();
-  std::string result;
-  result.reserve(text.size() + 1024);
-  std::size_t at = 0;
-  for (const Splice& splice : splices()) {
-    if (splice.span.begin < at) throw numeric_error("two edits of a JSON text overlap");
-    result += text.substr(at, splice.span.begin - at);
-    result += splice.text;
-    at = splice.span.end;
-  }
-  result += text.substr(at);
-  return result;
-}
+std::string TextEdits::result() const { return spliced(json_.text(), splices()); }
 
 }  // namespace remap

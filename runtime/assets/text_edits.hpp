@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assets/json_spans.hpp"
+#include "assets/text_splices.hpp"
 
 namespace remap {
 
@@ -37,18 +38,14 @@ class TextEdits {
   std::string result() const;
 
  private:
-  struct Splice {
-    TextSpan span;
-    std::string text;
-  };
   // What becomes of the children of a list or object.
   struct Changes {
     std::set<std::size_t> removed;      // indices of values
     std::vector<std::string> appended;  // entries, or members with their keys
   };
 
-  std::vector<Splice> splices() const;
-  void add_splices(SpanValue container, const Changes& changes, std::vector<Splice>& splices) const;
+  std::vector<TextSplice> splices() const;
+  void add_splices(SpanValue container, const Changes& changes, std::vector<TextSplice>& splices) const;
   // White space before the last child, and between its key and value.
   std::string_view space_before(SpanValue child) const;
   std::string colon_of(SpanValue object) const;

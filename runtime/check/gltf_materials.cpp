@@ -1,15 +1,24 @@
 // Materials of glTF 2.0 files (.gltf, .glb), with the extensions of Khronos that say what a surface reflects.
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "assets/asset_uri.hpp"
+#include "assets/gltf_bytes.hpp"
 #include "assets/gltf_container.hpp"
+#include "assets/gltf_extensions.hpp"
+#include "assets/json_spans.hpp"
 #include "check/material.hpp"
-#include "core/base64.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/json_field.hpp"
 #include "core/plain_text.hpp"
 #include "sets/folder_walk.hpp"
 
@@ -29,20 +38,19 @@ struct TexturePlace {
   bool zero_is_default = false;  // without a factor the texture is multiplied by 0
 };
 
-constexpr std::string_view kCore = "pbrMetallicRoughness", kSpecGloss = "KHR_materials_pbrSpecularGlossiness";
-
 constexpr std::array<TexturePlace, 16> kPlaces = {{
-    {kCore, "baseColorTexture", "baseColorFactor", Role::kBaseColor, Channels::kRgb},
-    {kCore, "metallicRoughnessTexture", "roughnessFactor", Role::kRoughness, Channels::kGreen},
-    {kCore, "metallicRoughnessTexture", "metallicFactor", Role::kMetallic, Channels::kBlue},
+    {kCoreMember, "baseColorTexture", "baseColorFactor", Role::kBaseColor, Channels::kRgb},
+    {kCoreMember, "metallicRoughnessTexture", "roughnessFactor", Role::kRoughness, Channels::kGreen},
+    {kCoreMember, "metallicRoughnessTexture", "metallicFactor", Role::kMetallic, Channels::kBlue},
     {"", "normalTexture", "", Role::kNormal, Channels::kRgb},
     {"", "occlusionTexture", "", Role::kOcclusion, Channels::kRed},
     {"", "emissiveTexture", "emissiveFactor", Role::kEmissive, Channels::kRgb, true},
-    {kSpecGloss, "diffuseTexture", "diffuseFactor", Role::kDiffuse, Channels::kRgb},
-    {kSpecGloss, "specularGlossinessTexture", "specularFactor", Role::kSpecular, Channels::kRgb},
-    {kSpecGloss, "specularGlossinessTexture", "glossinessFactor", Role::kGlossiness, Channels::kAlpha},
-    {"KHR_materials_specular", "specularTexture", "specularFactor", Role::kOther, Channels::kAlpha},
-    {"KHR_materials_specular", "specularColorTexture", "specularColorFactor", Role::kOther, Channels::kRgb},
+    {kSpecGlossExtension, "diffuseTexture", "diffuseFactor", Role::kDiffuse, Channels::kRgb},
+    {kSpecGlossExtension, "specularGlossinessTexture", "specularFactor", Role::kSpecular, Channels::kRgb},
+    {kSpecGlossExtension, "specularGlossinessTexture", "glossinessFactor", Role::kGlossiness,
+     Channels::kAlpha},
+    {kSpecularExtension, "specularTexture", "specularFactor", Role::kOther, Channels::kAlpha},
+    {kSpecularExtension, "specularColorTexture", "specularColorFactor", Role::kOther, Channels::kRgb},
     {"KHR_materials_clearcoat", "clearcoatTexture", "clearcoatFactor", Role::kOther, Channels::kRed, true},
     {"KHR_materials_clearcoat", "clearcoatRoughnessTexture", "clearcoatRoughnessFactor", Role::kOther,
      Channels::kGreen, true},
@@ -53,126 +61,112 @@ constexpr std::array<TexturePlace, 16> kPlaces = {{
      Channels::kRed, true},
 }};
 
-// The bytes of a data URI in base64, whose text begins at `begin`.
-std::string bytes_of_uri(std::string_view uri, std::size_t begin, const std::string& place) {
-  auto bytes = from_base64<std::string>(uri.substr(begin));
-  if (!bytes) throw input_error(place + ": is not base64");
-  return *std::move(bytes);
-}
+// A whole file in memory.
+class WholeFile final : public ByteSource {
+ public:
+  explicit WholeFile(const fs::path& file) : bytes_(read_file(file, kLargestAsset)) {}
+  std::uint64_t size() const override { return bytes_.size(); }
+  std::string read(std::uint64_t begin, std::size_t count) const override {
+    return bytes_.substr(begin, count);
+  }
 
-// The text and the binary chunk of a file.
-struct GltfFile {
-  std::string json;
-  std::string binary;
+ private:
+  std::string bytes_;
 };
 
-GltfFile read_gltf(const fs::path& file) {
-  const std::string bytes = read_file(file, kLargestAsset);
-  GltfContainer container = read_container(MemorySource(bytes), shown(file));
-  GltfFile parts{std::move(container.json), {}};
-  if (const GlbChunk* const chunk = container.binary_chunk())
-    parts.binary = bytes.substr(chunk->content_begin(), chunk->content_size());
-  return parts;
-}
+class FilesBeside final : public AssetFiles {
+ public:
+  explicit FilesBeside(fs::path folder) : folder_(std::move(folder)) {}
+  std::unique_ptr<ByteSource> open(const std::string& path) const override {
+    return std::make_unique<WholeFile>(folder_ / path);
+  }
+
+ private:
+  fs::path folder_;
+};
 
 class GltfMaterials {
  public:
   GltfMaterials(const fs::path& file, FoundMaterials& found)
-      : file_(file), found_(found), parts_(read_gltf(file)), json_(parse_json(parts_.json, shown(file))) {}
+      : file_(file),
+        found_(found),
+        source_(file),
+        beside_(file.parent_path()),
+        container_(read_container(source_, shown(file))),
+        json_(container_.json, shown(file)),
+        bytes_(json_, container_, source_, beside_),
+        textures_(json_.root()["textures"].entries()),
+        images_(json_.root()["images"].entries()) {}
 
   void add_all() {
-    const Json* materials = json_.find("materials");
-    if (materials == nullptr || materials->entries() == nullptr) return;
-    std::size_t index = 0;
-    for (const Json& entry : *materials->entries()) add(entry, index++);
+    const std::vector<SpanValue> materials = json_.root()["materials"].entries();
+    for (std::size_t i = 0; i < materials.size(); ++i) add(materials[i], i);
   }
 
  private:
-  void add(const Json& entry, std::size_t index) {
+  void add(SpanValue entry, std::size_t index) {
     CheckedMaterial material;
     material.kind = MaterialKind::kGltf;
     material.place = file_;
-    const Json* name = entry.find("name");
-    material.name = shown(file_) + ": material " +
-                    (name != nullptr && name->text() != nullptr ? "\"" + plain(*name->text()) + "\""
-                                                                : std::to_string(index));
-    const Json* extensions = entry.find("extensions");
-    if (extensions != nullptr && extensions->fields() != nullptr)
-      for (const auto& [extension, content] : *extensions->fields())
-        material.gltf.extensions.insert(extension);
+    const std::optional<std::string> name = entry["name"].text();
+    material.name =
+        shown(file_) + ": material " + (name ? "\"" + plain(*name) + "\"" : std::to_string(index));
+    const SpanValue extensions = entry["extensions"];
+    if (extensions.is(SpanKind::kObject))
+      for (const SpanValue& extension : extensions.children())
+        material.gltf.extensions.insert(extension.key());
     for (const TexturePlace& place : kPlaces) add_use(entry, place, material);
-    const auto number = [&](const char* extension, const char* field) -> std::optional<double> {
-      const Json* own = extensions != nullptr ? extensions->find(extension) : nullptr;
-      const Json* value = own != nullptr ? own->find(field) : nullptr;
-      return value != nullptr ? value->number() : std::nullopt;
-    };
-    material.gltf.ior = number("KHR_materials_ior", "ior");
-    material.gltf.specular_factor = number("KHR_materials_specular", "specularFactor");
-    material.gltf.transmits = number("KHR_materials_transmission", "transmissionFactor").value_or(0.0) > 0.0;
+    material.gltf.ior = extensions[kIorExtension]["ior"].number();
+    material.gltf.specular_factor = extensions[kSpecularExtension]["specularFactor"].number();
+    const SpanValue transmission = extensions["KHR_materials_transmission"];
+    material.gltf.transmits = transmission["transmissionFactor"].number().value_or(0.0) > 0.0;
     found_.materials.push_back(std::move(material));
   }
 
-  void add_use(const Json& entry, const TexturePlace& place, CheckedMaterial& material) {
-    const Json* object = &entry;
-    if (place.object == kCore) object = entry.find(kCore);
-    if (!place.object.empty() && place.object != kCore) {
-      const Json* extensions = entry.find("extensions");
-      object = extensions != nullptr ? extensions->find(place.object) : nullptr;
-    }
-    const Json* texture = object != nullptr ? object->find(place.texture) : nullptr;
-    const Json* index = texture != nullptr ? texture->find("index") : nullptr;
-    if (index == nullptr || !index->whole()) return;
-    const std::optional<std::size_t> map = map_of(*index->whole(), material);
+  void add_use(SpanValue entry, const TexturePlace& place, CheckedMaterial& material) {
+    SpanValue object = entry;
+    if (!place.object.empty())
+      object = place.object == kCoreMember ? entry[kCoreMember] : entry["extensions"][place.object];
+    const std::optional<std::size_t> texture = object[place.texture]["index"].whole();
+    const std::optional<std::size_t> map = texture ? map_of(*texture, material) : std::nullopt;
     if (!map) return;
     MaterialUse use{
         place.role, *map, place.channels, std::string(place.texture), {}, std::string(place.factor), false};
-    const Json* factor = place.factor.empty() ? nullptr : object->find(place.factor);
-    if (factor == nullptr && place.zero_is_default) use.factors = {0.0};
-    if (factor != nullptr && factor->number()) use.factors = {*factor->number()};
-    if (factor != nullptr && factor->entries() != nullptr)
-      for (std::size_t c = 0; c < std::min<std::size_t>(3, factor->size()); ++c)
-        use.factors.push_back((*factor->entries())[c].number().value_or(1.0));
-    if (place.object == "KHR_materials_specular") material.gltf.has_specular_map = true;
+    const SpanValue factor = place.factor.empty() ? SpanValue() : object[place.factor];
+    if (!factor && place.zero_is_default) use.factors = {0.0};
+    if (factor.number()) use.factors = {*factor.number()};
+    const std::vector<SpanValue> numbers = factor.entries();
+    for (std::size_t c = 0; c < std::min<std::size_t>(3, numbers.size()); ++c)
+      use.factors.push_back(numbers[c].number().value_or(1.0));
+    if (place.object == kSpecularExtension) material.gltf.has_specular_map = true;
     material.uses.push_back(std::move(use));
   }
 
   // The map of a texture, which is added to the material where it is new; none where nothing says where it
   // is.
-  std::optional<std::size_t> map_of(std::int64_t texture, CheckedMaterial& material) {
-    const Json* entry = entry_of("textures", texture);
-    const Json* source = entry != nullptr ? entry->find("source") : nullptr;
-    if (source == nullptr || !source->whole()) return std::nullopt;
-    const std::int64_t image = *source->whole();
-    const std::optional<fs::path> file = file_of_image(image);
-    if (!file) return std::nullopt;
+  std::optional<std::size_t> map_of(std::size_t texture, CheckedMaterial& material) {
+    if (texture >= textures_.size()) return std::nullopt;
+    const std::optional<std::size_t> image = textures_[texture]["source"].whole();
+    if (!image || *image >= images_.size()) return std::nullopt;
+    const fs::path file = file_of_image(*image);
     for (std::size_t i = 0; i < material.maps.size(); ++i)
-      if (material.maps[i].file == *file) return i;
-    const bool is_embedded = embedded_.contains(image);
-    const Json* name = entry_of("images", image)->find("name");
-    material.maps.push_back({*file,
-                             is_embedded ? shown(file_) + ": image " + std::to_string(image) : shown(*file),
-                             is_embedded ? (name != nullptr && name->text() != nullptr ? *name->text() : "")
-                                         : file->filename().string(),
-                             nullptr});
+      if (material.maps[i].file == file) return i;
+    const bool is_embedded = embedded_.contains(*image);
+    material.maps.push_back(
+        {file, is_embedded ? image_title(*image) : shown(file),
+         is_embedded ? images_[*image]["name"].text().value_or("") : file.filename().string(), nullptr});
     return material.maps.size() - 1;
   }
 
-  std::optional<fs::path> file_of_image(std::int64_t image) {
-    const Json* entry = entry_of("images", image);
-    if (entry == nullptr) return std::nullopt;
-    const Json* uri = entry->find("uri");
-    if (uri != nullptr && uri->text() != nullptr && !uri->text()->starts_with("data:"))
-      return file_.parent_path() / percent_decoded(*uri->text());
+  std::string image_title(std::size_t image) const {
+    return shown(file_) + ": image " + std::to_string(image);
+  }
+
+  fs::path file_of_image(std::size_t image) {
+    const std::optional<std::string> uri = images_[image]["uri"].text();
+    if (uri && uri_kind(*uri) != UriKind::kData) return file_.parent_path() / percent_decoded(*uri);
     if (const auto known = embedded_.find(image); known != embedded_.end()) return known->second;
-    const std::string place = shown(file_) + ": image " + std::to_string(image);
-    std::string bytes;
-    if (uri != nullptr && uri->text() != nullptr) {
-      const std::size_t comma = uri->text()->find(";base64,");
-      if (comma == std::string::npos) return std::nullopt;
-      bytes = bytes_of_uri(*uri->text(), comma + 8, place);
-    } else {
-      bytes = bytes_of_view(*entry, place);
-    }
+    const std::string bytes = bytes_of_image(image);
     if (!found_.embedded) found_.embedded = std::make_shared<const ScratchFolder>("texremap-check");
     const std::string extension = bytes.starts_with("\x89PNG")    ? ".png"
                                   : bytes.starts_with("\xff\xd8") ? ".jpg"
@@ -184,52 +178,24 @@ class GltfMaterials {
     return embedded_.emplace(image, file).first->second;
   }
 
-  // The bytes of a buffer: of the binary chunk, a data URI or a file.
-  const std::string& bytes_of_buffer(std::int64_t buffer, const std::string& place) {
-    const Json* entry = entry_of("buffers", buffer);
-    const Json* uri = entry != nullptr ? entry->find("uri") : nullptr;
-    if (uri == nullptr || uri->text() == nullptr) return parts_.binary;
-    const auto [known, is_new] = buffers_.try_emplace(buffer);
-    if (!is_new) return known->second;
-    const std::string& text = *uri->text();
-    const std::size_t comma = text.find(";base64,");
-    if (!text.starts_with("data:"))
-      known->second = read_file(file_.parent_path() / percent_decoded(text), kLargestAsset);
-    else if (comma != std::string::npos)
-      known->second = bytes_of_uri(text, comma + 8, place);
-    return known->second;
-  }
-
-  std::string bytes_of_view(const Json& entry, const std::string& place) {
-    const Json* index = entry.find("bufferView");
-    const Json* view =
-        index != nullptr && index->whole() ? entry_of("bufferViews", *index->whole()) : nullptr;
-    const auto whole = [&](const char* field, std::int64_t otherwise) {
-      const Json* value = view != nullptr ? view->find(field) : nullptr;
-      return value != nullptr ? value->whole().value_or(-1) : otherwise;
-    };
-    const std::string& bytes = bytes_of_buffer(whole("buffer", 0), place);
-    const std::int64_t offset = whole("byteOffset", 0), length = whole("byteLength", -1);
-    const auto size = static_cast<std::int64_t>(bytes.size());
-    if (offset < 0 || length < 0 || offset > size || length > size - offset)
-      throw input_error(place + ": its bytes are not in the buffer that it names");
-    return bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
-  }
-
-  const Json* entry_of(const char* list, std::int64_t index) const {
-    const Json* all = json_.find(list);
-    const Json::List* entries = all != nullptr ? all->entries() : nullptr;
-    if (entries == nullptr || index < 0 || index >= static_cast<std::int64_t>(entries->size()))
-      return nullptr;
-    return &(*entries)[static_cast<std::size_t>(index)];
+  std::string bytes_of_image(std::size_t image) const {
+    try {
+      return bytes_.of_image(image);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
+      throw input_error(image_title(image) + ": " + error.what());
+    }
   }
 
   const fs::path& file_;
   FoundMaterials& found_;
-  GltfFile parts_;
-  Json json_;
-  std::map<std::int64_t, std::string> buffers_;  // that are read
-  std::map<std::int64_t, fs::path> embedded_;    // files of images that are part of the asset
+  WholeFile source_;
+  FilesBeside beside_;
+  GltfContainer container_;
+  SpannedJson json_;
+  GltfBytes bytes_;
+  std::vector<SpanValue> textures_, images_;
+  std::map<std::size_t, fs::path> embedded_;  // files of images that are part of the asset
 };
 
 }  // namespace

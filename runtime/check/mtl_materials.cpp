@@ -1,15 +1,14 @@
 // Materials of Wavefront MTL files, with the lines for metallic and roughness that later tools added.
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <string_view>
 
+#include "assets/mtl_document.hpp"
+#include "assets/mtl_material.hpp"
 #include "check/material.hpp"
-#include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "core/read_file.hpp"
 #include "sets/folder_walk.hpp"
-#include "sets/name_pieces.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -31,71 +30,38 @@ constexpr std::array<MapLine, 11> kMapLines = {{{"map_kd", Role::kDiffuse},
                                                 {"norm", Role::kNormal},
                                                 {"map_kn", Role::kNormal}}};
 
-// The options of a map, which come before its name and, from some tools, after it; those that take a word,
-// not numbers.
-constexpr std::array<std::string_view, 13> kOptions = {
-    "-imfchan", "-type", "-colorspace", "-clamp", "-blendu", "-blendv", "-cc",
-    "-s",       "-o",    "-t",          "-mm",    "-bm",     "-texres"};
-constexpr std::size_t kOptionsOfWords = 7;
-
-// The file that a line names; the name may hold spaces. Backslashes are separators of folders.
-std::string file_in(std::istringstream& line) {
-  std::string word, name;
-  while (line >> word) {
-    const auto option = std::ranges::find(kOptions, lower(word));
-    if (option != kOptions.end() && !name.empty()) break;
-    if (option != kOptions.end()) {
-      if (option < kOptions.begin() + kOptionsOfWords) line >> word;
-    } else if (!name.empty() || !parse_number(word)) {
-      name += (name.empty() ? "" : " ") + word;
-    }
-  }
-  std::ranges::replace(name, '\\', '/');
-  return name;
+void add_map(const std::string& name, const MapLine& line, CheckedMaterial& material) {
+  const fs::path path = material.place.parent_path() / fs::path(name).relative_path();
+  material.uses.push_back(
+      {line.role, material.maps.size(), Channels::kWhole, std::string(line.word), {}, "", false});
+  material.maps.push_back({path, shown(path), path.filename().string(), nullptr});
 }
 
 }  // namespace
 
 void add_mtl(const fs::path& file, FoundMaterials& found) {
-  std::istringstream lines(read_file(file));
-  std::vector<CheckedMaterial> materials;
+  const std::string text = read_file(file);
+  const MtlDocument document(text, shown(file));
   std::vector<Exponent> exponents;
-  for (std::string text; std::getline(lines, text);) {
-    std::istringstream line(text);
-    std::string word;
-    line >> word;
-    word = lower(word);
-    if (word == "newmtl") {
-      std::string name;
-      std::getline(line >> std::ws, name);
-      while (!name.empty() && (name.back() == '\r' || name.back() == ' ')) name.pop_back();
-      CheckedMaterial material;
-      material.kind = MaterialKind::kMtl;
-      material.place = file;
-      material.name = shown(file) + ": material \"" + plain(name) + "\"";
-      materials.push_back(std::move(material));
-      continue;
-    }
-    if (materials.empty()) continue;
-    std::string number;
-    if (word == "ns" && line >> number) {
-      if (const auto value = parse_number(number))
-        exponents.push_back({materials.back().name.substr(shown(file).size() + 2), *value});
-      continue;
-    }
-    for (const MapLine& known : kMapLines) {
-      if (known.word != word) continue;
-      const std::string name = file_in(line);
-      if (name.empty()) continue;
-      const fs::path path = file.parent_path() / fs::path(name).relative_path();
-      CheckedMaterial& material = materials.back();
-      material.uses.push_back(
-          {known.role, material.maps.size(), Channels::kWhole, std::string(known.word), {}, "", false});
-      material.maps.push_back({path, shown(path), path.filename().string(), nullptr});
+  const std::size_t first = found.materials.size();
+  for (const MtlBlock& block : document.materials()) {
+    CheckedMaterial& material = found.materials.emplace_back();
+    const std::string name = "material \"" + plain(block.name) + "\"";
+    material.kind = MaterialKind::kMtl;
+    material.place = file;
+    material.name = shown(file) + ": " + name;
+    for (std::size_t i = block.first; i < block.last; ++i) {
+      const MtlStatement& statement = document.statements()[i];
+      const std::string word = document.word(statement);
+      const std::vector<TextSpan> words = document.words(statement);
+      if (word == "ns" && !words.empty())
+        if (const auto value = mtl_number(document.raw(words.front()))) exponents.push_back({name, *value});
+      const auto line = std::ranges::find(kMapLines, word, &MapLine::word);
+      if (line == kMapLines.end()) continue;
+      if (const std::string map = read_mtl_map(document, i).file; !map.empty()) add_map(map, *line, material);
     }
   }
-  if (!materials.empty()) materials.front().exponents = std::move(exponents);
-  for (CheckedMaterial& material : materials) found.materials.push_back(std::move(material));
+  if (first < found.materials.size()) found.materials[first].exponents = std::move(exponents);
 }
 
 }  // namespace remap

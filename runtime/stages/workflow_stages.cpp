@@ -35,6 +35,37 @@ class ToSpecular final : public Stage {
   decltype(Kernels::to_specular) kernel_;
 };
 
+// Equation (2) with an F0 for each texel. It is linear in F0: a metal over black dielectrics comes from the
+// kernel, and the dielectrics' F0 and what they leave to diffuse are added.
+class LayerDielectrics final : public Stage {
+ public:
+  // `metal`: equation (2) with an F0 of 0, to plain diffuse.
+  explicit LayerDielectrics(std::shared_ptr<const Stage> metal) : metal_(std::move(metal)) {}
+
+  std::size_t run(Block& block, std::uint8_t* outside) const override {
+    std::array<std::array<float, kBlockTexels>, 3> f0;
+    std::array<float, kBlockTexels> dielectric;
+    const Colors given = block.color(Parameter::kSpecular);
+    const float* const metallic = block.row(Parameter::kMetallic);
+    for (std::size_t c = 0; c < 3; ++c)
+      std::transform(given[c], given[c] + block.size(), f0[c].begin(), clamped);
+    for (std::size_t i = 0; i < block.size(); ++i) dielectric[i] = 1.0f - clamped(metallic[i]);
+    const std::size_t count = metal_->run(block, outside);
+    const Colors diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
+    const auto diffuse_out = block.make_color(Parameter::kDiffuse);
+    const auto specular_out = block.make_color(Parameter::kSpecular);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        diffuse_out[c][i] = diffuse[c][i] * (1.0f - std::max({f0[0][i], f0[1][i], f0[2][i]}));
+        specular_out[c][i] = specular[c][i] + dielectric[i] * f0[c][i];
+      }
+    return count;
+  }
+
+ private:
+  std::shared_ptr<const Stage> metal_;
+};
+
 // Diffuse that counts what specular leaves to reflectance, or back. Where all light is reflected: black.
 class ScaleDiffuse final : public Stage {
  public:
@@ -210,6 +241,21 @@ std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, Diff
                                             RoughnessConvention width, InstructionSet set,
                                             const std::string& place) {
   return std::make_shared<ToSpecular>(conversion_of(source, diffuse, width, Equation2{}, place), set);
+}
+
+std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stages, InstructionSet set) {
+  const MetallicWorkflow black{model_of(stages.source), 0.0, DiffuseConvention::kPlain, stages.width};
+  const SpecularWorkflow between{"specular", DiffuseConvention::kPlain, stages.width};
+  WorkflowStages rest = stages;
+  rest.source = between;
+  const std::unique_ptr<Converter> converter = make_workflow_converter(rest, set);
+  StageList list = {std::make_shared<LayerDielectrics>(
+      specular_stage(black, DiffuseConvention::kPlain, stages.width, set, converter->info().id))};
+  list.insert(list.end(), converter->stages().begin(), converter->stages().end());
+  std::vector<Parameter> sources = {Parameter::kRoughness, Parameter::kSpecular, Parameter::kBaseColor,
+                                    Parameter::kMetallic};
+  return std::make_unique<Converter>(converter->info(), std::move(sources), converter->targets(),
+                                     std::move(list));
 }
 
 std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages, InstructionSet set) {

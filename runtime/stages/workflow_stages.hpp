@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "remap/converter.hpp"
 #include "remap/workflow.hpp"
 #include "stages/kernels.hpp"
 #include "stages/stage.hpp"
@@ -15,5 +16,10 @@ namespace remap {
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
                                             RoughnessConvention width, InstructionSet set,
                                             const std::string& place);
+
+// As make_workflow_converter() without BRDF, from a metallic workflow whose dielectrics have an F0 for each
+// texel: kSpecular of the source (KHR_materials_specular). The F0 of `stages.source` does not count; diffuse
+// is what max(F0) leaves.
+std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stages, InstructionSet set);
 
 }  // namespace remap

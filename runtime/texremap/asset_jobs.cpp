@@ -86,7 +86,8 @@ void set_prefixes(AssetList& list) {
   run_parallel(list.jobs.size(), 0, [&](std::size_t i) {
     AssetJob& job = list.jobs[i];
     try {
-      for (const AssetResource& resource : resources_of_asset(FileSource(job.input), job.input))
+      for (const AssetResource& resource :
+           resources_of_asset(FileSource(job.input), job.input, FolderResources(job)))
         if (resource.kind == UriKind::kFile) {
           const std::lock_guard lock(mutex);
           users[(folder_of_asset(job.input) / resource.path).lexically_normal()].insert(&job);

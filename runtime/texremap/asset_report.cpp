@@ -38,7 +38,7 @@ std::string outcome_text(const AssetReport& report, bool dry_run) {
   const std::string verb = dry_run ? "would be " : "";
   std::string text;
   if (converted == 0 && report.failed_count() == 0)
-    text = "no spec-gloss material, " + verb + "copied";
+    text = "nothing to convert, " + verb + "copied";
   else
     text = counted(converted, "material") + " " + verb + "converted";
   if (report.failed_count() > 0) text += ", " + std::to_string(report.failed_count()) + " failed";

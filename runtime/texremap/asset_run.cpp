@@ -27,7 +27,13 @@ namespace fs = std::filesystem;
 namespace {
 
 AssetOptions asset_options(const ConvertOptions& options) {
-  return {options.profile, options.prior, options.instructions, options.resample};
+  AssetOptions asset{options.profile, options.prior, options.instructions, options.resample};
+  asset.target = options.to.name == "gltf-specgloss" ? AssetTarget::kSpecGloss : AssetTarget::kMetalRough;
+  asset.folds_specular = options.fold_specular;
+  asset.compacts = options.compact;
+  asset.bakes = options.bake;
+  asset.jpeg_quality = options.jpeg;
+  return asset;
 }
 
 // Files that several assets of a run name are copied by the first; the others find them whole.
@@ -85,14 +91,15 @@ class AssetRunner {
   void run(const AssetJob& job, AssetReport& report) {
     const Stopwatch stopwatch;
     const FileSource source(job.input);
-    const std::string inputs =
-        list_.is_tree ? inputs_hash_of(job, resources_of_asset(source, job.input)) : "";
-    if (options_.resume && is_done(job, inputs)) {
+    const FolderResources files(job);
+    std::vector<AssetResource> named;
+    if (list_.is_tree) named = resources_of_asset(source, job.input, files);
+    const std::string inputs = list_.is_tree ? inputs_hash_of(job, named) : "";
+    if (options_.resume && is_done(job, inputs, named)) {
       report.was_done = true;
       return;
     }
     require_free(job.input, job.output);
-    const FolderResources files(job);
     const AssetConversion conversion = convert_asset(source, job.input, job.output, conversion_, files);
     report.materials = conversion.materials;
     report.warnings = conversion.warnings;
@@ -131,9 +138,13 @@ class AssetRunner {
                          ": already exists (--resume skips finished assets, --force overwrites)");
   }
 
-  bool is_done(const AssetJob& job, const std::string& inputs) const {
+  // Copies are compared with what they are of: several assets may share one.
+  bool is_done(const AssetJob& job, const std::string& inputs,
+               const std::vector<AssetResource>& named) const {
     const std::vector<fs::path> files = journal_.files_of(job.name());
-    return !files.empty() && journal_.is_done(inputs, files);
+    if (files.empty() || !journal_.is_done(inputs, files)) return false;
+    const bool is_new_format = job.input.extension() != job.output.extension();  // which names other files
+    return is_new_format || plan_resources(job, named, true).copies.empty();
   }
 
   // The asset comes last, so that it never lies without its parts.
@@ -161,7 +172,6 @@ class AssetRunner {
     journal_.claim(options_.force);
     std::vector<FinishedFile> finished;
     std::vector<fs::path> paths;
-    for (const ResourceCopy& copy : plan.copies) finished.push_back(finished_file(copy.to, copy.to));
     for (const std::unique_ptr<NewFile>& file : files)
       finished.push_back(finished_file(file->path(), file->finish()));
     for (const FinishedFile& file : finished) paths.push_back(file.path);

@@ -40,7 +40,7 @@ struct JobList {
   std::vector<ConversionJob> jobs;
   std::vector<SkippedSet> left_out;
   std::vector<std::filesystem::path> unrecognised;  // images of a folder whose names no habit matches
-  std::size_t asset_count = 0;     // assets in the folder, which are left as they are
+  std::size_t asset_count = 0;                      // assets in the folder, which are left as they are
   bool is_tree = false;            // several sets or tiles; a failing one does not stop the others
   std::string tile_noun = "tile";  // "frame" for sequences
 };

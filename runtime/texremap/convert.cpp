@@ -329,7 +329,8 @@ void add_convert_command(Command& app) {
       "    --specular 0.04\n"
       "  texremap convert --from gltf-specgloss --to gltf --diffuse d.png \\\n"
       "    --specular sg.png --glossiness sg.png:A --layout orm -o out\n"
-      "  texremap convert model.glb --to gltf -o converted.glb");
+      "  texremap convert model.glb --to gltf -o converted.glb\n"
+      "  texremap convert model.obj --to gltf -o model.glb");
 }
 
 }  // namespace remap

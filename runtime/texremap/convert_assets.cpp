@@ -18,9 +18,9 @@ namespace remap {
 namespace {
 
 // The options of `texremap convert` that apply to assets, besides those with the tag kNeedsAsset.
-constexpr std::array<std::string_view, 14> kAssetOptions = {
-    "DIR",    "--from",  "--to",           "--prior",    "--output",    "--force",  "--dry-run",
-    "--json", "--quiet", "--instructions", "--resample", "--recursive", "--resume", "--threads"};
+constexpr std::array<std::string_view, 15> kAssetOptions = {
+    "DIR",     "--from",         "--to",       "--prior",     "--output", "--force",   "--dry-run", "--json",
+    "--quiet", "--instructions", "--resample", "--recursive", "--resume", "--threads", "--format"};
 // Of these, those that apply to folders alone.
 constexpr std::array<std::string_view, 2> kTreeOptions = {"--recursive", "--resume"};
 
@@ -43,14 +43,29 @@ void require_asset_options(const ConvertOptions& options) {
                            ? std::string("--root, which is DIR")
                            : shown(options.more_assets.front()) + " (name one folder)"));
   for (const std::filesystem::path& path : options.more_assets)
-    if (!is_asset(path)) throw usage_error(shown(path) + ": is no glTF file (.gltf or .glb)");
+    if (!is_asset(path)) throw usage_error(shown(path) + ": is no asset (.gltf, .glb, .mtl or .obj)");
   if (!options.from.empty() && options.from.name != "gltf-specgloss")
     throw usage_error("--from " + options.from.name +
-                      ": the materials of a glTF file are gltf-specgloss (or leave --from out)");
-  if (options.to.empty()) throw usage_error("--to is required (gltf)");
-  if (options.to.name != "gltf")
-    throw usage_error("--to " + options.to.name + ": materials of a glTF file become gltf");
+                      ": the file tells what its materials are (remove this option)");
+  if (options.to.empty()) throw usage_error("--to is required (gltf, or gltf-specgloss)");
+  if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
+    throw usage_error("--to " + options.to.name + ": materials of assets become gltf or gltf-specgloss");
   if (options.output.empty()) throw usage_error("--output is required");
+  const bool is_core = options.to.name == "gltf" && options.profile == MaterialProfile::kCore;
+  if (options.fold_specular && !is_core)
+    throw usage_error("--fold-specular: applies to --to gltf with --profile core alone (remove one)");
+  if (options.to.name != "gltf" && options.is_given("--profile"))
+    throw usage_error("--profile: applies to --to gltf alone (remove this option)");
+}
+
+// Refuses options of which no asset of the run makes use.
+void require_gltf(const ConvertOptions& options, const AssetList& list) {
+  if (std::ranges::any_of(list.jobs, [](const AssetJob& job) { return is_gltf_name(job.input); })) return;
+  for (const char* name : {"--fold-specular", "--compact", "--bake", "--jpeg"})
+    if (options.is_given(name))
+      throw usage_error(std::string(name) + ": applies to glTF files alone (remove this option)");
+  if (options.to.name != "gltf")
+    throw usage_error("--to " + options.to.name + ": materials of MTL and OBJ files become gltf");
 }
 
 // Throws where an asset or some of its materials failed.
@@ -70,13 +85,14 @@ void require_success(const std::vector<AssetReport>& reports, const AssetSummary
   if (!report.failure.empty()) throw Error(ErrorKind::kInput, "1 of 1 assets failed", passing);
   throw input_error(shown(report.input) + ": " + std::to_string(report.failed_count()) + " of " +
                     std::to_string(report.materials.size() - report.count(MaterialState::kUntouched)) +
-                    " spec-gloss materials failed");
+                    " materials failed");
 }
 
 void convert_assets(const ConvertOptions& options) {
   require_asset_options(options);
   const Stopwatch stopwatch;
   const AssetList list = asset_list(options);
+  require_gltf(options, list);
   const bool is_one = list.jobs.size() == 1 && !list.is_tree;
   for (const std::string& problem : list.problems) print_message(kProgram, "failed: " + problem);
   const std::vector<AssetReport> reports = run_assets(list, options, [&](const AssetReport& report) {
@@ -99,7 +115,7 @@ bool convert_as_assets(const ConvertOptions& options) {
     return true;
   }
   refuse(options, kNeedsAsset,
-         ": applies to assets alone (remove it, name a .gltf or .glb file, or --assets)");
+         ": applies to assets alone (remove it, name a glTF, MTL or OBJ file, or --assets)");
   return false;
 }
 

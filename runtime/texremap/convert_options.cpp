@@ -1,6 +1,7 @@
 #include "texremap/convert_options.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -34,6 +35,16 @@ Reader<int> compression_level() {
             if (word.size() != 1 || word[0] < '1' || word[0] > '9')
               throw usage_error(option + ": " + word + " is no level (1, fast, to 9, small)");
             return word[0] - '0';
+          },
+          {}};
+}
+
+Reader<int> jpeg_quality() {
+  return {[](const std::string& option, const std::string& word) {
+            const auto quality = parse_number(word);
+            if (!quality || *quality != std::floor(*quality) || *quality < 1.0 || *quality > 100.0)
+              throw usage_error(option + ": " + word + " is no quality (1, small, to 100, near)");
+            return static_cast<int>(*quality);
           },
           {}};
 }
@@ -119,9 +130,10 @@ Reader<GivenPart> given_part() {
 
 void add_source_options(Command& command, ConvertOptions& options) {
   command.option_group("Source and target");
-  command.add_option("DIR", options.folder,
-                     "Folder of texture sets, found by the names of their maps; or a glTF file");
-  command.add_option("ASSET", options.more_assets, "More glTF files")->tag(kNeedsAsset);
+  command.add_option(
+      "DIR", options.folder,
+      "Folder of texture sets, found by the names of their maps; or an asset: a glTF, MTL or OBJ file");
+  command.add_option("ASSET", options.more_assets, "More assets")->tag(kNeedsAsset);
   command.add_option("--from MODEL", options.from, model_name(), "Source model, e.g. mitsuba/ward or unity");
   command.add_option(
       "--to MODEL", options.to, model_name(),
@@ -133,7 +145,9 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kNeedsFolder);
   command
       .add_flag("--assets", options.assets,
-                "Convert the assets (glTF files) in DIR, not the texture sets that the names of images tell")
+                "Convert the assets (glTF and MTL files, with --format glb OBJ files) in DIR, not the "
+                "texture sets that "
+                "the names of images tell")
       ->tag(kNeedsAsset);
   command
       .add_option(
@@ -157,9 +171,25 @@ void add_source_options(Command& command, ConvertOptions& options) {
   options.converters.add_option(command)->excludes(command.option("--fit"));
   command
       .add_option("--profile NAME", options.profile, one_of(kMaterialProfiles, "profile"),
-                  "Materials of glTF files: core metallic-roughness, or exact for viewers that read "
+                  "Materials of assets: core metallic-roughness, or nearer for viewers that read "
                   "KHR_materials_specular and KHR_materials_ior")
       ->default_text("core")
+      ->tag(kChangesResults | kNeedsAsset);
+  const auto add_asset_flag = [&](const char* name, bool& flag, const char* description) {
+    command.add_flag(name, flag, description)->tag(kChangesResults | kNeedsAsset);
+  };
+  add_asset_flag(
+      "--fold-specular", options.fold_specular,
+      "Fold KHR_materials_specular and KHR_materials_ior into core, for viewers that do not read them");
+  add_asset_flag(
+      "--compact", options.compact,
+      "Drop the bytes of images that only converted materials used, and make new images as small as "
+      "possible");
+  add_asset_flag("--bake", options.bake,
+                 "Bring maps of a material whose KHR_texture_transform differ onto the grid of the first");
+  command
+      .add_option("--jpeg QUALITY", options.jpeg, jpeg_quality(),
+                  "Write new maps of color as JPEG, 1 to 100, where the old ones are JPEG and have no alpha")
       ->tag(kChangesResults | kNeedsAsset);
 }
 

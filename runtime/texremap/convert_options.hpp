@@ -61,6 +61,8 @@ struct ConvertOptions {
   bool assets = false;                               // the folder is of assets, not of texture sets
   std::filesystem::path asset_root;                  // below which assets may name files
   MaterialProfile profile = MaterialProfile::kCore;  // of assets
+  bool fold_specular = false, compact = false, bake = false;
+  std::optional<int> jpeg;  // quality
   ModelName from, to;
   std::vector<std::string> via;
   std::string fit;

@@ -97,7 +97,7 @@ class ImageLibrary {
   virtual void write_png(const std::filesystem::path& path, const Picture& picture) const = 0;
   // The bytes of such a PNG file. Throws kOutput.
   virtual std::string png_bytes(const Picture& picture) const = 0;
-  // Images that assets embed: PNG, JPEG and WebP.
+  // Images that assets embed or name: PNG, JPEG, WebP, BMP, TIFF and Targa.
   virtual const ImageCodec& codec() const = 0;
 };
 

@@ -181,6 +181,41 @@ TEST_CASE("Assets read what lies below their root", "[assets][slow]") {
              Catch::Matchers::Contains("does not lie below it"));
 }
 
+TEST_CASE("Materials go to spec-gloss and back", "[assets]") {
+  const AssetSession session;
+  session.put("a.gltf",
+              R"({"asset":{"version":"2.0"}, "materials":[{"pbrMetallicRoughness":{"baseColorFactor":)"
+              R"([1.0,0.77,0.34,1],"metallicFactor":1,"roughnessFactor":0.25}}]})");
+  CHECK(session.texremap("convert a.gltf --to gltf-specgloss -o there").exit_code == 0);
+  CHECK_THAT(session.content("there/a.gltf"),
+             Catch::Matchers::Contains(R"("glossinessFactor":0.75)") &&
+                 Catch::Matchers::Contains(R"("specularFactor":[1.0,0.77,0.34])"));
+  CHECK(session.texremap("convert there/a.gltf --to gltf-specgloss -o again").exit_code == 0);
+  CHECK(session.content("again/a.gltf") == session.content("there/a.gltf"));
+  CHECK(session.texremap("convert there/a.gltf --to gltf -o back").exit_code == 0);
+  CHECK_THAT(session.content("back/a.gltf"),
+             Catch::Matchers::Contains(R"("baseColorFactor":[1.0,0.77,0.34,1])") ||
+                 Catch::Matchers::Contains(R"("baseColorFactor":[1,0.77,0.34,1])"));
+  CHECK(session.content("back/a.gltf").find("pbrSpecularGlossiness") == std::string::npos);
+}
+
+TEST_CASE("MTL files keep their other lines, and OBJ files become glTF", "[assets]") {
+  const AssetSession session;
+  session.put("o/a.mtl", "# by hand\r\nnewmtl paint\r\nNs 96.08\r\nKs .5 .5 .5\r\nKd .64 .64 .64\r\n");
+  session.put("o/a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
+  CHECK(session.texremap("convert o/a.mtl --to gltf -o m").exit_code == 0);
+  CHECK_THAT(session.content("m/a.mtl"),
+             Catch::Matchers::StartsWith("# by hand\r\nnewmtl paint\r\nNs 96.08\r\nKs .5 .5 .5\r\n") &&
+                 Catch::Matchers::Contains("\r\nPr ") && Catch::Matchers::Contains("\r\nPm 0\r\n"));
+  CHECK(session.texremap("convert o --assets --to gltf --format gltf -o g").exit_code == 0);
+  CHECK(std::filesystem::exists(session.path("g/a.gltf")));
+  CHECK(std::filesystem::exists(session.path("g/a.bin")));
+  CHECK_THAT(session.texremap("convert o --assets --to gltf --format gltf -o g --resume").errors,
+             Catch::Matchers::Contains("1 done before"));
+  CHECK(session.texremap("convert o/a.obj --to gltf -o a.glb").exit_code == 0);
+  CHECK(session.content("a.glb").starts_with("glTF"));
+}
+
 TEST_CASE("Folders say what they are not", "[assets][slow]") {
   const AssetSession session;
   put_library(session);
@@ -188,7 +223,7 @@ TEST_CASE("Folders say what they are not", "[assets][slow]") {
         "texremap: lib/chairs: no texture set found by file names, but 2 assets, such as a b.gltf (--assets "
         "converts them)");
   CHECK(session.texremap("convert lib/maps --assets --to gltf -o out").last_error() ==
-        "texremap: lib/maps: no glTF file in it (--recursive looks into its subfolders)");
+        "texremap: lib/maps: no glTF or MTL file in it (--recursive looks into its subfolders)");
   session.make("lib/w_diffuse.png", test_spec(4, 4, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   session.make("lib/w_specularGlossiness.png", test_spec(4, 4, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
   const ProcessResult maps = session.texremap("convert lib --to gltf -o out");

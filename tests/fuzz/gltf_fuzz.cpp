@@ -23,8 +23,11 @@ class FuzzResources final : public remap::AssetResources, public remap::ImageCod
   remap::ImagePixels enlarged(const remap::ImagePixels& pixels, std::size_t, std::size_t) const override {
     return pixels;
   }
-  std::string encode_png(const remap::ImagePixels& pixels) const override {
+  std::string encode_png(const remap::ImagePixels& pixels, remap::PngEffort) const override {
     return std::string(pixels.bytes.size(), 'x');
+  }
+  std::string encode_jpeg(const remap::ImagePixels& pixels, int) const override {
+    return "\xff\xd8" + encode_png(pixels, remap::PngEffort::kFast);
   }
 };
 
@@ -40,10 +43,18 @@ std::string written(const std::string& bytes, const remap::AssetConversion& conv
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(remap::text_of(data, size));
   const FuzzResources resources;
+  remap::AssetOptions core;
+  core.instructions = remap::InstructionSet::kBaseline;
+  core.enlarges = true;
+  remap::AssetOptions exact = core, compact = core, specgloss = core, folded = core;
+  exact.profile = remap::MaterialProfile::kExtensions;
+  compact.compacts = compact.bakes = true;
+  compact.jpeg_quality = 90;
+  specgloss.target = remap::AssetTarget::kSpecGloss;
+  specgloss.compacts = specgloss.bakes = true;
+  folded.folds_specular = folded.bakes = true;
   return remap::read_or_refuse([&] {
-    for (const remap::MaterialProfile profile :
-         {remap::MaterialProfile::kCore, remap::MaterialProfile::kExtensions}) {
-      const remap::AssetOptions options{profile, remap::kCleanPrior, remap::InstructionSet::kBaseline, true};
+    for (const remap::AssetOptions& options : {core, exact, compact, specgloss, folded}) {
       const remap::AssetConversion once =
           remap::convert_gltf(remap::MemorySource(bytes), "file", options, &resources);
       // An index that named nothing may name a new texture.

@@ -14,21 +14,37 @@ namespace {
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
 
 // Of zlib: half the time of the usual 6, and files a tenth larger.
-constexpr int kPngLevel = 3;
+constexpr int kPngLevel = 3, kSmallestPngLevel = 9;
+constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
 
 constexpr auto kOpaque = decltype(ImagePixels::bytes)::value_type(255);
 
-// The extension of the formats that glTF files hold; empty for others.
+std::string_view part_of(std::string_view bytes, std::size_t begin, std::size_t count) {
+  return bytes.size() < begin ? std::string_view() : bytes.substr(begin, count);
+}
+
+// Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
+bool is_targa(std::string_view bytes) {
+  if (bytes.size() <= 18) return false;
+  const std::string_view types("\1\2\3\11\12\13", 6), depths("\10\17\20\30\40", 5);
+  return (bytes[1] == 0 || bytes[1] == 1) && types.find(bytes[2]) != std::string_view::npos &&
+         depths.find(bytes[16]) != std::string_view::npos;
+}
+
+// The extension of the formats that glTF files hold, and of those that OBJ files name; empty for others.
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "png";
   if (bytes.starts_with("\xff\xd8")) return "jpg";
-  if (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return "webp";
-  return "";
+  if (bytes.starts_with("RIFF") && part_of(bytes, 8, 4) == "WEBP") return "webp";
+  if (bytes.starts_with("BM")) return "bmp";
+  if (bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4)))
+    return "tif";
+  return is_targa(bytes) ? "tga" : "";
 }
 
 std::string known_name(std::string_view bytes) {
   if (bytes.starts_with("\xabKTX")) return "KTX2";
-  if (bytes.substr(4, 8) == "ftypavif") return "AVIF";
+  if (part_of(bytes, 4, 8) == "ftypavif") return "AVIF";
   if (bytes.starts_with("DDS ")) return "DDS";
   return "";
 }
@@ -40,8 +56,9 @@ class AssetCodec final : public ImageCodec {
     if (extension.empty()) {
       const std::string name = known_name(bytes);
       throw input_error(place + ": " +
-                        (name.empty() ? "is no image of a known format (PNG, JPEG and WebP are read)"
-                                      : "is " + name + ", which is not read (convert it to PNG)"));
+                        (name.empty()
+                             ? "is no image of a known format (PNG, JPEG, WebP, BMP, TIFF and Targa are read)"
+                             : "is " + name + ", which is not read (convert it to PNG)"));
     }
     OIIO::ImageSpec config;
     config.attribute(kUnassociatedAlpha, 1);
@@ -59,23 +76,45 @@ class AssetCodec final : public ImageCodec {
     return pixels_of(input.get(), place);
   }
 
-  std::string encode_png(const ImagePixels& pixels) const override {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const OIIO::TypeDesc type =
-        pixels.type == PixelType::kUint16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
-    OIIO::ImageSpec spec(static_cast<int>(pixels.width), static_cast<int>(pixels.height),
-                         static_cast<int>(pixels.channels), type);
-    spec.attribute(kUnassociatedAlpha, 1);
-    spec.attribute("png:compressionLevel", kPngLevel);
-    const auto output = OIIO::ImageOutput::create("memory.png", &memory);
-    if (!output || !output->open("memory.png", spec) || !output->write_image(type, pixels.bytes.data()) ||
-        !output->close())
-      throw output_error("PNG image: cannot be encoded: " + (output ? output->geterror() : OIIO::geterror()));
-    return {bytes.begin(), bytes.end()};
+  std::string encode_png(const ImagePixels& pixels, PngEffort effort) const override {
+    OIIO::ImageSpec spec = spec_of(pixels);
+    spec.attribute("png:compressionLevel", effort == PngEffort::kFast ? kPngLevel : kSmallestPngLevel);
+    std::string bytes = encoded(pixels, spec, "png");
+    if (effort == PngEffort::kFast) return bytes;
+    // Images of few values are smaller without filters.
+    spec.attribute("png:filter", kNoPngFilter);
+    std::string other = encoded(pixels, spec, "png");
+    return other.size() < bytes.size() ? other : bytes;
+  }
+
+  std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
+    OIIO::ImageSpec spec = spec_of(pixels);
+    spec.attribute("CompressionQuality", quality);
+    return encoded(pixels, spec, "jpg");
   }
 
  private:
+  static OIIO::ImageSpec spec_of(const ImagePixels& pixels) {
+    OIIO::ImageSpec spec(static_cast<int>(pixels.width), static_cast<int>(pixels.height),
+                         static_cast<int>(pixels.channels),
+                         pixels.type == PixelType::kUint16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+    spec.attribute(kUnassociatedAlpha, 1);
+    return spec;
+  }
+
+  static std::string encoded(const ImagePixels& pixels, const OIIO::ImageSpec& spec,
+                             const std::string& extension) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const std::string name = "memory." + extension;
+    const auto output = OIIO::ImageOutput::create(name, &memory);
+    if (!output || !output->open(name, spec) || !output->write_image(spec.format, pixels.bytes.data()) ||
+        !output->close())
+      throw output_error(extension +
+                         " image: cannot be encoded: " + (output ? output->geterror() : OIIO::geterror()));
+    return {bytes.begin(), bytes.end()};
+  }
+
   static ImagePixels pixels_of(OIIO::ImageInput* input, const std::string& place) {
     const auto refuse = [&](const std::string& reason) {
       throw input_error(place + ": cannot be read: " + first_line(reason, "the image is damaged"));

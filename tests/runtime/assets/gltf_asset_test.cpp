@@ -200,7 +200,8 @@ TEST_CASE("URIs are sorted by where they lead", "[assets]") {
   CHECK(percent_decoded("a%20b%2") == "a b%2");
   CHECK(percent_decoded(percent_encoded("a b/%~\xc3\xa4")) == "a b/%~\xc3\xa4");
   CHECK(percent_encoded("a b-1.png") == "a%20b-1.png");
-  for (const char* uri : {"../a.png", "a/../../b", "%2e%2e/a", "..\\a"}) CHECK(uri_kind(uri) == UriKind::kFile);
+  for (const char* uri : {"../a.png", "a/../../b", "%2e%2e/a", "..\\a"})
+    CHECK(uri_kind(uri) == UriKind::kFile);
   for (const char* uri : {"/a.png", "%2Fa.png", "C:\\a.png", "file:///a", "a%00"}) {
     CAPTURE(uri);
     CHECK(uri_kind(uri) == UriKind::kAbsolute);
@@ -295,7 +296,8 @@ std::string random_specgloss(RandomText& random) {
   return random.object(members);
 }
 
-std::string random_material(RandomText& random) {
+// `has_dielectrics`: some with KHR_materials_specular and _ior.
+std::string random_material(RandomText& random, bool has_dielectrics) {
   RandomMembers members, extensions;
   if (random.often(50)) members.emplace_back("\"name\"", random.word());
   if (random.often(40)) members.emplace_back("\"extras\"", random.value(3));
@@ -304,6 +306,10 @@ std::string random_material(RandomText& random) {
     extensions.emplace_back("\"KHR_materials_pbrSpecularGlossiness\"", random_specgloss(random));
   if (random.often(30)) extensions.emplace_back("\"ACME_x\"", random.value(2));
   if (random.often(20)) extensions.emplace_back("\"KHR_materials_unlit\"", "{}");
+  if (has_dielectrics && random.often(30))
+    extensions.emplace_back("\"KHR_materials_ior\"", random.often(50) ? "{}" : "{\"ior\" : 1.330}");
+  if (has_dielectrics && random.often(30))
+    extensions.emplace_back("\"KHR_materials_specular\"", "{ \"specularColorFactor\": [1.0, 2.5, 0] }");
   random.shuffle(extensions);
   if (!extensions.empty()) members.emplace_back("\"extensions\"", random.object(extensions));
   if (random.often(40)) {
@@ -318,9 +324,10 @@ std::string random_material(RandomText& random) {
   return random.object(members);
 }
 
-std::string random_gltf(RandomText& random) {
+std::string random_gltf(RandomText& random, bool has_dielectrics = false) {
   RandomMembers members = {{"\"asset\"", "{\"version\":\"2.0\",\"x\":" + random.value(2) + "}"}}, materials;
-  for (std::uint32_t i = random.below(6); i > 0; --i) materials.emplace_back("", random_material(random));
+  for (std::uint32_t i = random.below(6); i > 0; --i)
+    materials.emplace_back("", random_material(random, has_dielectrics));
   members.emplace_back("\"materials\"", random.list(materials));
   RandomMembers used = {{"", "\"KHR_materials_pbrSpecularGlossiness\""}};
   if (random.often(50)) used.emplace_back("", "\"ACME_x\"");
@@ -358,6 +365,29 @@ TEST_CASE("Random files keep every byte but those of converted materials", "[ass
   CHECK(converted > 2000);
 }
 
+TEST_CASE("Random files keep every byte but those of converted materials in every direction", "[assets]") {
+  AssetOptions specgloss, folded, compact;
+  for (AssetOptions* options : {&specgloss, &folded, &compact})
+    options->instructions = InstructionSet::kBaseline;
+  specgloss.target = AssetTarget::kSpecGloss;
+  folded.folds_specular = true;
+  compact.compacts = true;
+  const PlainResources resources;
+  std::size_t converted = 0;
+  for (std::uint32_t seed = 0; seed < 1000; ++seed)
+    for (const AssetOptions& options : {specgloss, folded, compact}) {
+      RandomText random(seed);
+      const std::string text = random_gltf(random, true);
+      CAPTURE(seed, text, static_cast<int>(options.target), options.folds_specular);
+      const AssetConversion result = convert_gltf(MemorySource(text), "file", options, &resources);
+      const std::string after = converted_bytes(text, options, &resources);
+      REQUIRE(require_others_kept(text, json_in(after), options) == result.count(MaterialState::kConverted));
+      REQUIRE(converted_bytes(after, options, &resources) == after);
+      converted += result.count(MaterialState::kConverted);
+    }
+  CHECK(converted > 3000);
+}
+
 TEST_CASE("Public files keep every byte but those of converted materials", "[assets][needs]") {
   const std::filesystem::path folder = shared_data("assets");
   if (folder.empty()) return;
@@ -365,10 +395,17 @@ TEST_CASE("Public files keep every byte but those of converted materials", "[ass
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb") continue;
     CAPTURE(entry.path());
-    const std::string bytes = read_file(entry.path()), after = converted_bytes(bytes);
-    const AssetConversion result = result_of(bytes);  // images are converted by tests/cli
-    CHECK(require_others_kept(json_in(bytes), json_in(after)) == result.count(MaterialState::kConverted));
-    CHECK(converted_bytes(after) == after);
+    const std::string bytes = read_file(entry.path());
+    AssetOptions specgloss, folded;
+    specgloss.target = AssetTarget::kSpecGloss;
+    folded.folds_specular = true;
+    for (const AssetOptions& options : {AssetOptions(), specgloss, folded}) {
+      const std::string after = converted_bytes(bytes, options);
+      const AssetConversion result = result_of(bytes, options);  // images are converted by tests/cli
+      CHECK(require_others_kept(json_in(bytes), json_in(after), options) ==
+            result.count(MaterialState::kConverted));
+      CHECK(converted_bytes(after, options) == after);
+    }
     ++files;
   }
   CHECK(files > 35);

@@ -11,7 +11,7 @@
 
 #include "assets/gltf_asset.hpp"
 #include "assets/gltf_container.hpp"
-#include "assets/gltf_specgloss.hpp"
+#include "assets/gltf_extensions.hpp"
 #include "assets/json_spans.hpp"
 #include "core/errors.hpp"
 
@@ -83,12 +83,16 @@ class PlainCodec final : public ImageCodec {
     for (const char c : bytes.substr(5)) pixels.bytes.push_back(static_cast<std::byte>(c));
     return pixels;
   }
-  std::string encode_png(const ImagePixels& pixels) const override {
+  std::string encode_png(const ImagePixels& pixels, PngEffort) const override {
     std::string bytes = "P";
     for (const std::size_t number : {pixels.width, pixels.height, pixels.channels, byte_count(pixels.type)})
       bytes += static_cast<char>(number);
     for (const std::byte byte : pixels.bytes) bytes += static_cast<char>(byte);
     return bytes;
+  }
+  // What begins as JPEG files do, and cannot be read again.
+  std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
+    return "\xff\xd8" + std::to_string(quality) + encode_png(pixels, PngEffort::kFast);
   }
 };
 
@@ -119,9 +123,28 @@ class PlainResources final : public AssetResources {
   PlainCodec codec_;
 };
 
-// Every byte is as it was but those of converted materials and of the lists of extensions. Returns the number
-// of materials that differ.
-inline std::size_t require_others_kept(const std::string& before, const std::string& after) {
+// Whether a conversion may take the extension from a material.
+inline bool may_lose(const std::string& extension, const AssetOptions& options) {
+  const bool is_dielectric = extension == kSpecularExtension || extension == kIorExtension;
+  if (options.target == AssetTarget::kSpecGloss) return is_dielectric;
+  return extension == kSpecGlossExtension || (options.folds_specular && is_dielectric);
+}
+
+inline void require_material_kept(SpanValue before, SpanValue after, const AssetOptions& options) {
+  const bool keeps_core = options.target == AssetTarget::kSpecGloss;
+  for (const SpanValue& member : before.children())
+    if (const std::string key = member.key();
+        key != "extensions" && (keeps_core || key != "pbrMetallicRoughness"))
+      REQUIRE(after.find(key).raw() == before.find(key).raw());
+  for (const SpanValue& member : before["extensions"].children())
+    if (const std::string key = member.key(); !may_lose(key, options))
+      REQUIRE(after["extensions"].find(key).raw() == before["extensions"].find(key).raw());
+}
+
+// Every byte is as it was but those of converted materials, of the lists of extensions and, where the file is
+// compacted, of spare images. Returns the number of materials that differ.
+inline std::size_t require_others_kept(const std::string& before, const std::string& after,
+                                       const AssetOptions& options = {}) {
   const SpannedJson old_json(before, "before"), new_json(after, "after");
   const auto kept = [](const std::vector<SpanValue>& members) {
     std::vector<std::string> texts;
@@ -135,22 +158,21 @@ inline std::size_t require_others_kept(const std::string& before, const std::str
     const std::vector<SpanValue> old_list = old_json.root()[key].children(),
                                  new_list = new_json.root()[key].children();
     REQUIRE(old_list.size() <= new_list.size());
-    for (std::size_t i = 0; i < old_list.size(); ++i) REQUIRE(old_list[i].raw() == new_list[i].raw());
+    for (std::size_t i = 0; i < old_list.size() && !options.compacts; ++i)
+      REQUIRE(old_list[i].raw() == new_list[i].raw());
   }
   const std::vector<SpanValue> old_list = old_json.root()["materials"].children(),
                                new_list = new_json.root()["materials"].children();
   REQUIRE(old_list.size() == new_list.size());
   std::size_t changed = 0;
   for (std::size_t i = 0; i < old_list.size(); ++i) {
-    changed += old_list[i].raw() != new_list[i].raw();
-    const bool is_specgloss = static_cast<bool>(old_list[i]["extensions"][kSpecGlossExtension]);
-    if (!is_specgloss) REQUIRE(old_list[i].raw() == new_list[i].raw());
-    for (const SpanValue& member : old_list[i].children())
-      if (const std::string key = member.key(); key != "pbrMetallicRoughness" && key != "extensions")
-        REQUIRE(new_list[i].find(key).raw() == old_list[i].find(key).raw());
+    if (old_list[i].raw() == new_list[i].raw()) continue;
+    ++changed;
+    bool may_change = options.target == AssetTarget::kSpecGloss;
     for (const SpanValue& member : old_list[i]["extensions"].children())
-      if (const std::string key = member.key(); key != kSpecGlossExtension)
-        REQUIRE(new_list[i]["extensions"].find(key).raw() == old_list[i]["extensions"].find(key).raw());
+      may_change = may_change || may_lose(member.key(), options);
+    REQUIRE(may_change);
+    require_material_kept(old_list[i], new_list[i], options);
   }
   return changed;
 }

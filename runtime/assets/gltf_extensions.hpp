@@ -1,0 +1,23 @@
+// Names of glTF that conversions of materials read and write, and extensions by what they concern.
+#pragma once
+
+#include <string_view>
+
+namespace remap {
+
+inline constexpr std::string_view kCoreMember = "pbrMetallicRoughness";
+inline constexpr std::string_view kSpecGlossExtension = "KHR_materials_pbrSpecularGlossiness",
+                                  kSpecularExtension = "KHR_materials_specular",
+                                  kIorExtension = "KHR_materials_ior",
+                                  kUnlitExtension = "KHR_materials_unlit",
+                                  kPointerExtension = "KHR_animation_pointer",
+                                  kTransformExtension = "KHR_texture_transform";
+
+// Whether it changes what a material reflects or transmits, beside core.
+bool is_reflecting(std::string_view extension);
+// Whether it is of Khronos, or of several vendors, and known to say nothing else of materials.
+bool is_known_extension(std::string_view extension);
+// Whether it names an image of another format in a texture.
+bool is_of_image_format(std::string_view extension);
+
+}  // namespace remap

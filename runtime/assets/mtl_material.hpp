@@ -1,0 +1,88 @@
+// What a material of an MTL file says: its numbers and maps, and the lobes that they describe.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets/legacy_material.hpp"
+#include "assets/mtl_document.hpp"
+
+namespace remap {
+
+// A number that is finite; a plus sign may precede it. None for any other text.
+std::optional<double> mtl_number(std::string_view text);
+
+// A texture: `map_Kd -s 2 2 wood.jpg`.
+struct MtlMap {
+  std::size_t statement = 0;  // index
+  TextSpan name;              // in the text
+  std::string file;           // the name with '/' between folders; may hold spaces; may be empty
+  std::string options;        // as they are written before the name
+  std::array<double, 2> scale = {1.0, 1.0}, offset = {0.0, 0.0};  // -s and -o: u and v
+  double strength = 1.0;                                          // -bm
+  bool clamps = false;                                            // -clamp on
+  char channel = '\0';                                            // -imfchan; 0 where it is not said
+  std::vector<std::string> unusual;  // options that change what it looks like, and are not applied
+
+  // Whether it lies in the same place on the surface.
+  bool lies_like(const MtlMap& other) const {
+    return scale == other.scale && offset == other.offset && clamps == other.clamps;
+  }
+};
+
+// The file of a statement that names one. Options may also follow the name, as some tools write them.
+MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement);
+
+// What reflects light. Of a statement that is repeated the last counts, as for other readers.
+struct MtlSurface {
+  std::optional<std::array<double, 3>> diffuse, specular;  // Kd, Ks, clamped to 0 and 1
+  std::optional<double> exponent;                          // Ns, at least 0
+  std::optional<double> illumination;                      // illum
+  std::optional<double> roughness, metallic;               // Pr, Pm
+  std::optional<MtlMap> diffuse_map, specular_map, exponent_map, roughness_map, metallic_map;
+  std::size_t diffuse_statement = 0;  // where there is one
+  std::size_t last_statement = 0;     // of the material
+
+  bool is_empty() const {
+    return !diffuse && !specular && !exponent && !diffuse_map && !specular_map && !exponent_map;
+  }
+};
+
+// Whether a material says metallic or roughness already, as later tools add them (Pr, Pm and their maps).
+bool is_metal_rough(const MtlDocument& document, const MtlBlock& block);
+
+// Appends warnings. Throws kInput, without the name of the material, for numbers that cannot be read and for
+// colors that are no RGB.
+MtlSurface read_mtl_surface(const MtlDocument& document, const MtlBlock& block,
+                            std::vector<std::string>& warnings);
+
+// What covers and lights the surface.
+struct MtlCover {
+  std::optional<double> opacity;       // d, 0 to 1
+  std::optional<double> transparency;  // Tr, 0 to 1
+  std::array<double, 3> emissive{};    // Ke
+  bool has_emissive = false;
+  bool has_height = false;  // bump, disp
+  std::optional<MtlMap> opacity_map, emissive_map, normal_map;
+};
+
+// As read_mtl_surface().
+MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block,
+                        std::vector<std::string>& warnings);
+
+// The surface as factors, which its maps multiply.
+struct MtlReflection {
+  LegacyMaterial factors;
+  bool has_highlight = false;
+};
+
+// Fills in what is not said, and appends a warning for it: Kd .8 and Ns 0 (as J. Burkardt's description of
+// MTL has it; the one of Alias|Wavefront has no defaults), Ks 0, or 1 with a map. Throws kInput where a map
+// multiplies an exponent that is missing.
+MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>& warnings);
+
+}  // namespace remap
