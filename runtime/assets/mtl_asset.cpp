@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "assets/legacy_maps.hpp"
+#include "assets/map_pixels.hpp"
 #include "assets/mtl_document.hpp"
 #include "assets/mtl_images.hpp"
 #include "assets/mtl_material.hpp"
-#include "assets/map_pixels.hpp"
 #include "assets/specgloss_material.hpp"
 #include "assets/text_splices.hpp"
 #include "core/errors.hpp"
