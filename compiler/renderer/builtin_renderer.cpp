@@ -34,7 +34,7 @@ enum class Reflectance {
 constexpr Range kAlphaRange{1e-4, 1.0};
 
 // Exponents of 0.1 to 10,000: alpha is the square root of 2 / (n + 2).
-constexpr Range kExponentAlphas{0.014140721622265262, 0.9759000729485332};
+constexpr Range kExponentAlphas{0.014140721622265262, 0.9759000729485333};
 
 struct BuiltinModel {
   const char* name;

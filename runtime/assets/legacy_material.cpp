@@ -4,7 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/number_text.hpp"
+#include "short/short_forms.hpp"
+
 namespace remap {
+namespace form = short_forms;
 namespace {
 
 constexpr double kDielectricF0 = 0.04;
@@ -24,9 +28,11 @@ GgxLobe ggx_lobe(const LegacyMaterial& material) {
   const double exponent =
       std::clamp(material.exponent, LegacyMaterial::kLeastExponent, LegacyMaterial::kMostExponent);
   GgxLobe lobe;
-  lobe.roughness = std::sqrt(std::sqrt(1.7 / (exponent + 4.0)));
+  const auto n = static_cast<float>(exponent);
+  lobe.roughness = decimal_value(form::legacy_blinn_phong_to_mitsuba_ggx_roughness(n));
   for (std::size_t c = 0; c < 3; ++c)
-    lobe.f0[c] = std::min(1.0, 6.3 * material.specular[c] / (exponent + 2.0));
+    lobe.f0[c] = decimal_value(
+        form::legacy_blinn_phong_to_mitsuba_ggx_f0(n, static_cast<float>(material.specular[c])));
   return lobe;
 }
 

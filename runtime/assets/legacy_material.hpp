@@ -26,9 +26,8 @@ struct GgxLobe {
   std::array<double, 3> f0{};
 };
 
-// r = (1.7 / (n + 4))^(1/4), F0 = min(1, 6.3 specular / (n + 2)). The constants have the least error of
-// pictures among 40 materials and 36 exponents from .1 to 10,000: root mean square 5.6 % of display values,
-// where the best parameters have 4.5 %.
+// By the short form legacy_blinn_phong_to_mitsuba_ggx (generated/short, docs/short.md): r = (a / (n +
+// b))^(1/4), F0 = min(1, c specular / (n + d)).
 GgxLobe ggx_lobe(const LegacyMaterial& material);
 
 // Core glTF: base color and metallic that keep the sum of diffuse and specular,
