@@ -32,7 +32,7 @@ struct LobeRanking {
 // `kShownRules`.
 inline constexpr std::array<const char*, 7> kShownRules = {
     "short form",  "short form, core", "short form, core, wide", "trimesh, O3DE, Yocto/GL",
-    "Blender OBJ", "obj2gltf",         "urdf-usd, mujoco-usd"};
+    "Blender OBJ", "obj2gltf",         "mujoco-usd until 2026"};
 Image exponent_sheet(const Environment& environment, const SphereSampling& sampling, const ShortForm& form);
 
 // The rules for the lobes of `forms`, by the materials and lights that judge short forms.

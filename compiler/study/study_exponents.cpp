@@ -75,7 +75,7 @@ std::string ranking_plot(const LobeRanking& ranking) {
                                        : kPlotColors[1 + r % (kPlotColors.size() - 1)];
     curves += (curves.empty() ? "plot " : ", ") + block + " using 1:2 with linespoints linewidth " +
               (is_own || is_best ? "3" : "1") + " pointtype " + std::to_string(1 + r % 12) +
-              " linecolor rgb '" + color + "' title '" + rule.name + "' noenhanced";
+              " linecolor rgb '" + color + "' title \"" + rule.name + "\" noenhanced";
   }
   return blocks + plot_style(1200, 640) + "set title '" + ranking.lobe +
          " as GGX: RMSE, % of the display range (lower is better)' noenhanced\n"

@@ -202,3 +202,22 @@ TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the cu
   CHECK(pictures <= 9 + 9 + 27 + 6 + 12 + 3 * (6 * 14 + 19));
   std::cout << "Radiance to three.js, six widths at 256^2: " << pictures << " pictures\n";
 }
+
+TEST_CASE(
+    "real renderers: a material of MuJoCo is Blinn's lobe, not normalised, with n = 128 times its shininess",
+    "[slow][needs]") {
+  const RendererSet renderers(known_workers({}), settings());
+  if (!is_here(renderers, "mujoco", "material")) return;
+  for (const double exponent : {5.0, 32.0, 128.0})
+    for (const double angle : {0.0, 30.0, 60.0}) {
+      CAPTURE(exponent, angle);
+      const auto with = [&](const std::string& model) {
+        return Material{model, {{"exponent", {exponent}}, {"specular", {0.6}}, {"diffuse", {0.3}}}};
+      };
+      // Its framebuffer has 8 bits, and its sphere is a grid.
+      const Disagreement off =
+          disagreement(renderers, with("mujoco/material"), with("legacy/blinn-phong"), {96, 1, {angle, 3.0}});
+      CHECK(off.rms < 0.002);
+      CHECK(off.inside < 0.03);  // one pixel, where the light ends and the lobe is cut
+    }
+}
