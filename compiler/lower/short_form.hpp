@@ -73,8 +73,8 @@ struct ShortOutput {
 // The lines of a form, in the order in which they are evaluated.
 std::vector<ShortOutput> outputs_of(const ShortForm& form);
 
-// The alpha and specular of the target for those of the source, both as converters have them: exponents as the
-// alpha that stands for them, a channel at a time. Alpha is kept within 0.001 and 1.
+// The alpha and specular of the target for those of the source, both as converters have them: exponents as
+// the alpha that stands for them, a channel at a time. Alpha is kept within 0.001 and 1.
 struct ShortTexel {
   double alpha = 0.0, specular = 0.0;
 };
