@@ -125,6 +125,8 @@ WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, Roughnes
   WorkflowModel model;
   model.brdf = brdf;
   model.reason = "a " + std::string(name_of(kWorkflowKinds, kind)) + " layer over " + brdf;
+  // Lobes of an exponent are added to diffuse, which loses nothing to them (OpenGL 1.0, section 2.13).
+  model.conventions_known = brdf.starts_with("legacy/");
   if (kind == WorkflowKind::kSpecular)
     model.end = SpecularWorkflow{brdf, kPlain, width};
   else

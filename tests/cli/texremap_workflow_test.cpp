@@ -261,3 +261,23 @@ TEST_CASE("texremap workflows: list and path show them", "[slow]") {
                               Contains("mitsuba_ward_to_mitsuba_ggx"));
   require_success(session.texremap("path --from gltf-specgloss --to gltf --json"));
 }
+
+TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {
+  const Session session;
+  // The short form of the lobe, by separate code: alpha^2 = 1.7 / (n + 4), F0 = 6.3 Ks / (n + 2); Kd is kept,
+  // less the F0 that core adds.
+  const Json json = Json::parse(
+      require_success(
+          session.texremap(
+              "convert --from mtl --to gltf --roughness 96.08 --specular 0.5 --diffuse 0.64 --json"))
+          .output);
+  CHECK(json["values"]["roughness"].get<double>() == Approx(0.361).margin(0.03));
+  CHECK(json["values"]["metallic"].get<double>() == 0.0);
+  CHECK(json["values"]["base_color"][0].get<double>() == Approx(0.65).margin(0.03));
+  session.make("ns.png", test_spec(4, 4, {"Y"}, OIIO::TypeUInt8), noise);
+  const std::string command =
+      "convert --from opengl --to mitsuba/ggx-plain --roughness ns.png --specular 0.5 -o out";
+  CHECK_THAT(session.texremap(command).last_error(),
+             Contains("holds whole numbers, and an exponent is wanted"));
+  CHECK(session.texremap(command + " --roughness-factor 128").exit_code == 0);
+}
