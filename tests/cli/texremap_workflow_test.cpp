@@ -266,7 +266,7 @@ TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a s
   const Session session;
   // The short form of the lobe, by separate code: alpha^2 = 1.7 / (n + 4), F0 = 6.3 Ks / (n + 2); Kd is kept,
   // less the F0 that core adds.
-  const Json json = Json::parse(
+  const auto json = nlohmann::json::parse(
       require_success(
           session.texremap(
               "convert --from mtl --to gltf --roughness 96.08 --specular 0.5 --diffuse 0.64 --json"))
