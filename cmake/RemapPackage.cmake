@@ -42,7 +42,8 @@ foreach(tool IN LISTS tools)
 endforeach()
 install(EXPORT remapTargets NAMESPACE remap:: DESTINATION ${package_folder})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/generated/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/remap
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "LICENSE")
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" PATTERN "LICENSE")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/generated/short DESTINATION ${CMAKE_INSTALL_DATADIR}/remap)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/include/remap ${PROJECT_BINARY_DIR}/runtime/include/remap
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/remapConfig.cmake.in
