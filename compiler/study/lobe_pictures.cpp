@@ -47,7 +47,7 @@ std::vector<float> StudyLights::point_lit(const std::string& model, double alpha
 }
 
 LobePictures::LobePictures(const StudyLights& lights, const std::string& model, std::vector<double> alphas)
-    : lights_(lights), alphas_(std::move(alphas)) {
+    : alphas_(std::move(alphas)) {
   const RadiancePyramid pyramid(lights.environments());
   const BrdfModel brdf = builtin_brdf(model);
   const auto difference = [](std::vector<float> a, const std::vector<float>& b) {

@@ -40,7 +40,7 @@ class StudyLights {
 
 class LobePictures {
  public:
-  // `alphas`: ascending. `lights` must outlive it. Throws the errors of render_spheres().
+  // `alphas`: ascending. Throws the errors of render_spheres().
   LobePictures(const StudyLights& lights, const std::string& model, std::vector<double> alphas);
 
   const std::vector<double>& alphas() const { return alphas_; }
@@ -51,7 +51,6 @@ class LobePictures {
            std::vector<float>& radiance) const;
 
  private:
-  const StudyLights& lights_;
   std::vector<double> alphas_;
   // [alpha][light]: at specular 0, and what specular 1 adds.
   std::vector<std::vector<std::vector<float>>> dark_, slope_;
