@@ -18,11 +18,6 @@ std::size_t decade_of(const LobeMaterial& material) {
   return static_cast<std::size_t>(std::clamp(std::floor(std::log10(exponent) + 1e-9), 0.0, kDecades - 1.0));
 }
 
-double middle(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : values[values.size() / 2];
-}
-
 void add_decades(const std::vector<LobeMaterial>& materials, const std::vector<RuleError>& errors,
                  RankedRule& rule) {
   std::array<double, kDecades> sums{}, counts{};
@@ -35,7 +30,7 @@ void add_decades(const std::vector<LobeMaterial>& materials, const std::vector<R
   }
   for (std::size_t d = 0; d < kDecades; ++d) {
     rule.rmse[d] = sums[d] / counts[d];
-    rule.relative[d] = middle(relative[d]);
+    rule.relative[d] = median(relative[d]);
   }
 }
 

@@ -24,16 +24,16 @@ void add_diffuse(const std::vector<float>& white, const Rgb& diffuse, std::vecto
   }
 }
 
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
-
 Rgb scaled(const Rgb& color, double factor) {
   return {color[0] * factor, color[1] * factor, color[2] * factor};
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values.empty() ? 0.0 : values[values.size() / 2];
+}
 
 RuleJudge::RuleJudge(const StudyLights& lights, const LobePictures& source, const LobePictures& target,
                      std::vector<LobeMaterial> materials)

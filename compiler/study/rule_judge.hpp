@@ -36,6 +36,9 @@ struct LeastError {
   LobeSurface by_rmse, by_relative;
 };
 
+// The upper one of two in the middle; 0 of none.
+double median(std::vector<double> values);
+
 class RuleJudge {
  public:
   // The alphas of `materials` are among those of `source`. All must outlive it.

@@ -26,13 +26,6 @@ ShortKind kind_of(const StudyPair& pair) {
   return is_normalised(pair.source) ? ShortKind::kExponentNormal : ShortKind::kExponent;
 }
 
-std::string id_of(const StudyPair& pair) {
-  std::string id = pair.source + "_to_" + pair.target;
-  for (char& c : id)
-    if (c == '/' || c == '-') c = '_';
-  return id;
-}
-
 // Numbers copied; of an exponent what most importers do: the fourth root, and the F0 of glass.
 LobeSurface copied(const ShortForm& form, const LobeMaterial& material) {
   if (form.kind == ShortKind::kWidths) return {material.alpha, material.specular, material.diffuse, false};
@@ -146,8 +139,16 @@ void study_short_forms(const ShortFormsOptions& options,
   for (const StudyPair& pair : options.pairs) {
     if (options.cancelled != nullptr && *options.cancelled)
       throw Error(ErrorKind::kInterrupted, "study: interrupted; finished forms are written");
-    ShortForm form{id_of(pair), pair.source, pair.target, kind_of(pair), ShortStrength::kLine, {}, {},
-                   {},          {},          {}};
+    ShortForm form{converter_id(pair.source, pair.target),
+                   pair.source,
+                   pair.target,
+                   kind_of(pair),
+                   ShortStrength::kLine,
+                   {},
+                   {},
+                   {},
+                   {},
+                   {}};
     const RuleJudge chooser(choosing.lights(), choosing.of(pair.source), choosing.of(pair.target),
                             materials_of(form, Half::kChoosing));
     form.constants = start_of(form).constants;

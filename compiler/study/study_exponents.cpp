@@ -25,10 +25,6 @@ struct ExponentsCommand {
 
 constexpr int kSheetResolution = 128;
 
-std::string padded(const std::string& text, std::size_t width) {
-  return text.size() < width ? text + std::string(width - text.size(), ' ') : text;
-}
-
 std::string ranking_text(const LobeRanking& ranking) {
   std::string text = "\n" + ranking.lobe +
                      " to mitsuba/ggx: RMSE % (environments), SSIM, error (light); RMSE from n = 1, 10, 100, "

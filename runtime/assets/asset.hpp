@@ -119,6 +119,8 @@ struct AssetMaterial {
   std::string title() const;
 };
 
+std::size_t count_of(const std::vector<AssetMaterial>& materials, MaterialState state);
+
 // A part of a result: its own bytes, or where there are none a range of the source.
 struct AssetPiece {
   std::string bytes;
@@ -148,7 +150,7 @@ struct AssetConversion {
   std::vector<NewResource> files;        // new images
   std::vector<AssetResource> resources;  // that the asset names, each path once, in the order of the text
 
-  std::size_t count(MaterialState state) const;
+  std::size_t count(MaterialState state) const { return count_of(materials, state); }
 };
 
 }  // namespace remap

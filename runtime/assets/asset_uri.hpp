@@ -13,6 +13,10 @@ std::string percent_decoded(std::string_view text);
 // `a%20b` of `a b`: everything but letters, digits and - . _ ~ (RFC 3986, section 2.3).
 std::string percent_encoded(std::string_view text);
 
+// What a new file beside `model` is named, without number and extension: `a/chair_wood_baseColor` of
+// `a/wood.jpg`, the prefix `chair_` and the suffix `_baseColor`.
+std::string stem_beside(const std::string& model, std::string_view prefix, std::string_view suffix);
+
 enum class UriKind {
   kData,      // the bytes are in the URI
   kFile,      // a relative path; whether its `..` lead too far up, AssetResources decide

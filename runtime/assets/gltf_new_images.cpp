@@ -94,11 +94,7 @@ bool GltfNewImages::is_in_chunk(SpanValue image) const {
 
 // `a/wood_baseColor.png` of `a/wood.jpg`, with a number where that is taken.
 std::string GltfNewImages::free_uri(const std::string& model, const NewImage& image) {
-  const std::size_t slash = model.find_last_of('/'), dot = model.find_last_of('.');
-  const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
-  const std::string stem = model.substr(0, name) + percent_encoded(resources_.image_prefix()) +
-                           model.substr(name, (has_extension ? dot : model.size()) - name) + image.suffix;
+  const std::string stem = stem_beside(model, percent_encoded(resources_.image_prefix()), image.suffix);
   for (std::size_t number = 1;; ++number) {
     const std::string uri =
         stem + (number == 1 ? "" : "_" + std::to_string(number)) + (image.type == kJpeg ? ".jpg" : ".png");

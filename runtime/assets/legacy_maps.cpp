@@ -68,9 +68,9 @@ class LegacyMapPass {
                : maps.specular != nullptr ? *maps.specular
                                           : *maps.exponent),
         width_(color_.width),
-        base_(white_image(color_, 3)),
-        data_(white_image(color_, 3)),
-        specular_(white_image(color_, maps.as_dielectric ? 4 : 0)),
+        base_(blank_like(color_, 3)),
+        data_(blank_like(color_, 3)),
+        specular_(blank_like(color_, maps.as_dielectric ? 4 : 0)),
         diffuse_row_(color_row(width_)),
         specular_row_(color_row(width_)),
         base_row_(color_row(width_)),
@@ -245,7 +245,7 @@ void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& fr
 }
 
 ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, char channel) {
-  ImagePixels result = white_image(color != nullptr ? *color : *opacity, opacity != nullptr ? 4 : 3);
+  ImagePixels result = blank_like(color != nullptr ? *color : *opacity, opacity != nullptr ? 4 : 3);
   FloatRow row(result.width);
   for (std::size_t y = 0; color != nullptr && y < result.height; ++y)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -254,12 +254,6 @@ ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, cha
     }
   if (opacity != nullptr) set_channel(result, 3, *opacity, channel);
   return result;
-}
-
-ImagePixels white_image(const ImagePixels& model, std::size_t channels) {
-  ImagePixels pixels{model.width, model.height, channels, model.type, {}};
-  pixels.bytes.assign(pixels.width * pixels.height * pixels.texel_bytes(), std::byte{255});
-  return pixels;
 }
 
 }  // namespace remap

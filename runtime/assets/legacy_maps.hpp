@@ -43,9 +43,6 @@ ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, cha
 // Replaces a channel by one of a map of the same size (load_scalar_row()).
 void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
 
-// An image whose every value is the largest.
-ImagePixels white_image(const ImagePixels& model, std::size_t channels);
-
 // The channel of a map that holds one value, as MTL selects it (-imfchan), from 0 to 1: `count` values of row
 // `y`.
 void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, float* values);

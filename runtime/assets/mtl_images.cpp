@@ -163,12 +163,7 @@ bool is_there(const AssetResources& resources, const std::string& path) {
 }
 
 std::string NewImageNames::free_name(const std::string& model, std::string_view suffix) {
-  const std::size_t slash = model.find_last_of('/'), dot = model.find_last_of('.');
-  const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  const std::size_t name_begin = slash == std::string::npos ? 0 : slash + 1;
-  const std::size_t name_end = has_extension ? dot : model.size();
-  const std::string stem = model.substr(0, name_begin) + prefix_ +
-                           model.substr(name_begin, name_end - name_begin) + std::string(suffix);
+  const std::string stem = stem_beside(model, prefix_, suffix);
   for (std::size_t& number = ++numbers_[stem];; ++number) {
     std::string name = stem + (number == 1 ? "" : "_" + std::to_string(number)) + ".png";
     if (taken_.insert(name).second) return name;

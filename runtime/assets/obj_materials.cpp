@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "assets/legacy_maps.hpp"
+#include "assets/map_pixels.hpp"
 #include "assets/mtl_asset.hpp"
 #include "assets/mtl_material.hpp"
 #include "assets/specgloss_material.hpp"
@@ -237,7 +238,7 @@ std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(Planned& pla
     if (*model != nullptr && !(*model)->lies_like(*map))
       throw input_error("map_Pr and map_Pm lie on the surface in different places (-s, -o, -clamp)");
     if (!packed) {
-      packed = std::make_shared<ImagePixels>(white_image(*pixels, 3));
+      packed = std::make_shared<ImagePixels>(blank_like(*pixels, 3));
       *model = &*map;
     }
     set_channel(*packed, channel, *pixels, map->channel);

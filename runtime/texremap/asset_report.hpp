@@ -1,7 +1,6 @@
 // What `texremap convert` says of assets.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,9 +21,7 @@ struct AssetReport {
   int failure_code = 0;                               // errno of a call that failed
   double seconds = 0.0;
 
-  std::size_t count(MaterialState state) const {
-    return static_cast<std::size_t>(std::ranges::count(materials, state, &AssetMaterial::state));
-  }
+  std::size_t count(MaterialState state) const { return count_of(materials, state); }
   std::size_t failed_count() const { return count(MaterialState::kFailed); }
   bool has_failed() const { return !failure.empty() || failed_count() > 0; }
 };

@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "assets/specgloss_factors.hpp"
 #include "command_line/interruption.hpp"
@@ -195,44 +194,40 @@ std::string progress_text(std::size_t done, std::size_t all) {
 
 std::vector<AssetReport> run_assets(const AssetList& list, const ConvertOptions& options,
                                     const std::function<void(const AssetReport&)>& finished) {
-  const std::size_t threads = options.thread_count > 0
-                                  ? static_cast<std::size_t>(options.thread_count)
-                                  : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  const std::size_t threads = std::min(static_cast<std::size_t>(options.threads()), list.jobs.size());
   AssetRunner runner(list, options);
   std::vector<AssetReport> reports(list.jobs.size());
   Progress line(progress_text(0, list.jobs.size()), list.jobs.size(), !options.quiet);
   std::mutex mutex;
   std::size_t done = 0;
-  run_parallel(list.jobs.size(), static_cast<unsigned>(std::min(threads, list.jobs.size())),
-               [&](std::size_t i) {
-                 AssetReport& report = reports[i];
-                 std::vector<std::string> troubles;
-                 try {
-                   if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted", EINTR);
-                   troubles = with_repeats([&] {
-                     report = {};
-                     report.input = list.jobs[i].input;
-                     report.output = list.jobs[i].output;
-                     runner.run(list.jobs[i], report);
-                   });
-                 } catch (const Error& error) {
-                   if (error.kind() == ErrorKind::kInterrupted)
-                     throw Error(error.kind(), std::string("interrupted: finished assets are complete") +
-                                                   (list.is_tree ? " (--resume converts the others)" : ""));
-                   if (list.jobs.size() == 1 && !list.is_tree) throw;
-                   report.failure = error.what();
-                   report.failure_code = error.system_code();
-                 } catch (const std::bad_alloc&) {
-                   report.failure = shown(list.jobs[i].input) + ": out of memory (use fewer --threads)";
-                 }
-                 for (const std::string& trouble : troubles)
-                   report.warnings.push_back("tried again after " + trouble);
-                 const std::lock_guard lock(mutex);
-                 line.hide();
-                 finished(report);
-                 line.relabel(progress_text(++done, list.jobs.size()));
-                 line.advance();
-               });
+  run_parallel(list.jobs.size(), static_cast<unsigned>(threads), [&](std::size_t i) {
+    AssetReport& report = reports[i];
+    std::vector<std::string> troubles;
+    try {
+      if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted", EINTR);
+      troubles = with_repeats([&] {
+        report = {};
+        report.input = list.jobs[i].input;
+        report.output = list.jobs[i].output;
+        runner.run(list.jobs[i], report);
+      });
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kInterrupted)
+        throw Error(error.kind(), std::string("interrupted: finished assets are complete") +
+                                      (list.is_tree ? " (--resume converts the others)" : ""));
+      if (list.jobs.size() == 1 && !list.is_tree) throw;
+      report.failure = error.what();
+      report.failure_code = error.system_code();
+    } catch (const std::bad_alloc&) {
+      report.failure = shown(list.jobs[i].input) + ": out of memory (use fewer --threads)";
+    }
+    for (const std::string& trouble : troubles) report.warnings.push_back("tried again after " + trouble);
+    const std::lock_guard lock(mutex);
+    line.hide();
+    finished(report);
+    line.relabel(progress_text(++done, list.jobs.size()));
+    line.advance();
+  });
   return reports;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -394,6 +395,11 @@ void apply_preset(ConvertOptions& options) {
   if (!options.layout) options.layout = layout_from("--preset", std::string(preset.name));
   if (options.format.empty()) options.format = preset.format;
   if (!options.type) options.type = preset.type;
+}
+
+int ConvertOptions::threads() const {
+  return thread_count > 0 ? thread_count
+                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 bool ConvertOptions::is_given(std::string_view name) const {

@@ -101,6 +101,7 @@ struct ConvertOptions {
   bool json = false, histograms = false, quiet = false;
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core
+  int threads() const;
 
   // Null where the option of the parameter was not given.
   const MapSource* map_of(Parameter parameter) const {

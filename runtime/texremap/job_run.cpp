@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <new>
-#include <thread>
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
@@ -465,9 +464,7 @@ void run_job(JobRunner& runner, const ConversionJob& job, const std::function<vo
 std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chosen,
                                 const ConvertOptions& options,
                                 const std::function<void(const JobReport&)>& finished) {
-  const int threads = options.thread_count > 0
-                          ? options.thread_count
-                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int threads = options.threads();
   const int at_once =
       static_cast<int>(std::clamp<std::size_t>(list.jobs.size(), 1, static_cast<std::size_t>(threads)));
   JobRunner runner(chosen, options, threads / at_once, !options.folder.empty());
