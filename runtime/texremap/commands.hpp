@@ -7,6 +7,10 @@ namespace remap {
 
 inline constexpr const char* kProgram = "texremap";  // begins every message
 
+// The program: run_app() with all of its commands. Callable more than once in a process, and from one thread
+// at a time.
+int run_texremap(int argc, const char* const* argv) noexcept;
+
 void add_check_command(Command& app);
 void add_convert_command(Command& app);
 void add_index_command(Command& app);

@@ -6,6 +6,9 @@
 #include <cstdio>
 #include <new>
 #include <vector>
+
+#define XXH_STATIC_LINKING_ONLY
+#define XXH_IMPLEMENTATION
 #include <xxhash.h>
 
 #include "core/errors.hpp"

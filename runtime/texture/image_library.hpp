@@ -1,5 +1,5 @@
-// Images in files: what a module offers that alone calls OpenImageIO. Its 260 shared libraries take longer to
-// load than most commands run, so the module is loaded when the first image is opened.
+// Images in files, as those read and write them whose commands these are: the programs by a module that alone
+// calls OpenImageIO, a package for another language by what that language has (packages/).
 #pragma once
 
 #include <cstddef>
@@ -101,9 +101,13 @@ class ImageLibrary {
   virtual const ImageCodec& codec() const = 0;
 };
 
-// The library of the module, which the first call loads. It lies in a folder beside that of the program.
-// Throws kInput, with the reason and what to do, if it is not there or cannot be loaded; a later call tries
-// again. Callable from many threads.
+// What image_library() keeps, defined by the host. That of the programs loads the module, whose 260 shared
+// libraries take longer to load than most commands run; it lies in a folder beside that of the program.
+// Throws kInput, with the reason and what to do, if it is not there or cannot be loaded.
+const ImageLibrary& load_image_library();
+
+// The library of images, which the first call loads; after a failure a later call tries again. Callable from
+// many threads.
 const ImageLibrary& image_library();
 
 // Sets the number of threads for images that are opened later. Loads nothing.

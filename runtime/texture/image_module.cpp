@@ -1,0 +1,45 @@
+// The module that alone links OpenImageIO, as the programs load it.
+#include <dlfcn.h>
+
+#include "remap/error.hpp"
+#include "remap/version.hpp"
+#include "texture/image_library.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// REMAP_IMAGE_MODULE leads from the folder of the programs to the module, in the build tree as in an
+// installed one.
+fs::path module_file() {
+  std::error_code failure;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failure);
+  return (program.parent_path() / REMAP_IMAGE_MODULE).lexically_normal();
+}
+
+}  // namespace
+
+const ImageLibrary& load_image_library() {
+  const fs::path file = module_file();
+  const auto fail = [&](const std::string& what) {
+    throw Error(ErrorKind::kInput, file.string() + ": " + what);
+  };
+  if (std::error_code ignored; !fs::exists(file, ignored))
+    fail("file not found; it reads and writes images (install it with the programs, by cmake --install)");
+  // Never unloaded: the objects that it makes live as long as the program likes.
+  void* const module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (module == nullptr) {
+    const char* const reason = ::dlerror();
+    fail(std::string("cannot be loaded, so that images can be neither read nor written: ") +
+         (reason != nullptr ? reason : "unknown reason") + " (install OpenImageIO)");
+  }
+  using Entry = const ImageLibrary* (*)(const char*);
+  const auto entry = reinterpret_cast<Entry>(::dlsym(module, "remap_image_library"));
+  const ImageLibrary* const library = entry != nullptr ? entry(kVersion) : nullptr;
+  if (library == nullptr)
+    fail("belongs to another version than " + std::string(kVersion) +
+         " of the programs (install both by cmake --install)");
+  return *library;
+}
+
+}  // namespace remap
