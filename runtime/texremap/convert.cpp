@@ -66,42 +66,18 @@ using GivenFit = std::optional<FittedConverter>;
 
 const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
 
-// Chooses the converter of roughness and specular; none where both workflows share one BRDF.
-void choose_brdf(const ConvertOptions& options, const GivenFit& fit, InstructionSet set,
-                 ChosenConverter& chosen) {
-  const WorkflowChoice& workflow = chosen.workflow;
-  if (fit) {
-    chosen.owned_brdf = converter_of_fit(options, workflow, *fit, set);
-    chosen.path = {{chosen.owned_brdf.get()}, expected_error(chosen.owned_brdf->info())};
-    chosen.closeness = closeness_of(chosen.path, {});
-  } else {
-    if (options.from.empty() || options.to.empty())
-      throw Error(ErrorKind::kUsage,
-                  std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
-    if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
-    const ConverterGraph graph = options.converters.graph(set);
-    chosen.path = graph.find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
-    chosen.closeness =
-        closeness_of(chosen.path, graph.paths_to_renderer({workflow.source_brdf, workflow.renderer, {}}));
-    if (chosen.path.steps.size() > 1) chosen.owned_brdf = make_chained_converter(chosen.path.steps);
-  }
-  chosen.brdf = chosen.owned_brdf ? chosen.owned_brdf.get() : chosen.path.steps.front();
-  if (!chosen.brdf->self_test())
-    throw Error(ErrorKind::kNumeric, chosen.brdf->info().id + ": self-test failed (results would be wrong)");
-}
-
-ChosenConverter choose_converter(const ConvertOptions& options, const GivenFit& fit,
-                                 WorkflowChoice workflow) {
-  ChosenConverter chosen;
-  const InstructionSet set = options.instructions;
-  chosen.workflow = std::move(workflow);
+BuiltConversion conversion_of(const ConvertOptions& options, const GivenFit& fit,
+                              const WorkflowChoice& workflow) {
   if (const WarpMapFit* warp = warp_in(fit)) {
-    chosen.material = make_warp_converter(*warp, *chosen.workflow.source, set);
-    return chosen;
+    BuiltConversion conversion;
+    conversion.material = make_warp_converter(*warp, *workflow.source, options.instructions);
+    return conversion;
   }
-  choose_brdf(options, fit, set, chosen);
-  if (chosen.workflow.is_material()) chosen.material = make_workflow_converter(stages_of(chosen), set);
-  return chosen;
+  if (fit) return build_conversion(workflow, converter_of_fit(options, workflow, *fit, options.instructions));
+  if (options.from.empty() || options.to.empty())
+    throw usage_error(std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
+  return build_conversion(workflow, options.via, options.converters.graph(options.instructions),
+                          options.instructions);
 }
 
 bool are_constants(const TextureSetRequest& request) {
@@ -224,7 +200,7 @@ CheckedConversion checked(ConvertOptions& options) {
   if (!told.empty()) workflow.notes.insert(workflow.notes.begin(), told);
   (void)target_choice(options, workflow);  // refuses what cannot be written before any file is read
   conversion.request = set_request(options, workflow);
-  conversion.chosen = choose_converter(options, fit, std::move(workflow));
+  conversion.chosen = {conversion_of(options, fit, workflow), std::move(workflow)};
   for (const std::string& assumption : conversion.chosen.workflow.assumptions) warn(options, assumption);
   print_notes(options, conversion.chosen);
   return conversion;

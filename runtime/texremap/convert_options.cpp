@@ -112,12 +112,7 @@ Reader<std::vector<ColorSpaceWord>> color_spaces() {
 }  // namespace
 
 Reader<ModelName> model_name() {
-  return {[](const std::string&, const std::string& word) -> ModelName {
-            if (const ModelAlias* alias = find_alias(word)) return {std::string(alias->model), alias};
-            const std::string small = lower(word);
-            return {find_workflow_model(small) != nullptr ? small : word, nullptr};
-          },
-          {}};
+  return {[](const std::string&, const std::string& word) { return model_named(word); }, {}};
 }
 
 namespace {

@@ -10,6 +10,7 @@
 
 #include "assets/asset.hpp"
 #include "command_line/command.hpp"
+#include "remap/conversion.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
 #include "remap/workflow.hpp"
@@ -46,11 +47,6 @@ struct FromMaps {};
 using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
 
 // A model as `--from` and `--to` name it.
-struct ModelName {
-  std::string name;                   // as converters and workflows have it; of an alias, what it stands for
-  const ModelAlias* alias = nullptr;  // that was typed
-  bool empty() const noexcept { return name.empty(); }
-};
 Reader<ModelName> model_name();
 
 struct ConvertOptions {

@@ -83,14 +83,6 @@ std::string left_behind_text(const JobReport& report) {
 
 }  // namespace
 
-WorkflowStages stages_of(const ChosenConverter& chosen) {
-  WorkflowStages stages{*chosen.workflow.source, *chosen.workflow.target};
-  stages.brdf = chosen.brdf;
-  stages.width = width_of(stages.target);
-  stages.prior = chosen.workflow.prior;
-  return stages;
-}
-
 std::string converter_ids(const ChosenConverter& chosen) {
   std::string ids;
   for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;

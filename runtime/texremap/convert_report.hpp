@@ -20,25 +20,11 @@
 
 namespace remap {
 
-// The converter of a run, and the workflows around it. It is compiled in, made from a fit, or chained from
-// the steps of a path.
-struct ChosenConverter {
-  std::unique_ptr<Converter> owned_brdf;  // unless `brdf` is a shipped one
-  const Converter* brdf = nullptr;        // of width and specular; null if both ends share a BRDF
-  ConverterPath path;                     // the steps of `brdf`
-  Closeness closeness;                    // of the path
+// The converter of a run, and the workflows around it.
+struct ChosenConverter : BuiltConversion {
   WorkflowChoice workflow;
-  std::unique_ptr<Converter> material;  // of whole materials; null if width and specular are all
-
-  // The whole conversion.
-  const Converter& converter() const noexcept { return material ? *material : *brdf; }
-  const ConverterInfo& info() const noexcept { return converter().info(); }
-  // The converter whose domain limits the conversion.
-  const ConverterInfo& domain() const noexcept { return brdf != nullptr ? brdf->info() : info(); }
 };
 
-// The stages of a conversion between workflows.
-WorkflowStages stages_of(const ChosenConverter& chosen);
 // The text that results carry as `remap:converter`: the ids of the steps, and the formula of a workflow.
 std::string converter_ids(const ChosenConverter& chosen);
 

@@ -200,7 +200,7 @@ std::unique_ptr<Converter> JobRunner::survey(TextureSet& set, JobReport& report)
   const MaterialSample sample = sample_materials(set);
   for (std::string& doubt : doubts_about(sample, set)) report.warnings.push_back(std::move(doubt));
   if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
-  WorkflowStages stages = stages_of(chosen_);
+  WorkflowStages stages = stages_of(chosen_.workflow, chosen_.brdf);
   const RoughnessConvention width = set.convention.value_or(chosen_.info().source.roughness);
   if (!workflow.f0_given) report.estimated_f0 = estimated_f0(sample, stages, width);
   if (!workflow.estimates_f0) return nullptr;
