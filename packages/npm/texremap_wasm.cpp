@@ -26,6 +26,8 @@ namespace {
 struct HeldConverter {
   BuiltConversion conversion;         // by names
   std::unique_ptr<Converter> of_fit;  // of the text of a fit
+  // Of the roughness of maps, unless they say otherwise: a converter of materials may have another inside.
+  RoughnessConvention source = RoughnessConvention::kAlpha, target = RoughnessConvention::kAlpha;
   const Converter& converter() const { return of_fit ? *of_fit : conversion.converter(); }
 };
 
@@ -96,13 +98,14 @@ Json path_json(const ConverterPath& path) {
           {"expectedError", path.expected_error}};
 }
 
-Json conversion_json(const Converter& converter, const ConverterInfo& domain) {
+Json conversion_json(const HeldConverter& held, const ConverterInfo& domain) {
+  const Converter& converter = held.converter();
   const ConverterInfo& info = converter.info();
   return {{"id", info.id},
           {"source", info.source.model},
           {"target", info.target.model},
-          {"sourceEncoding", convention_name(info.source.roughness)},
-          {"targetEncoding", convention_name(info.target.roughness)},
+          {"sourceEncoding", convention_name(held.source)},
+          {"targetEncoding", convention_name(held.target)},
           {"sources", parameters_json(converter.sources())},
           {"targets", parameters_json(converter.targets())},
           {"domain", domain_json(domain)}};
@@ -117,14 +120,19 @@ Json open_converter(const Field& request) {
     auto* const data = std::get_if<ConverterData>(&fit);
     if (data == nullptr) throw input_error("fit: is of whole materials (give a fit of width and specular)");
     held.of_fit = make_converter(*data, best_instruction_set());
-    answer = conversion_json(*held.of_fit, held.of_fit->info());
+    held.source = held.of_fit->info().source.roughness;
+    held.target = held.of_fit->info().target.roughness;
+    answer = conversion_json(held, held.of_fit->info());
     answer["path"] = Json();
     answer["notes"] = answer["assumptions"] = Json::list();
   } else {
     const ConversionRequest names = request_of(request);
     const ConversionChoice choice = choose_conversion(names, graph());
     held.conversion = build_conversion(choice, names.via, graph());
-    answer = conversion_json(held.converter(), held.conversion.domain());
+    const ConverterInfo& info = held.converter().info();
+    held.source = choice.is_material() ? width_of(*choice.source) : info.source.roughness;
+    held.target = choice.is_material() ? width_of(*choice.target) : info.target.roughness;
+    answer = conversion_json(held, held.conversion.domain());
     answer["path"] = path_json(held.conversion.path);
     answer["path"]["looksDifferent"] = held.conversion.closeness.looks_different;
     answer["path"]["closer"] =
@@ -206,8 +214,8 @@ Json convert(const Field& request) {
   maps.first_row = static_cast<std::size_t>(request["firstRow"].count());
   maps.dither = request.flag("dither");
   maps.bad_texels = named_if(request, "badTexels", kBadTexels).value_or(BadTexels::kKeep);
-  maps.source_convention = named_if(request, "sourceEncoding", kConventions);
-  maps.target_convention = named_if(request, "targetEncoding", kConventions);
+  maps.source_convention = named_if(request, "sourceEncoding", kConventions).value_or(held->second.source);
+  maps.target_convention = named_if(request, "targetEncoding", kConventions).value_or(held->second.target);
   for (const Field& source : request["sources"].list(0, [](const Field& field) { return field; }))
     maps.sources[parameter_named(source["parameter"])] = source_of(source);
   for (const Field& target : request["targets"].list(0, [](const Field& field) { return field; }))
