@@ -452,12 +452,11 @@ class NewImage:
         part, level = self._plane
         spec = self._specs[part][level]
         begin, end = spec.y + first_row, spec.y + first_row + row_count
-        values = np.frombuffer(texels, _DTYPES[str(spec.format)])
+        values = np.frombuffer(texels, _DTYPES[str(spec.format)]).reshape(row_count, spec.width, spec.nchannels)
         if spec.tile_width > 0:
-            pixels = values.reshape(1, row_count, spec.width, spec.nchannels)
-            done = self._output.write_tiles(spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, pixels)
+            done = self._output.write_tiles(spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, values)
         else:
-            done = self._output.write_scanlines(begin, end, spec.z, values.reshape(row_count, spec.width, spec.nchannels))
+            done = self._output.write_scanlines(begin, end, spec.z, values)
         self._check(done)
 
     def finish(self):

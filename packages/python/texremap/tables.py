@@ -49,6 +49,8 @@ def read_table(path):
     if not lines:
         refuse("has no line of column names")
     names = lines[0].strip().split(",")
+    if "alpha1" not in names:
+        refuse("has no column alpha1, so it is no table of matches")
     if len(set(names)) != len(names) or not all(names):
         refuse("the first line without # must name each column once")
     cells = [line.strip().split(",") for line in lines[1:]]
