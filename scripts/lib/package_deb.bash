@@ -6,7 +6,7 @@ usage_deb() {
 Usage: scripts/package deb [--test]
 
 Builds remap as Debian builds packages, and makes remap-tools, libremap-dev and remap-doc in build/packages/deb.
-Dependencies are the packages whose libraries the programs name; any BLAS will do.
+Dependencies are the packages whose libraries the programs name; ATLAS is among them, since Debian's libceres-dev brings it.
 
   --test  also checks them by lintian, and installs and tries them in a Debian of nothing else (root; debootstrap)
 
@@ -19,7 +19,7 @@ readonly deb_build=build/packages/deb.build
 
 configure_deb() {
   local -a options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DREMAP_DEBIAN=ON -DREMAP_BUILD_TESTS=OFF
-    -DREMAP_BUILD_EXAMPLES=OFF -DBLA_VENDOR=Generic)
+    -DREMAP_BUILD_EXAMPLES=OFF)
   [[ -z ${REMAP_MAINTAINER-} ]] || options+=("-DREMAP_MAINTAINER=$REMAP_MAINTAINER")
   ! type -P ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   # Debian's flags map the source folder to ".". Symbols for debuggers are stripped anyway, and -O3 is kept.

@@ -17,7 +17,7 @@ done
 
 report() { printf '%s\n' "$*" | tee -a "$work/report"; }
 
-expect_exit 0 lintian --fail-on error,warning --no-tag-display-limit "$packages"/*.deb
+expect_exit 0 lintian --fail-on error,warning --tag-display-limit 0 --allow-root "$packages"/*.deb
 report "lintian: $(grep -c '^[EW]:' "$work/output" || true) errors and warnings"
 
 # No file names a folder of the build.
@@ -46,11 +46,13 @@ install() {
     sed -n 's/^Need to get \(.*\) of archives.*/\1/p' "$work/output" | sed 's|.*/||') fetched, $(
     sed -n 's/^After this operation, \(.*\) of additional disk space.*/\1/p' "$work/output") on disk, $((SECONDS - start)) s"
 }
+# file_of PACKAGE: its file as apt there must be told.
+file_of() { (cd "$debian" && echo packages/"$1"_*.deb | sed 's|^|/|'); }
 # away COMMANDS: run in an empty folder.
 away() { expect_exit 0 inside bash -c "set -euo pipefail; mkdir -p /away/empty; cd /away/empty; $1"; }
 
 expect_exit 0 inside apt-get update
-install libremap-dev /packages/libremap-dev_*.deb g++ cmake make pkg-config
+install libremap-dev "$(file_of libremap-dev)" g++ cmake make pkg-config
 away 'g++ -std=c++20 $(pkg-config --cflags remap) ../project/convert_buffers.cpp $(pkg-config --libs remap) -o by_pkg_config &&
   ./by_pkg_config'
 expect_output "65536 texels, "
@@ -58,7 +60,7 @@ expect_output "65536 texels, "
 expect_exit 1 inside cmake -S /away/project -B /away/first
 expect_output "remapc is not here, which emits the header (install the package remap-tools,"
 
-install remap-tools /packages/remap-tools_*.deb
+install remap-tools "$(file_of remap-tools)"
 away '
 texremap --version
 remapc --version
@@ -88,7 +90,7 @@ away 'cmake -S /away/project -B /away/second -DCMAKE_BUILD_TYPE=Release && cmake
   /away/second/shipped && /away/second/own_fit && /away/second/convert_buffers'
 expect_output "65536 texels, "
 
-install remap-doc /packages/remap-doc_*.deb
+install remap-doc "$(file_of remap-doc)"
 # minbase leaves documentation in: pages, and the folders that they link to.
 away 'ls /usr/share/doc/remap/README.md /usr/share/doc/remap/docs/conversion.png /usr/share/doc/remap/examples/README.md \
   /usr/share/doc/remap/fits/README.md /usr/share/doc/remap/generated/LICENSE /usr/share/man/man1/texremap-convert.1.gz'
