@@ -17,10 +17,12 @@ configure_file(${debian}/changelog.in ${written}/changelog @ONLY)
 compressed(${written}/changelog changelog.Debian.gz)
 compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog.gz)
 
-# Libraries that are headers only are compiled into the programs; their licenses ask to be named.
+# The licenses of libraries that are compiled in ask to be named.
 set(notices ${written}/copyright.libraries)
-file(WRITE ${notices} "Copyright of the libraries whose headers are compiled into the programs.\n")
-foreach(package IN ITEMS libcli11-dev libeigen3-dev libnanoflann-dev libstb-dev libtinyobjloader-dev nlohmann-json3-dev)
+file(WRITE ${notices} "Copyright of the libraries that are compiled into the programs.\n")
+file(STRINGS ${debian}/compiled_in.txt lines REGEX "^[^#]")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE " .*" "" package ${line})
   file(READ /usr/share/doc/${package}/copyright text)
   file(APPEND ${notices} "\n=== ${package}\n\n${text}")
 endforeach()

@@ -74,17 +74,24 @@ install(FILES ${PROJECT_BINARY_DIR}/remap.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}
 # Pages as they lie in the tree, with what they link to beside them.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME remap_doc)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/HACKING.md
+              ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
         PATTERN man EXCLUDE PATTERN completions EXCLUDE)
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/documentation)
-foreach(link IN ITEMS fits:${CMAKE_INSTALL_FULL_DATADIR}/remap/fits examples:${CMAKE_INSTALL_FULL_DATADIR}/remap/examples
-                      generated:${CMAKE_INSTALL_FULL_INCLUDEDIR}/remap)
-  string(REGEX MATCH "^([a-z]+):(.*)$" matched ${link})
-  cmake_path(RELATIVE_PATH CMAKE_MATCH_2 BASE_DIRECTORY ${CMAKE_INSTALL_FULL_DOCDIR} OUTPUT_VARIABLE beside)
-  file(CREATE_LINK ${beside} ${PROJECT_BINARY_DIR}/documentation/${CMAKE_MATCH_1} SYMBOLIC)
-  install(FILES ${PROJECT_BINARY_DIR}/documentation/${CMAKE_MATCH_1} DESTINATION ${CMAKE_INSTALL_DOCDIR})
-endforeach()
+set(data ${CMAKE_INSTALL_FULL_DATADIR}/remap)
+set(headers ${CMAKE_INSTALL_FULL_INCLUDEDIR}/remap)
+set(links fits ${data}/fits examples ${data}/examples generated ${headers} compiler/adapters ${data}/workers
+          runtime/include/remap ${headers} runtime/sets/naming.json ${data}/naming.json)
+while(links)
+  list(POP_FRONT links link target)
+  set(written ${PROJECT_BINARY_DIR}/documentation/${link})
+  cmake_path(GET link PARENT_PATH folder)
+  cmake_path(GET written PARENT_PATH written_folder)
+  cmake_path(RELATIVE_PATH target BASE_DIRECTORY ${CMAKE_INSTALL_FULL_DOCDIR}/${folder})
+  file(MAKE_DIRECTORY ${written_folder})
+  file(CREATE_LINK ${target} ${written} SYMBOLIC)
+  install(FILES ${written} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endwhile()
 
 if(REMAP_DEBIAN)
   include(RemapDebian)

@@ -4,7 +4,7 @@
 Usage: scripts/lib/sbom.py VERSION FOLDER
 
 FOLDER holds the archive of the sources and packages. Libraries are those that the packages themselves name (Depends of Debian,
-Requires-Dist of Python, dependencies of npm), and the header libraries that are compiled in. The time is SOURCE_DATE_EPOCH; the
+Requires-Dist of Python, dependencies of npm), and those that are compiled in (packages/debian/compiled_in.txt). The time is SOURCE_DATE_EPOCH; the
 same packages give the same bytes.
 """
 import datetime
@@ -18,10 +18,12 @@ import tarfile
 import zipfile
 from email.parser import Parser
 from pathlib import Path
+from urllib.parse import quote
 
-# Header libraries by Debian package: what the library compiles in, and what the programs do beyond.
-IN_LIBRARY = ("nlohmann-json3-dev",)
-IN_PROGRAMS = IN_LIBRARY + ("libcli11-dev", "libeigen3-dev", "libnanoflann-dev", "libstb-dev", "libtinyobjloader-dev")
+COMPILED_IN = [line.split() for line in (Path(__file__).resolve().parents[2] / "packages/debian/compiled_in.txt").read_text().splitlines()
+               if not line.startswith("#")]
+IN_PROGRAMS = [package for package, _ in COMPILED_IN]
+IN_LIBRARY = [package for package, where in COMPILED_IN if where == "library"]
 
 
 def installed(package):
@@ -42,7 +44,7 @@ def element(identifier, name, version, **more):
 
 
 def library(kind, name, version, qualifiers=""):
-    locator = f"pkg:{kind}/{name}" + (f"@{version}" if version else "") + qualifiers
+    locator = f"pkg:{kind}/{quote(name)}" + (f"@{quote(version, safe='')}" if version else "") + qualifiers
     return element(spdx_id(kind.split("/")[0], name), name, version, externalRefs=[
         {"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": locator}])
 
@@ -71,7 +73,7 @@ def links_of(path):
         with tarfile.open(path) as archive:
             manifest = json.load(archive.extractfile("package/package.json"))
         return [("STATIC_LINK", debian(name)) for name in IN_LIBRARY] + [
-            ("DEPENDS_ON", library("npm", name.replace("@", "%40"), None)) for name in sorted(manifest.get("dependencies", {}))]
+            ("DEPENDS_ON", library("npm", name, None)) for name in sorted(manifest.get("dependencies", {}))]
     return []
 
 

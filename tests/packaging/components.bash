@@ -20,9 +20,16 @@ dev=$work/remap_dev
 for page in README.md docs/tutorial.md docs/conversion.png docs/reference/texremap.md; do
   [[ -f $work/all/share/doc/remap/$page ]] || fail "$page: is not installed"
 done
-for folder in fits examples generated; do
-  [[ -d $work/all/share/doc/remap/$folder/ ]] || fail "$folder: pages link to it, and it is not beside them"
-done
+# Links of pages lead somewhere, but for those to sources.
+python3 - "$work/all/share/doc/remap" <<'PROGRAM' || fail "pages have links that lead nowhere"
+import pathlib, re, sys
+root = pathlib.Path(sys.argv[1])
+missing = {(str(page.relative_to(root)), link) for page in root.rglob("*.md") for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)", page.read_text())
+           if "://" not in link and not (page.parent / link).exists()}
+missing = {found for found in missing if not re.match(r"\.\./runtime/.*\.hpp$", found[1])}
+print(*missing, sep="\n")
+sys.exit(bool(missing))
+PROGRAM
 
 # The library without the programs, wherever it was moved to.
 mv "$dev" "$work/moved"

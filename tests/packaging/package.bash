@@ -41,8 +41,10 @@ known = {package["SPDXID"] for package in bill["packages"]} | {"SPDXRef-DOCUMENT
 links = {(link["spdxElementId"], link["relationshipType"], link["relatedSpdxElement"]) for link in bill["relationships"]}
 assert all(one in known and other in known for one, _, other in links)
 npm, wheel = "SPDXRef-file-texremap-0.1.0.tgz", "SPDXRef-file-texremap-0.1.0-cp312-abi3-linux-x86-64.whl"
-assert (npm, "DEPENDS_ON", "SPDXRef-npm-fast-png") in links and (npm, "DEPENDS_ON", "SPDXRef-npm--40gltf-transform-core") in links
+assert (npm, "DEPENDS_ON", "SPDXRef-npm-fast-png") in links and (npm, "DEPENDS_ON", "SPDXRef-npm--gltf-transform-core") in links
 assert (wheel, "DEPENDS_ON", "SPDXRef-pypi-numpy") in links and not any("openimageio" in other for _, _, other in links)
+places = [place["referenceLocator"] for package in bill["packages"] for place in package.get("externalRefs", [])]
+assert "pkg:npm/%40gltf-transform/core" in places
 assert (wheel, "STATIC_LINK", "SPDXRef-deb-nlohmann-json3-dev") in links
 PROGRAM
 expect_exit 0 bill
