@@ -1,14 +1,12 @@
 # The text of --version: the version of project() in CMakeLists.txt, and what the build is made of. The version stands
 # there alone: headers, packages and manual pages take it from it.
 
-# remap_library_list(VARIABLE NAME VERSION NAME VERSION...): "Name 1.2, Name 3" in VARIABLE.
+# remap_library_list(VARIABLE NAME=VERSION...): "Name 1.2, Name 3" in VARIABLE, without those that have no version: they
+# take no part in this build.
 function(remap_library_list variable)
-  set(libraries "")
-  while(ARGN)
-    list(POP_FRONT ARGN name version)
-    list(APPEND libraries "${name} ${version}")
-  endwhile()
-  list(JOIN libraries ", " text)
+  list(FILTER ARGN EXCLUDE REGEX "=$")
+  list(TRANSFORM ARGN REPLACE "=" " ")
+  list(JOIN ARGN ", " text)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
@@ -36,15 +34,14 @@ function(remap_version_text target)
   string(SUBSTRING ${hash} 0 12 hash)
   set(REMAP_DATA "${count} converters, SHA-256 ${hash}...")
 
-  set(versions "")
   foreach(package IN ITEMS OpenImageIO CLI11 nlohmann_json)
     get_directory_property(${package} DIRECTORY ${PROJECT_SOURCE_DIR}/runtime DEFINITION ${package}_VERSION)
   endforeach()
   foreach(part IN ITEMS MAJOR MINOR RELEASE)
     remap_macro_value(${part} ${XXHASH_INCLUDE_DIR}/xxhash.h XXH_VERSION_${part})
   endforeach()
-  remap_library_list(REMAP_LIBRARIES OpenImageIO ${OpenImageIO} CLI11 ${CLI11} "JSON for Modern C++" ${nlohmann_json}
-                     xxHash ${MAJOR}.${MINOR}.${RELEASE})
+  remap_library_list(REMAP_LIBRARIES OpenImageIO=${OpenImageIO} CLI11=${CLI11} "JSON for Modern C++=${nlohmann_json}"
+                     xxHash=${MAJOR}.${MINOR}.${RELEASE})
   set(written ${PROJECT_BINARY_DIR}/runtime/version_text.cpp)
   configure_file(${PROJECT_SOURCE_DIR}/runtime/command_line/version_text.cpp.in ${written} @ONLY)
   target_sources(${target} PRIVATE ${written})
