@@ -52,6 +52,10 @@ file_of() { (cd "$debian" && echo packages/"$1"_*.deb | sed 's|^|/|'); }
 away() { expect_exit 0 inside bash -c "set -euo pipefail; mkdir -p /away/empty; cd /away/empty; $1"; }
 
 expect_exit 0 inside apt-get update
+for package in "$(file_of libremap-dev)" "$(file_of remap-tools)" libopenimageio2.4; do
+  expect_exit 0 inside apt-get install --simulate --no-install-recommends "$package"
+  report "$package in a minimal Debian: $(sed -n 's/^.* \([0-9]*\) newly installed.*/\1/p' "$work/output") packages"
+done
 install libremap-dev "$(file_of libremap-dev)" g++ cmake make pkg-config
 away 'g++ -std=c++20 $(pkg-config --cflags remap) ../project/convert_buffers.cpp $(pkg-config --libs remap) -o by_pkg_config &&
   ./by_pkg_config'
