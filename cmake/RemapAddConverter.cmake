@@ -8,8 +8,8 @@ function(remap_add_converter target fit)
     message(FATAL_ERROR "remap_add_converter: unknown target ${target} (add it before this call)")
   endif()
   if(NOT TARGET remap::remapc)
-    message(FATAL_ERROR "remap_add_converter: remapc is not part of this build of remap "
-                        "(configure remap with REMAP_BUILD_COMPILER=ON)")
+    message(FATAL_ERROR "remap_add_converter: remapc is not here, which emits the header "
+                        "(install the package remap-tools, or build remap with REMAP_BUILD_COMPILER=ON)")
   endif()
   cmake_path(ABSOLUTE_PATH fit BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE OUTPUT_VARIABLE fit_file)
   _remap_read_fit_id(${fit_file} id)

@@ -19,9 +19,21 @@ void FitFolder::add(AnyFit fit) {
     fits.push_back(std::move(std::get<Fit>(fit)));
 }
 
+namespace {
+
+// A folder named like that for another reason is none.
+bool holds_fits(const std::filesystem::path& folder) {
+  std::error_code failure;
+  const std::filesystem::directory_iterator entries(folder, failure);
+  return !failure && std::any_of(begin(entries), end(entries),
+                                 [](const auto& entry) { return entry.path().extension() == ".json"; });
+}
+
+}  // namespace
+
 std::filesystem::path default_fit_folder() {
   const std::filesystem::path own = "fits";
-  const std::filesystem::path shipped = is_directory(own) ? own : installed(REMAP_INSTALLED_FITS);
+  const std::filesystem::path shipped = holds_fits(own) ? own : installed(REMAP_INSTALLED_FITS);
   return shipped.empty() ? own : shipped;
 }
 

@@ -2,8 +2,8 @@
 // other.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
+#include "command_line/version_text.hpp"
 #include "commands/commands.hpp"
-#include "remap/version.hpp"
 
 int main(int argc, char** argv) {
   remap::Command app(
@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
       "into a "
       "C++ header: sweep, check, fit, emit.",
       "remapc");
-  app.set_version_flag("--version", std::string("remapc ") + remap::kVersion);
+  app.set_version_flag("--version", remap::version_text("remapc", REMAP_LIBRARIES));
   app.require_subcommand(1);
   remap::add_sweep_command(app);
   remap::add_sample_command(app);

@@ -1,14 +1,14 @@
 // remap-study: measures how accurate the converters are, under environment maps and between workflows.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "remap/version.hpp"
+#include "command_line/version_text.hpp"
 #include "study/studies.hpp"
 
 int main(int argc, char** argv) {
   remap::Command app(
       "Measure the accuracy of the converters. Each study prints a summary and writes tables and plots.",
       "remap-study");
-  app.set_version_flag("--version", std::string("remap-study ") + remap::kVersion);
+  app.set_version_flag("--version", remap::version_text("remap-study", REMAP_LIBRARIES));
   app.require_subcommand(1);
   remap::add_environments_study(app);
   remap::add_exponents_study(app);

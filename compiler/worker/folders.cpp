@@ -68,10 +68,7 @@ fs::path own_worker_list() {
   return user_folder("XDG_CONFIG_HOME", ".config") / "remap" / "workers.json";
 }
 
-fs::path shipped_worker_list() {
-  const fs::path list = installed(REMAP_INSTALLED_WORKERS "/workers.json");
-  return list.empty() ? fs::path(REMAP_SOURCE_WORKERS) / "workers.json" : list;
-}
+fs::path shipped_worker_list() { return installed(REMAP_INSTALLED_WORKERS "/workers.json"); }
 
 PrivateFolder::PrivateFolder(const fs::path& given) {
   const fs::path parent = given.empty() ? folder_in_memory() : fs::absolute(given);

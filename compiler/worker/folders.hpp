@@ -15,7 +15,7 @@ std::filesystem::path default_cache_folder();
 // folder. The file may be missing.
 std::filesystem::path own_worker_list();
 
-// The list that ships with remap: next to the installed program, else in the source tree it was built from.
+// The list that ships with remap, found from the running program; empty where it is not installed.
 std::filesystem::path shipped_worker_list();
 
 // A folder of this process, deleted with the object. Its name holds the mark of this machine and process

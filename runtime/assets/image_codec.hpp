@@ -23,6 +23,11 @@ struct ImagePixels {
   bool is_grey() const noexcept { return channels < 3; }
 };
 
+// `64x32`
+inline std::string size_text(const ImagePixels& pixels) {
+  return std::to_string(pixels.width) + "x" + std::to_string(pixels.height);
+}
+
 enum class PngEffort {
   kFast,      // half the time of the usual, and a tenth larger
   kSmallest,  // the smallest of several tries

@@ -9,10 +9,6 @@
 namespace remap {
 namespace {
 
-std::string size_text(const ImagePixels& pixels) {
-  return std::to_string(pixels.width) + " x " + std::to_string(pixels.height);
-}
-
 bool is_same_size(const ImagePixels& a, const ImagePixels& b) {
   return a.width == b.width && a.height == b.height;
 }

@@ -22,10 +22,6 @@ std::string slashed(std::string text) {
 
 bool is_drive(const std::string& part) { return part.size() == 2 && part[1] == ':'; }
 
-std::string size_text(const ImagePixels& pixels) {
-  return std::to_string(pixels.width) + "x" + std::to_string(pixels.height);
-}
-
 // Maps of one material, to be brought to one size.
 struct NamedMap {
   const MtlMap* map;

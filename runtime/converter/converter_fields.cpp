@@ -12,7 +12,9 @@ void require_fit_file(const Field& root) {
   const std::int64_t version = root["version"].count();
   if (version != kFitFormatVersion)
     root.fail("has format version " + std::to_string(version) + "; this program reads version " +
-              std::to_string(kFitFormatVersion));
+              std::to_string(kFitFormatVersion) +
+              (version < kFitFormatVersion ? " (fit its table again by remapc fit)"
+                                           : " (a newer remap wrote it: use that)"));
 }
 
 bool is_of_materials(const Field& root) {

@@ -162,7 +162,7 @@ TEST_CASE("Maps that do not lie on one grid fail", "[assets]") {
   CHECK(failure(R"("index":0)", R"("index":1,"extensions":{"KHR_texture_transform":{"scale":[1,1.0]}})")
             .empty());
   CHECK(failure(R"("index":0)", R"("index":2)") ==
-        "its diffuse image has 6 x 5 texels, its specular-glossiness image 6 x 4 (use --resample, or "
+        "its diffuse image has 6x5 texels, its specular-glossiness image 6x4 (use --resample, or "
         "--profile extensions)");
   CHECK(failure(R"("index":9)", R"("index":1)") == "names texture 9, of which there are 3");
 }

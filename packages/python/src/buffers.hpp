@@ -1,0 +1,38 @@
+// Arrays of Python as channels of maps, without copies.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+
+#include "remap/pixels.hpp"
+
+namespace remap::python {
+
+// The memory of an object with the buffer protocol, held until the last copy is gone. Made and destroyed with
+// the lock of the interpreter.
+class Buffer {
+ public:
+  enum class Access { kRead, kWrite };
+
+  // Throws kUsage, beginning with `name`, for an object without the protocol, one that is not writable but has
+  // to be, and values that are no numbers of 8 to 64 bits in the order of this machine.
+  Buffer(nanobind::handle object, Access access, const std::string& name);
+
+  std::size_t dimensions() const noexcept { return static_cast<std::size_t>(view_->ndim); }
+  std::size_t extent(std::size_t axis) const noexcept { return static_cast<std::size_t>(view_->shape[axis]); }
+  PixelType type() const noexcept { return type_; }
+
+  // The channels of (height, width, channels).
+  std::vector<ChannelView> channels() const;
+  std::vector<ConstChannelView> const_channels() const;
+
+ private:
+  std::shared_ptr<Py_buffer> view_;
+  PixelType type_ = PixelType::kFloat;
+};
+
+}  // namespace remap::python

@@ -1,0 +1,64 @@
+"""Tables of matches, as ``remapc sweep`` writes them."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ._error import Error
+
+
+class Table(NamedTuple):
+    """Rows of matches and what the comments of the file say."""
+
+    rows: np.ndarray
+    """A structured array: a field for each column, by its name in the file; float64, or a text such as ``status``."""
+    notes: dict
+    """``# name: value`` of the head, as texts: ``tool``, ``source``, ``target``, ``source_roughness``, ..."""
+
+
+def _column(cells):
+    """float64, an empty cell as NaN; texts where a cell is no number."""
+    try:
+        return np.array([float(cell) if cell else np.nan for cell in cells])
+    except ValueError:
+        return np.array(cells)
+
+
+def read_table(path):
+    """Reads a table of matches (CSV with a head of comments; docs/formats of the project).
+
+    Returns a :class:`Table`. Raises :class:`Error` of kind ``"input"`` where the file is no such table.
+    """
+
+    def refuse(what):
+        raise Error(f"{path}: {what}", "input")
+
+    notes, lines = {}, []
+    try:
+        with open(path, encoding="utf-8") as file:
+            for line in file:
+                if not line.startswith("#"):
+                    lines.append(line)
+                elif ":" in line:
+                    name, _, value = line[1:].partition(":")
+                    notes[name.strip()] = value.strip()
+    except OSError as failure:
+        refuse(f"cannot be read: {failure.strerror}")
+    except UnicodeDecodeError:
+        refuse("is no text")
+    if not lines:
+        refuse("has no line of column names")
+    names = lines[0].strip().split(",")
+    if "alpha1" not in names:
+        refuse("has no column alpha1, so it is no table of matches")
+    if len(set(names)) != len(names) or not all(names):
+        refuse("the first line without # must name each column once")
+    cells = [line.strip().split(",") for line in lines[1:]]
+    for i, row in enumerate(cells):
+        if len(row) != len(names):
+            refuse(f"row {i + 1} has {len(row)} cells, the head {len(names)}")
+    columns = [_column(texts) for texts in zip(*cells)] if cells else [np.zeros(0)] * len(names)
+    rows = np.zeros(len(cells), [(name, column.dtype) for name, column in zip(names, columns)])
+    for name, column in zip(names, columns):
+        rows[name] = column
+    return Table(rows, notes)

@@ -1,0 +1,34 @@
+# Files in the formats of versions that are still read, as those versions wrote them: never change one of formats/. A new
+# version of a format adds files, and takes away what is no longer read, with a line of CHANGELOG.md. What was read
+# before is refused with what to do.
+source "$(dirname "$0")/check.bash"
+bin=$3
+formats=$source_folder/tests/packaging/formats
+id=mitsuba_ward_to_mitsuba_as
+cd "$work"
+
+# Names of fits are their ids.
+mkdir fits
+cp "$formats/fit.json" fits/$id.json
+cp "$formats/workflow.json" fits/gltf_to_gltf_specgloss.json
+expect_exit 0 "$bin/remapc" show $id
+expect_output "kind series, by remapc "
+expect_exit 0 "$bin/remapc" show gltf_to_gltf_specgloss
+expect_exit 0 "$bin/remapc" emit --all -o headers
+expect_exit 0 "$bin/texremap" list --converters headers/converters.json
+expect_output "$id from mitsuba/ward"
+expect_exit 0 "$bin/texremap" list --converters "$formats/converters.json"
+expect_output "test passed with"
+
+for table in table table_with_comments; do
+  expect_exit 0 "$bin/remapc" check "$formats/$table.csv"
+done
+expect_exit 0 "$bin/remapc" fit "$formats/table_with_comments.csv" --model series -o fitted
+expect_exit 0 "$bin/remapc" show fitted/$id.json
+expect_output "kind series, by remapc "
+
+expect_exit 1 "$bin/remapc" show "$formats/fit_of_version_2.json"
+expect_output "has format version 2; this program reads version 3 (fit its table again by remapc fit)"
+sed 's/"version": 3/"version": 4/' "$formats/fit.json" >newer.json
+expect_exit 1 "$bin/remapc" show newer.json
+expect_output "this program reads version 3 (a newer remap wrote it: use that)"
