@@ -13,6 +13,11 @@
 #include "core/plain_text.hpp"
 #include "texture/image_library.hpp"
 
+// What messages call the program that is built.
+#ifndef REMAP_IMAGE_HOST
+#define REMAP_IMAGE_HOST "the package for node"
+#endif
+
 namespace remap::node {
 namespace {
 
@@ -120,7 +125,7 @@ std::string format_of(std::string_view bytes) {
 // What is said of formats that other packages read.
 std::string refusal_of(std::string_view bytes) {
   const auto elsewhere = [](const std::string& name) {
-    return name + " is not read by the package for node (use the Debian or the Python package)";
+    return name + " is not read by " REMAP_IMAGE_HOST " (use the Debian or the Python package)";
   };
   if (bytes.starts_with("\x76\x2f\x31\x01")) return elsewhere("EXR");
   if (bytes.starts_with("#?")) return elsewhere("Radiance HDR");
@@ -362,8 +367,8 @@ class NewByNode final : public NewImage {
     if (extension == ".tif" || extension == ".tiff") return "tiff";
     if (extension == ".exr")
       fail(
-          "EXR is not written by the package for node (use --format png, or the Debian or the Python "
-          "package)");
+          "EXR is not written by " REMAP_IMAGE_HOST
+          " (use --format png, or the Debian or the Python package)");
     fail("unknown image format (use .png, .tif or .jpg)");
   }
 

@@ -1,0 +1,48 @@
+# The page for browsers. To be sourced by scripts/package.
+
+usage_web() {
+  cat <<'TEXT'
+Usage: scripts/package web [--test]
+
+Makes two forms of the page in build/packages/web: the folder texremap-web, to be served by any web server, and texremap.html,
+which is everything in one file and runs from disk. Needs emscripten and node; npm brings the rest into build/web.
+
+  --test  also tries the page in headless Chromium, where that is installed
+TEXT
+}
+
+# What the page is bundled from, as web/package-lock.json pins it. No package runs a script when it is installed.
+install_modules() {
+  mkdir -p build/web
+  cp web/package.json web/package-lock.json build/web
+  (cd build/web && npm ci --ignore-scripts --no-audit --no-fund)
+}
+
+build_program() {
+  local -a options=()
+  ! type -P ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  cmake --preset wasm "${options[@]}" && cmake --build --preset wasm --target texremap_page
+}
+
+package_web() {
+  case ${1-} in
+    "" | --test) ;;
+    -h | --help)
+      usage_web
+      return
+      ;;
+    *)
+      echo "scripts/package web: unknown argument '$1'; try --help" >&2
+      return 2
+      ;;
+  esac
+  local -r folder=build/packages/web/texremap-web
+  step "Fetch what the page is bundled from" install_modules
+  step "Compile the program for browsers" build_program
+  step "Make the page" node web/build.mjs build/packages/web build/web/node_modules build/wasm/web
+  local file
+  for file in "$folder"/* build/packages/web/texremap.html; do
+    printf '%-52s %8s bytes, %8s by gzip\n' "$file" "$(stat -c %s "$file")" "$(gzip -9c "$file" | wc -c)"
+  done
+  [[ ${1-} != --test ]] || step "Try it in a browser" node --test web/tests
+}

@@ -1,0 +1,115 @@
+// One conversion, as `texremap convert` makes it, and what the page shows of it.
+import { isGltf, openAsset } from './gltf.js';
+import { materialOfSet, materialsOfAssets } from './preview.js';
+
+const IN = 'in', OUT = 'out';
+
+const isAsset = (path) => isGltf(path) || /\.(mtl|obj)$/i.test(path);
+const baseName = (path) => path.slice(path.lastIndexOf('/') + 1);
+
+// The words of a line, quoted as in a shell.
+export function wordsOf(line) {
+  return [...line.matchAll(/"([^"]*)"|'([^']*)'|(\S+)/g)].map((match) => match[1] ?? match[2] ?? match[3]);
+}
+
+function commandOf(files, { from, to, preset, more }) {
+  const words = ['convert', IN, '--recursive'];
+  if (files.some((file) => isAsset(file.path))) words.push('--assets');
+  if (files.some((file) => /\.obj$/i.test(file.path))) words.push('--format', 'glb');
+  // Maps that cannot be written here, or only with a loss.
+  else if (!preset && files.some((file) => /\.(jpe?g|webp|tiff?)$/i.test(file.path)) && !words.includes('--assets'))
+    words.push('--format', 'png');
+  if (from) words.push('--from', from);
+  if (preset) words.push('--preset', preset);
+  else if (to) words.push('--to', to);
+  return [...words, ...wordsOf(more), '-o', OUT];
+}
+
+const jsonLines = (lines) => lines.flatMap((line) => {
+  try {
+    return [JSON.parse(line)];
+  } catch {
+    return [];
+  }
+});
+
+// What a folder holds, by a report of a conversion of it that writes nothing.
+function planOf(program, words) {
+  const lines = jsonLines(program.run([...words, '--dry-run', '--json', '--quiet']).out);
+  return { conversion: lines[0]?.conversion, sets: lines.flatMap((line) => line.set ?? []) };
+}
+
+// The model at one end, { name, workflow }; workflow is `brdf` for one without.
+function endOf(conversion, end) {
+  const workflow = conversion.workflow?.[end];
+  return { name: workflow?.model ?? conversion[end], workflow: workflow?.workflow ?? 'brdf', diffuse: workflow?.diffuse };
+}
+
+const withoutRoot = (path) => path.slice(path.indexOf('/') + 1);
+
+// Files of a folder by the name of a set and of a map: the set `in/metal/metal` has its maps in `metal/`.
+function finder(files, set) {
+  const folder = set.name.includes('/') ? withoutRoot(set.name).replace(/[^/]*$/, '') : '';
+  const of = new Map(files.map((file) => [file.path, file.bytes]));
+  const paths = [...(set.inputs ?? []), ...(set.results ?? [])].map(withoutRoot);
+  return (name) => of.get(folder + name) ?? of.get(paths.find((path) => baseName(path) === baseName(name)));
+}
+
+// The plan of what was written: of a material by looking at it again, of a model by the names of results.
+function planOfResults(program, plan, target) {
+  if (target.workflow === 'brdf')
+    return plan.sets.map((set) => ({
+      ...set,
+      plan: set.plan.map((line) => ({ ...line, input: line.output + (/:[A-Z,]+$/.exec(line.input)?.[0] ?? '') })),
+    }));
+  const other = target.name === 'gltf' ? 'gltf-specgloss' : 'gltf';
+  return planOf(program, ['convert', OUT, '--recursive', '--from', target.name, '--to', other, '--force', '-o', 'again']).sets;
+}
+
+function materialsOfSets(program, words, files, results, images) {
+  const plan = planOf(program, [...words, '--force']);
+  if (!plan.conversion) return {};
+  const [source, target] = [endOf(plan.conversion, 'source'), endOf(plan.conversion, 'target')];
+  const drawnAs = (end) => (sets, of) =>
+    sets.map((set) => materialOfSet(withoutRoot(set.name), end.workflow, set.plan ?? [], finder(of, set), images));
+  return {
+    source,
+    target,
+    before: drawnAs(source)(plan.sets, files),
+    after: drawnAs(target)(planOfResults(program, plan, target), results),
+  };
+}
+
+/** Images of files that the browser has to decode before the program runs. */
+export async function prepareImages(files, images) {
+  for (const { path, bytes } of files) {
+    await images.prepare(bytes);
+    const asset = isGltf(path) ? openAsset(files, path) : null;
+    for (let i = 0; i < (asset?.imageCount ?? 0); ++i) {
+      const image = asset.imageBytes(i);
+      if (image) await images.prepare(image);
+    }
+  }
+}
+
+/**
+ * { status, report, command, files, preview: { source, target, before, after } or { failure } }.
+ * `files` are [{ path, bytes }]; `request` is { from, to, preset, more }.
+ */
+export async function convert(program, files, request, images) {
+  await prepareImages(files, images);
+  program.write(files.map(({ path, bytes }) => ({ path: `/${IN}/${path}`, bytes })));
+  const words = commandOf(files, request);
+  const { status, err, out } = program.run(words);
+  // Without the journal, which resumes a conversion where files stay.
+  const results = program.read(`/${OUT}`).filter(({ path }) => !baseName(path).startsWith('.'));
+  let preview = {};
+  try {
+    preview = words.includes('--assets')
+      ? { before: materialsOfAssets(files, images), after: materialsOfAssets(results, images) }
+      : materialsOfSets(program, words, files, results, images);
+  } catch (error) {
+    preview = { failure: error.message };  // the conversion stands
+  }
+  return { status, report: [...err, ...out], command: `texremap ${words.join(' ')}`, files: results, preview };
+}

@@ -1,0 +1,72 @@
+// Maps themselves, side by side, for models that three.js does not have; each is wiped from before to after.
+
+function canvasOf({ width, height, rgba }) {
+  const canvas = document.createElement('canvas');
+  canvas.width = width;
+  canvas.height = height;
+  canvas.getContext('2d').putImageData(new ImageData(rgba, width, height), 0, 0);
+  return canvas;
+}
+
+const GAP = 12;
+
+export class Flat {
+  #canvas;
+  #pairs = [];
+
+  constructor(canvas) {
+    this.#canvas = canvas;
+  }
+
+  show(before, after) {
+    this.#pairs = before.maps.flatMap((map) => {
+      const other = after.maps.find(({ role }) => role === map.role);
+      return other ? [{ role: map.role, images: [canvasOf(map), canvasOf(other)] }] : [];
+    });
+  }
+
+  draw({ wipe }) {
+    const scale = Math.min(devicePixelRatio, 2);
+    const width = Math.round(this.#canvas.clientWidth * scale);
+    const height = Math.round(this.#canvas.clientHeight * scale);
+    if (width === 0 || height === 0) return;
+    this.#canvas.width = width;
+    this.#canvas.height = height;
+    const context = this.#canvas.getContext('2d');
+    const count = Math.max(this.#pairs.length, 1);
+    const gap = GAP * scale;
+    const top = 3 * gap;
+    const side = Math.min((width - gap * (count + 1)) / count, height - top - 3 * gap);
+    const first = (width - count * side - (count - 1) * gap) / 2;
+    context.imageSmoothingEnabled = false;
+    context.fillStyle = '#fff';
+    context.font = `${14 * scale}px system-ui, sans-serif`;
+    context.textAlign = 'center';
+    // One border for all, at the place of the wipe in the view.
+    const border = width * wipe;
+    this.#pairs.forEach(({ role, images }, i) => {
+      const left = first + i * (side + gap);
+      images.forEach((image, which) => {
+        context.save();
+        context.beginPath();
+        context.rect(which === 0 ? 0 : border, 0, which === 0 ? border : width - border, height);
+        context.clip();
+        context.drawImage(image, left, top, side, side);
+        context.restore();
+      });
+      context.fillText(role, left + side / 2, top + side + 1.8 * gap);
+    });
+  }
+}
+
+/** A figure of a map. */
+export function figureOf(map, when) {
+  const figure = document.createElement('figure');
+  const canvas = canvasOf(map);
+  canvas.setAttribute('role', 'img');
+  canvas.setAttribute('aria-label', `${map.role}, ${when}`);
+  const caption = document.createElement('figcaption');
+  caption.textContent = map.role;
+  figure.append(canvas, caption);
+  return figure;
+}

@@ -1,0 +1,218 @@
+// The page in a headless Chromium: files go in as a person gives them, and what is downloaded is compared with what the program
+// of the C++ build writes: images by every value, all else by bytes. What is missing is skipped, with its reason.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+
+import { Visit, fileUrl, filesBelow, loaded, native, repository, served, skip, skipNative, startBrowser } from './browser.mjs';
+
+const folder = mkdtempSync(join(tmpdir(), 'texremap-web-'));
+const inputs = join(folder, 'inputs');
+const hasOiiotool = spawnSync('oiiotool', ['--help']).status === 0;
+const skipOiiotool = skipNative || (hasOiiotool ? false : 'oiiotool is not installed (apt-get install openimageio-tools)');
+
+let browser, server, decode, encode, unzipSync;
+
+before(async () => {
+  if (skip) return;
+  execFileSync('python3', [join(repository, 'packages/tests/make_inputs.py'), inputs, ...(hasOiiotool ? ['oiiotool'] : [])]);
+  ({ decode, encode } = await loaded('fast-png'));
+  ({ unzipSync } = await loaded('fflate'));
+  browser = await startBrowser();
+  server = await served();
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const path = (name) => join(inputs, name);
+
+async function visited(url, work) {
+  const visit = await Visit.begin(browser, url, join(folder, 'downloads'));
+  try {
+    await work(visit);
+    assert.deepEqual(visit.errors, []);
+  } finally {
+    await visit.close();
+  }
+}
+
+// The files of a download, by name.
+const filesOf = ({ name, bytes }) => (name.endsWith('.zip') ? unzipSync(bytes) : { [name]: bytes });
+
+// What the program writes for the same folder `in`.
+function byProgram(name, words) {
+  const work = join(folder, `native-${Math.random()}`);
+  mkdirSync(join(work, 'in'), { recursive: true });
+  execFileSync('cp', ['-r', path(name), join(work, 'in')]);
+  execFileSync(native, ['convert', 'in', '--recursive', ...words, '-o', 'out'], { cwd: work, stdio: 'pipe' });
+  const out = join(work, 'out');
+  const files = filesBelow(out).filter((file) => file !== '.texremap.jsonl');
+  return Object.fromEntries(files.map((file) => [file, new Uint8Array(readFileSync(join(out, file)))]));
+}
+
+function requireSameImage(own, other, place) {
+  const [a, b] = [decode(own), decode(other)];
+  assert.deepEqual([a.width, a.height, a.channels, a.depth], [b.width, b.height, b.channels, b.depth], place);
+  assert.deepEqual(a.data, b.data, place);
+}
+
+function openGlb(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  const length = view.getUint32(12, true);
+  const document = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length)));
+  const binary = bytes.subarray(28 + length);
+  const parts = (document.bufferViews ?? []).map(({ byteOffset = 0, byteLength }) => binary.subarray(byteOffset, byteOffset + byteLength));
+  const images = new Set((document.images ?? []).map(({ bufferView }) => bufferView));
+  // Compressed images differ in length, and with them the places of what follows.
+  for (const part of document.bufferViews ?? []) delete part.byteOffset;
+  for (const image of images) delete document.bufferViews[image].byteLength;
+  for (const buffer of document.buffers ?? []) delete buffer.byteLength;
+  return { document, parts, images };
+}
+
+function requireSameGlb(own, other, place) {
+  const [a, b] = [openGlb(own), openGlb(other)];
+  assert.equal(JSON.stringify(a.document), JSON.stringify(b.document), place);
+  a.parts.forEach((part, i) => {
+    if (a.images.has(i)) requireSameImage(part, b.parts[i], `${place}, view ${i}`);
+    else assert.deepEqual(part, b.parts[i], `${place}, view ${i}`);
+  });
+}
+
+function requireSame(own, other) {
+  assert.deepEqual(Object.keys(own).sort(), Object.keys(other).sort());
+  assert.ok(Object.keys(own).length > 0);
+  for (const [name, bytes] of Object.entries(own)) {
+    if (name.endsWith('.png')) requireSameImage(bytes, other[name], name);
+    else if (name.endsWith('.glb')) requireSameGlb(bytes, other[name], name);
+    else assert.deepEqual(bytes, other[name], name);
+  }
+}
+
+const FOLDERS = [
+  { input: 'specgloss', from: 'gltf-specgloss', to: 'gltf' },
+  { input: 'specgloss', from: '', to: 'preset:unity-hdrp' },
+  { input: 'unity', from: 'unity-hdrp', to: 'preset:gltf' },
+  { input: 'library', from: 'mitsuba/ward', to: 'mitsuba/as', more: '--roughness-encoding roughness --copy-others' },
+  { input: 'deep', from: 'mitsuba/phong', to: 'mitsuba/ggx', more: '--roughness-encoding roughness' },
+  { input: 'asset', from: '', to: 'gltf', words: ['--assets'] },
+];
+
+function programWords({ from, to, more = '', words = [] }) {
+  const target = to.startsWith('preset:') ? ['--preset', to.slice(7)] : ['--to', to];
+  return [...words, ...(from ? ['--from', from] : []), ...target, ...more.split(' ').filter(Boolean)];
+}
+
+describe('a folder that is served', { skip }, () => {
+  for (const one of FOLDERS)
+    test(`${one.input}, ${one.from || 'told by the files'} to ${one.to}`, { skip: skipNative }, () =>
+      visited(server.url, async (visit) => {
+        await visit.drop(path(one.input));
+        const report = await visit.convert(one);
+        assert.doesNotMatch(report, /^error/m);
+        requireSame(filesOf(await visit.download()), byProgram(one.input, programWords(one)));
+      }));
+
+  test('a .glb that is dropped, the ball, and sliders by keyboard', { skip: skipNative }, () =>
+    visited(server.url, async (visit) => {
+      await visit.drop(path('model.glb'));
+      assert.match(await visit.convert(), /2 materials converted/);
+      requireSame(filesOf(await visit.download()), byProgram('model.glb', ['--assets', '--to', 'gltf']));
+      const { page } = visit;
+      assert.equal(await page.$eval('#ball', (canvas) => canvas.checkVisibility()), true);
+      const picture = () => page.$eval('#ball', (canvas) => canvas.toDataURL());
+      const pictures = [await picture()];
+      for (const slider of ['#wipe', '#light']) {
+        await page.focus(slider);
+        for (let i = 0; i < 4; ++i) await page.keyboard.press('ArrowRight');
+        pictures.push(await picture());
+      }
+      assert.equal(new Set(pictures).size, 3);
+      assert.equal(await page.$eval('#wipe', (slider) => slider.value), '54');
+      // Only files of the folder are asked for.
+      assert.ok(visit.requests.every((url) => url.startsWith(server.url) || /^(blob|data):/.test(url)), visit.requests.join(' '));
+    }));
+
+  test('every value of 16 bits', () =>
+    visited(server.url, async (visit) => {
+      const set = join(folder, 'ramp');
+      mkdirSync(set);
+      const data = Uint16Array.from({ length: 65536 }, (_, i) => i);
+      writeFileSync(join(set, 'a_roughness.png'), encode({ width: 256, height: 256, channels: 1, depth: 16, data }));
+      writeFileSync(join(set, 'a_baseColor.png'), encode({ width: 256, height: 256, channels: 3, depth: 16, data: new Uint16Array(3 * 65536).fill(7) }));
+      writeFileSync(join(set, 'a_metallic.png'), encode({ width: 256, height: 256, channels: 1, depth: 16, data }));
+      await visit.drop(set);
+      const report = await visit.convert({ from: 'gltf', to: 'gltf', more: '--output-encoding glossiness --layout separate' });
+      const files = filesOf(await visit.download());
+      const name = Object.keys(files).find((file) => /(glossiness|roughness)\.png$/.test(file));
+      assert.ok(name, report);
+      assert.deepEqual(decode(files[name]).data, data.map((value) => 65535 - value));
+    }));
+
+  test('every value of JPEG, as libjpeg-turbo decodes it', { skip: skipOiiotool }, () =>
+    visited(server.url, async (visit) => {
+      const set = path('jpeg');
+      mkdirSync(set, { recursive: true });
+      const source = (name) => path(`specgloss/tin_${name}.png`);
+      for (const [name, role] of [['diffuse', 'baseColor'], ['glossiness', 'roughness']])
+        execFileSync('oiiotool', [source(name), '--resize', '64x48', '--attrib', 'Orientation', '6', '-o', join(set, `a_${role}.jpg`)]);
+      await visit.choose('#folder', set);
+      // The material stays, so stored values do.
+      const one = { from: 'gltf', to: 'gltf', more: '--layout separate --metallic 0' };
+      const report = await visit.convert(one);
+      assert.doesNotMatch(report, /^error/m);
+      requireSame(filesOf(await visit.download()), byProgram('jpeg', [...programWords(one), '--format', 'png']));
+    }));
+
+  test('EXR is refused by name, with what to do', () =>
+    visited(server.url, async (visit) => {
+      const set = join(folder, 'exr');
+      mkdirSync(set);
+      for (const role of ['roughness', 'specular']) writeFileSync(join(set, `a_${role}.exr`), Uint8Array.of(0x76, 0x2f, 0x31, 1, 2, 0, 0, 0));
+      await visit.drop(set);
+      const report = await visit.convert({ from: 'mitsuba/ward', to: 'mitsuba/ggx' });
+      assert.match(report, /a_roughness\.exr: EXR is not read by this page \(use the Debian or the Python package\)/);
+      assert.equal(await visit.page.$eval('#download', (link) => link.hidden), true);
+    }));
+
+  test('a mistake is answered, and the page goes on', () =>
+    visited(server.url, async (visit) => {
+      await visit.drop(path('specgloss'));
+      assert.match(await visit.convert({ more: '--sepcular 0.04' }), /did you mean/);
+      assert.doesNotMatch(await visit.convert(), /^error/m);
+    }));
+
+  test('names for screen readers', () =>
+    visited(server.url, async (visit) => {
+      const { page } = visit;
+      await visit.drop(path('model.glb'));
+      await visit.convert();
+      const nodes = [];
+      const walk = (node) => {
+        nodes.push(node);
+        node.children?.forEach(walk);
+      };
+      walk(await page.accessibility.snapshot());
+      const controls = nodes.filter(({ role }) => ['button', 'combobox', 'slider', 'textbox', 'link', 'img', 'image'].includes(role));
+      assert.ok(controls.length > 10);
+      for (const control of controls) assert.ok(control.name, JSON.stringify(control));
+      assert.equal(await page.$eval('#report', (report) => report.getAttribute('aria-live')), 'polite');
+    }));
+});
+
+test('one file from disk', { skip: skipNative }, () =>
+  visited(fileUrl(), async (visit) => {
+    await visit.drop(path('model.glb'));
+    assert.match(await visit.convert(), /2 materials converted/);
+    requireSame(filesOf(await visit.download()), byProgram('model.glb', ['--assets', '--to', 'gltf']));
+    await visit.drop(path('specgloss'));
+    await visit.convert();
+    requireSame(filesOf(await visit.download()), byProgram('specgloss', ['--to', 'gltf']));
+    assert.ok(visit.requests.every((url) => url === fileUrl() || /^(blob|data):/.test(url)), visit.requests.join(' '));
+  }));
