@@ -1,11 +1,17 @@
 #include "core/nearest_name.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace remap {
 namespace {
 
+// Nobody mistypes more letters than this.
+constexpr std::size_t kLettersCompared = 200;
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
+  a = a.substr(0, kLettersCompared);
+  b = b.substr(0, kLettersCompared);
   std::vector<std::vector<std::size_t>> distance(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) distance[i][0] = i;
   for (std::size_t j = 0; j <= b.size(); ++j) distance[0][j] = j;
@@ -55,9 +61,16 @@ std::vector<std::string> nearest_names(std::string_view name, std::vector<std::s
         candidate.find(name) != std::string::npos || name.find(candidate) != std::string::npos;
     return is_part ? std::min(edit_distance(name, candidate), kPartDistance) : edit_distance(name, candidate);
   };
-  std::ranges::stable_sort(candidates, {}, rank);
-  candidates.resize(std::min(candidates.size(), count));
-  return candidates;
+  std::vector<std::pair<std::size_t, std::string>> ranked;
+  for (std::string& candidate : candidates) {
+    const std::size_t distance = rank(candidate);
+    ranked.emplace_back(distance, std::move(candidate));
+  }
+  std::ranges::stable_sort(ranked, {}, &std::pair<std::size_t, std::string>::first);
+  ranked.resize(std::min(ranked.size(), count));
+  std::vector<std::string> nearest;
+  for (auto& [distance, name_of_rank] : ranked) nearest.push_back(std::move(name_of_rank));
+  return nearest;
 }
 
 std::string joined(std::span<const std::string> names, std::string_view between) {

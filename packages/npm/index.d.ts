@@ -1,0 +1,165 @@
+/**
+ * Converts maps of material parameters between the models of renderers.
+ *
+ * Shapes. A map of N texels is a typed array of N values for one channel. A color (specular, diffuse, base color) is
+ * - interleaved: one array of 3 N values, red, green, blue of the first texel, then of the second; with 4 N values the
+ *   fourth is opacity, which the result keeps;
+ * - planar: a list of three arrays of N values;
+ * - grey: one array of N values.
+ * N is the length of a map of one channel, else of a plane; where colors are all, a third of the first one's length.
+ * A number, or a list of three for a color, stands for every texel.
+ *
+ * Units. Float32Array and Float64Array hold the values themselves, colors linear. Whole numbers are parts of 255 or 65535,
+ * colors in sRGB; `transfer` says otherwise. Roughness is in the encoding of its model (`models()`): alpha, perceptual
+ * roughness, a Phong exponent, glossiness or alpha squared; `sourceEncoding` and `targetEncoding` say otherwise.
+ */
+
+export type MapArray = Float32Array | Float64Array | Uint8Array | Uint8ClampedArray | Uint16Array;
+export type ScalarMap = number | MapArray;
+export type ColorMap = number | [number, number, number] | MapArray | [MapArray, MapArray, MapArray];
+
+export type Encoding = 'alpha' | 'roughness' | 'exponent' | 'glossiness' | 'squared';
+export type Transfer = 'linear' | 'srgb';
+export type Measure = 'residual' | 'metallicWidth' | 'doubts';
+
+/** How a converter is found. */
+export interface ConverterOptions {
+  /** A BRDF model with a workflow is a layer of that kind over the model. */
+  sourceWorkflow?: 'specular' | 'metallic';
+  targetWorkflow?: 'specular' | 'metallic';
+  /** Models that the path visits, in this order. */
+  via?: string[];
+  /** What a diffuse color means where the names leave it open. */
+  diffuseConvention?: 'plain' | 'scaled';
+  /** F0 of metallic workflows where metallic is 0; from 0 to 0.9. */
+  dielectricF0?: number;
+  /** How much of two alike materials that nearer to metallic 0 or 1 is preferred; 1e-5 for scans and JPEG. */
+  prior?: number;
+}
+
+/** The maps of a model: roughness and specular; of a workflow: those with diffuse, or base color and metallic. */
+export interface SourceMaps {
+  roughness?: ScalarMap;
+  specular?: ColorMap;
+  diffuse?: ColorMap;
+  baseColor?: ColorMap;
+  metallic?: ScalarMap;
+  /** Chooses among metallic values that look alike. */
+  metalMask?: ScalarMap;
+}
+
+export interface MapOptions {
+  /** Texels a row, for positions in messages and for dithering. */
+  width?: number;
+  /** The row of the whole map that the arrays begin with. */
+  firstRow?: number;
+  /** Of all colors, or of each. */
+  transfer?: Transfer | { [color: string]: Transfer };
+  /** Of the results; by default that of the source of the same name, else of the first map. */
+  type?: 'float32' | 'float64' | 'uint8' | 'uint16';
+  sourceEncoding?: Encoding;
+  targetEncoding?: Encoding;
+  /** NaN, infinite and negative values: kept as far as results can hold them (the default), clamped, or an error. */
+  badTexels?: 'keep' | 'clamp' | 'fail';
+  /** Adds noise of half a step to results of 8 bits, the same in every run. */
+  dither?: boolean;
+  /** What to compute of a conversion to metallic as well. */
+  measures?: Measure[];
+}
+
+export interface Statistics {
+  texels: number;
+  /** Texels outside of what was measured. */
+  outOfDomain: number;
+  nan: number;
+  infinite: number;
+  negative: number;
+  /** Values, not texels, that whole numbers cannot hold. */
+  clippedValues: number;
+  aboveOne: number;
+}
+
+/** Arrays as the sources have them; numbers where the sources are numbers. */
+export interface TargetMaps {
+  roughness?: any;
+  specular?: any;
+  diffuse?: any;
+  baseColor?: any;
+  metallic?: any;
+  residual?: any;
+  metallicWidth?: any;
+  doubts?: any;
+  statistics: Statistics;
+}
+
+export interface Path {
+  /** From the source to the target; empty where both have one BRDF. */
+  models: string[];
+  steps: { id: string; expectedError: number }[];
+  /** Difference of pictures, relative to the source's. */
+  expectedError: number;
+  /** Whether the pictures will look different. */
+  looksDifferent: boolean;
+  /** Another model of the same renderer that looks closer, if there is one. */
+  closer: string | null;
+  notes: string[];
+  assumptions: string[];
+}
+
+export interface Model {
+  name: string;
+  kind: 'brdf' | 'specular' | 'metallic' | 'alias';
+  /** Of its roughness. */
+  encoding?: Encoding;
+  /** The name of the specular parameter of a BRDF. */
+  specular?: string;
+  /** Of a workflow. */
+  brdf?: string;
+  /** What an alias stands for, and why. */
+  model?: string;
+  meaning?: string;
+}
+
+export interface Converter {
+  readonly id: string;
+  readonly source: string;
+  readonly target: string;
+  readonly sourceEncoding: Encoding;
+  readonly targetEncoding: Encoding;
+  /** The names of the maps that it takes, and that it makes. */
+  readonly sources: readonly string[];
+  readonly targets: readonly string[];
+  /** What was measured: `[min, max]` of each parameter. */
+  readonly domain: { [parameter: string]: [number, number] };
+  readonly path: Omit<Path, 'notes' | 'assumptions'> | null;
+  readonly notes: string[];
+  readonly assumptions: string[];
+  convert(maps: SourceMaps & MapOptions): TargetMaps;
+  /** Frees its memory now; otherwise that is done some time after the last use. */
+  close(): void;
+}
+
+export class RemapError extends Error {
+  readonly kind: 'usage' | 'input' | 'output' | 'numeric';
+}
+
+/**
+ * Makes the library ready: from the file of the package, or from bytes, a URL or a Response of texremap.wasm.
+ * Everything else throws before.
+ */
+export function load(source?: ArrayBuffer | ArrayBufferView | URL | string | Response): Promise<void>;
+
+/** Converts maps. Converters are kept for later calls. */
+export function convert(
+  request: { source: string; target: string } & ConverterOptions & SourceMaps & MapOptions,
+): TargetMaps;
+
+/** A converter for many calls. `target` may be a renderer, such as cycles-5, for the closest of its models. */
+export function converter(source: string, target: string, options?: ConverterOptions): Converter;
+
+/** The converter in the text of a fit file of remapc. */
+export function converterOfFit(text: string): Converter;
+
+export function models(): Model[];
+export function path(source: string, target: string, options?: ConverterOptions): Path;
+export function version(): string;

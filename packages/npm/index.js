@@ -1,0 +1,455 @@
+// The library of the package: arrays in, arrays out. index.d.ts says what everything means.
+import makeCore from './texremap.mjs';
+
+// Texels that are converted at a time, so that the memory of the core stays small whatever the size of a map.
+const BAND = 131072;
+
+// What arrays hold: the names that the core has for them, and the largest of whole numbers.
+const ARRAYS = {
+  Float32Array: { Type: Float32Array, core: 'float', highest: 1 },
+  Float64Array: { Type: Float64Array, core: 'double', highest: 1 },
+  Uint8Array: { Type: Uint8Array, core: 'uint8', highest: 255 },
+  Uint8ClampedArray: { Type: Uint8ClampedArray, core: 'uint8', highest: 255 },
+  Uint16Array: { Type: Uint16Array, core: 'uint16', highest: 65535 },
+};
+const OUTPUTS = {
+  float32: ARRAYS.Float32Array,
+  float64: ARRAYS.Float64Array,
+  uint8: ARRAYS.Uint8Array,
+  uint16: ARRAYS.Uint16Array,
+};
+// The name of the class of a typed array, also of one of another realm or of a class of its own, as Buffer is.
+const nameOfArray = Object.getOwnPropertyDescriptor(Object.getPrototypeOf(Uint8Array.prototype), Symbol.toStringTag).get;
+const kindOf = (value) => ARRAYS[nameOfArray.call(value)];
+const isWhole = (kind) => kind.highest !== 1;
+// Names of parameters here, and in the core.
+const CORE_NAMES = new Map([
+  ['roughness', 'roughness'],
+  ['specular', 'specular'],
+  ['diffuse', 'diffuse'],
+  ['baseColor', 'base_color'],
+  ['metallic', 'metallic'],
+  ['metalMask', 'metal_mask'],
+  ['residual', 'residual'],
+  ['metallicWidth', 'metallic_width'],
+  ['doubts', 'doubts'],
+]);
+const OWN_NAMES = new Map([...CORE_NAMES].map(([own, core]) => [core, own]));
+const COLORS = new Set(['specular', 'diffuse', 'baseColor']);
+const MEASURES = ['residual', 'metallicWidth', 'doubts'];
+
+const OWN_OPTIONS = ['sourceWorkflow', 'targetWorkflow', 'via', 'diffuseConvention', 'dielectricF0', 'prior'];
+const CONVERTER_OPTIONS = ['source', 'target', ...OWN_OPTIONS];
+const MAP_OPTIONS = [
+  'width', 'firstRow', 'transfer', 'type', 'sourceEncoding', 'targetEncoding', 'badTexels', 'dither', 'measures',
+];
+const SOURCES = ['roughness', 'specular', 'diffuse', 'baseColor', 'metallic', 'metalMask'];
+
+/** An error of the library. `kind` is usage, input, output or numeric, as in C++. */
+export class RemapError extends Error {
+  constructor(message, kind = 'usage') {
+    super(message);
+    this.name = 'RemapError';
+    this.kind = kind;
+  }
+}
+
+let core = null;
+let loading = null;
+
+async function bytesOf(source) {
+  if (source instanceof Response) return source.arrayBuffer();
+  if (source instanceof URL || typeof source === 'string') {
+    const url = new URL(source, import.meta.url);
+    if (url.protocol === 'file:') return (await import('node:fs/promises')).readFile(url);
+    const response = await fetch(url);
+    if (!response.ok) throw new RemapError(`${url}: cannot be read: status ${response.status}`, 'input');
+    return response.arrayBuffer();
+  }
+  return source;
+}
+
+/** Makes the library ready. Needed once; later calls return at once. */
+export async function load(source = new URL('./texremap.wasm', import.meta.url)) {
+  if (core !== null) return;
+  loading ??= (async () => {
+    const bytes = await bytesOf(source);
+    if (!(bytes instanceof ArrayBuffer) && !ArrayBuffer.isView(bytes))
+      throw new RemapError('load: expected bytes, a URL or a Response of texremap.wasm');
+    // The glue would print the reason and wait for ever.
+    await WebAssembly.compile(bytes);
+    core = await makeCore({ wasmBinary: bytes });
+  })();
+  try {
+    await loading;
+  } finally {
+    loading = null;
+  }
+}
+
+function call(request) {
+  if (core === null) throw new RemapError('the library is not loaded (first: await load())');
+  const text = JSON.stringify(request);
+  const place = allocated(core.lengthBytesUTF8(text) + 1);
+  let answer;
+  try {
+    core.stringToUTF8(text, place, core.lengthBytesUTF8(text) + 1);
+    answer = JSON.parse(core.UTF8ToString(core._texremap_call(place)));
+  } finally {
+    core._free(place);
+  }
+  if (answer.failure !== undefined) throw new RemapError(answer.failure, answer.kind);
+  return answer.answer;
+}
+
+function allocated(bytes) {
+  const place = core._malloc(Math.max(bytes, 1));
+  if (place === 0) throw new RemapError('not enough memory (convert fewer texels at a time)', 'numeric');
+  return place;
+}
+
+const fail = (message) => {
+  throw new RemapError(message);
+};
+
+// The options of `given` with these names, each read once; another name is refused.
+function optionsOf(given, place, known) {
+  if (given === undefined) return {};
+  if (typeof given !== 'object' || given === null || ArrayBuffer.isView(given))
+    fail(`${place}: expected an object of options`);
+  const options = {};
+  for (const key of Object.keys(given)) {
+    if (!known.includes(key)) fail(`${place}: unknown option '${key}' (known: ${known.join(', ')})`);
+    if (given[key] !== undefined) options[key] = given[key];
+  }
+  return options;
+}
+
+function picked(options, names) {
+  return Object.fromEntries(names.filter((name) => name in options).map((name) => [name, options[name]]));
+}
+
+const isText = (value) => typeof value === 'string';
+const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
+const isTexts = (value) => Array.isArray(value) && value.every(isText);
+
+const EXPECTED = {
+  source: [isText, 'a name'],
+  target: [isText, 'a name'],
+  sourceWorkflow: [isText, 'a name'],
+  targetWorkflow: [isText, 'a name'],
+  via: [isTexts, 'a list of names'],
+  diffuseConvention: [isText, 'a name'],
+  dielectricF0: [isNumber, 'a number'],
+  prior: [isNumber, 'a number'],
+};
+
+function checked(names) {
+  for (const [name, value] of Object.entries(names))
+    if (!EXPECTED[name][0](value)) fail(`${name}: expected ${EXPECTED[name][1]}`);
+  for (const name of ['source', 'target']) if (!(name in names)) fail(`${name} is required`);
+  return names;
+}
+
+// Maps as they are given, until their size is known.
+
+// `{ constants }`, or `{ arrays, type }`: one array, or one each for red, green and blue.
+function valuesOf(name, value) {
+  const isColor = COLORS.has(name);
+  if (typeof value === 'number') return { name, isColor, constants: [value] };
+  if (ArrayBuffer.isView(value)) value = [value];
+  if (!Array.isArray(value) || value.length === 0)
+    fail(`${name}: expected a number, a typed array${isColor ? ', or a list of three of either' : ''}`);
+  const list = [...value];
+  if (list.length !== 1 && !(isColor && list.length === 3))
+    fail(`${name} has ${list.length} channels (give ${isColor ? '1 or 3' : '1'})`);
+  if (list.every((entry) => typeof entry === 'number')) return { name, isColor, constants: list };
+  for (const array of list) {
+    if (kindOf(array) === undefined) fail(`${name}: expected ${Object.keys(ARRAYS).join(', ')}`);
+    if (kindOf(array) !== kindOf(list[0])) fail(`${name}: channels differ in type`);
+    if (array.length !== list[0].length) fail(`${name}: channels differ in length`);
+  }
+  return { name, isColor, arrays: list, kind: kindOf(list[0]) };
+}
+
+// The number of texels that all maps have: that of a map of one channel, else of planes, else a third of a color.
+function texelCount(sources) {
+  const maps = sources.filter((source) => source.arrays);
+  const sure = maps.find((map) => !map.isColor || map.arrays.length === 3);
+  if (maps.length === 0) return 1;
+  if (sure) return sure.arrays[0].length;
+  const length = maps[0].arrays[0].length;
+  if (length % 3 !== 0)
+    fail(`${maps[0].name}: has ${length} values, which is no multiple of 3 (give RGB, or planes as a list of three arrays)`);
+  return length / 3;
+}
+
+// Values a texel of each array: 1, or 3 or 4 of an interleaved color.
+function layOut(source, count) {
+  if (!source.arrays) return;
+  const { name, arrays, isColor } = source;
+  const length = arrays[0].length;
+  if (arrays.length === 3 || !isColor) source.values = 1;
+  else source.values = [1, 3, 4].find((values) => values * count === length);
+  if (source.values === undefined || source.values * count !== length)
+    fail(`${name}: has ${length} values for ${count} texels (give ${isColor ? `${count}, ${3 * count} or ${4 * count}` : count})`);
+}
+
+function transferOf(options, name, kind) {
+  if (!COLORS.has(name)) return 'linear';
+  const asked = typeof options.transfer === 'object' ? options.transfer?.[name] : options.transfer;
+  if (asked !== undefined && asked !== 'linear' && asked !== 'srgb')
+    fail(`transfer: expected linear or srgb, found ${String(asked)}`);
+  // As the core has it (usual_color_transfer): whole numbers in sRGB.
+  return asked ?? (isWhole(kind) ? 'srgb' : 'linear');
+}
+
+// A block of memory of the core with one array of a band in it.
+class BandArray {
+  constructor(kind, valuesATexel, texels) {
+    this.kind = kind;
+    this.values = valuesATexel;
+    this.place = allocated(texels * valuesATexel * kind.Type.BYTES_PER_ELEMENT);
+  }
+  // Memory moves when it grows: a view is made for each use.
+  view(length) {
+    return new this.kind.Type(core.HEAPU8.buffer, this.place, length);
+  }
+  channel(index, width) {
+    const bytes = this.kind.Type.BYTES_PER_ELEMENT;
+    return {
+      at: this.place + index * bytes,
+      type: this.kind.core,
+      texelStride: this.values * bytes,
+      rowStride: this.values * bytes * width,
+    };
+  }
+  free() {
+    core._free(this.place);
+  }
+}
+
+function convertMaps(held, maps, options) {
+  const sources = SOURCES.filter((name) => name in maps).map((name) => valuesOf(name, maps[name]));
+  const used = new Set(held.sources);
+  if (held.targets.includes('residual')) used.add('metalMask');
+  for (const source of sources)
+    if (!used.has(source.name)) fail(`${source.name}: ${held.info.id} does not take it (it takes ${held.sources.join(', ')})`);
+  for (const name of held.sources)
+    if (!sources.some((source) => source.name === name)) fail(`${name} is required (a typed array or a number)`);
+  const count = texelCount(sources);
+  if (count === 0) fail('maps have no texels (is their buffer detached?)');
+  for (const source of sources) layOut(source, count);
+  const isPlain = sources.every((source) => !source.arrays);
+
+  const { width = Math.min(count, BAND), firstRow = 0 } = options;
+  if (!Number.isInteger(width) || width < 1) fail('width: expected a whole number of 1 or more');
+  if ('width' in options && count % width !== 0) fail(`width: ${count} texels are no whole rows of ${width}`);
+  if (!Number.isSafeInteger(firstRow) || firstRow < 0) fail('firstRow: expected a whole number of 0 or more');
+  const measures = options.measures ?? [];
+  if (!isTexts(measures)) fail('measures: expected a list of names');
+  for (const name of measures)
+    if (!MEASURES.includes(name) || !held.targets.includes(name))
+      fail(`measures: ${held.info.id} does not make '${name}' (it makes ${held.targets.filter((t) => MEASURES.includes(t)).join(', ') || 'none'})`);
+  if ('type' in options && !Object.hasOwn(OUTPUTS, options.type))
+    fail(`type: expected one of ${Object.keys(OUTPUTS).join(', ')}`);
+
+  // Each target is laid out as the source of its name, else as the first color, else as the first map.
+  const inputs = sources.filter((source) => source.arrays);
+  const specular = sources.find((source) => source.name === 'specular');
+  const specularChannels = specular?.arrays ? (specular.values === 1 && specular.arrays.length === 1 ? 1 : 3)
+    : specular?.constants.length ?? 3;
+  const isOfBrdf = held.sources.length === 2;
+  const targets = held.targets
+    .filter((name) => !MEASURES.includes(name) || measures.includes(name))
+    .map((name) => {
+      const isColor = COLORS.has(name);
+      const model = inputs.find((source) => source.name === name)
+        ?? (isColor ? inputs.find((source) => source.isColor && (source.values > 1 || source.arrays.length === 3)) : undefined)
+        ?? inputs[0];
+      const kind = 'type' in options ? OUTPUTS[options.type] : model?.kind ?? OUTPUTS.float32;
+      let planes = 1;
+      let values = 1;
+      if (isColor) {
+        const channels = isOfBrdf ? specularChannels : 3;
+        if (channels === 3) {
+          if (model?.isColor && model.arrays.length === 3) planes = 3;
+          else values = model?.isColor && model.values === 4 ? 4 : 3;
+        }
+      }
+      const arrays = Array.from({ length: planes }, () => new kind.Type(count * values));
+      // Opacity stays.
+      if (values === 4) copyOpacity(model, kind, arrays[0], count);
+      return { name, arrays, kind, values, alphaOf: values === 4 ? model : undefined };
+    });
+
+  const rows = Math.max(1, Math.floor(BAND / width));
+  const bandTexels = Math.min(count, rows * width);
+  const buffers = [];
+  const buffer = (kind, values) => {
+    const made = new BandArray(kind, values, bandTexels);
+    buffers.push(made);
+    return made;
+  };
+  const total = {};
+  try {
+    for (const source of inputs) source.bands = source.arrays.map(() => buffer(source.kind, source.values));
+    for (const target of targets) target.bands = target.arrays.map(() => buffer(target.kind, target.values));
+    const channelsOf = (map, channels) =>
+      map.bands.length === 3
+        ? map.bands.map((band) => band.channel(0, width))
+        : Array.from({ length: channels }, (_, c) => map.bands[0].channel(c, width));
+    const request = {
+      call: 'convert',
+      converter: held.number,
+      width,
+      ...picked(options, ['sourceEncoding', 'targetEncoding', 'badTexels', 'dither']),
+      sources: sources.map((source) => ({
+        parameter: CORE_NAMES.get(source.name),
+        name: source.name,
+        transfer: source.arrays ? transferOf(options, source.name, source.kind) : 'linear',
+        ...(source.arrays ? { channels: channelsOf(source, Math.min(source.values, 3)) } : { constants: source.constants.map(toCore) }),
+      })),
+      targets: targets.map((target) => ({
+        parameter: CORE_NAMES.get(target.name),
+        transfer: transferOf(options, target.name, target.kind),
+        channels: channelsOf(target, Math.min(target.values, 3)),
+      })),
+    };
+    for (let first = 0; first < count; first += bandTexels) {
+      const texels = Math.min(bandTexels, count - first);
+      for (const source of inputs)
+        source.arrays.forEach((array, i) =>
+          source.bands[i].view(texels * source.values)
+            .set(array.subarray(first * source.values, (first + texels) * source.values)));
+      const whole = Math.floor(texels / width);
+      // Rows without a width of their own end where the maps end.
+      const size = whole > 0 ? { width, height: whole } : { width: texels, height: 1 };
+      const counts = call({ ...request, ...size, firstRow: firstRow + Math.floor(first / width) });
+      for (const [name, number] of Object.entries(counts)) total[name] = (total[name] ?? 0) + number;
+      for (const target of targets)
+        target.arrays.forEach((array, i) => {
+          const band = target.bands[i].view(texels * target.values);
+          if (target.alphaOf) keepOpacity(array, band, first);
+          array.set(band, first * target.values);
+        });
+    }
+  } finally {
+    for (const made of buffers) made.free();
+  }
+  const result = { statistics: total };
+  for (const target of targets) {
+    if (!isPlain) result[target.name] = target.arrays.length === 1 ? target.arrays[0] : target.arrays;
+    else result[target.name] = target.arrays[0].length === 1 ? target.arrays[0][0] : Array.from(target.arrays[0]);
+  }
+  return result;
+}
+
+// JSON has no infinity and no NaN.
+function toCore(value) {
+  return Number.isFinite(value) ? value : fail(`constants must be finite, found ${value}`);
+}
+
+function copyOpacity(source, kind, to, count) {
+  const from = source.arrays[0];
+  const scale = kind.highest / source.kind.highest;
+  const rounded = (value) => Math.min(Math.max(Math.round(value * scale), 0), kind.highest);
+  const scaled = scale === 1 ? (value) => value : isWhole(kind) ? rounded : (value) => value * scale;
+  for (let i = 3; i < 4 * count; i += 4) to[i] = scaled(from[i]);
+}
+
+function keepOpacity(array, band, first) {
+  for (let i = 3; i < band.length; i += 4) band[i] = array[4 * first + i];
+}
+
+const registry = typeof FinalizationRegistry === 'undefined' ? null
+  : new FinalizationRegistry((number) => call({ call: 'close', converter: number }));
+
+class MapConverter {
+  constructor(request) {
+    const { converter, sources, targets, ...info } = call({ call: 'open', ...request });
+    this.number = converter;
+    this.sources = Object.freeze(sources.map((parameter) => OWN_NAMES.get(parameter.name)));
+    this.targets = Object.freeze(targets.map((parameter) => OWN_NAMES.get(parameter.name)));
+    this.info = info;
+    registry?.register(this, converter, this);
+  }
+  convert(maps) {
+    if (this.number === 0) fail('converter: is closed (make another one)');
+    const options = optionsOf(maps, 'convert', [...SOURCES, ...MAP_OPTIONS]);
+    return convertMaps(this, picked(options, SOURCES), picked(options, MAP_OPTIONS));
+  }
+  close() {
+    if (this.number === 0) return;
+    registry?.unregister(this);
+    call({ call: 'close', converter: this.number });
+    this.number = 0;
+  }
+}
+
+/** A converter for many calls. */
+export function converter(source, target, options) {
+  return publicOf(new MapConverter(checked({ source, target, ...optionsOf(options, 'converter', OWN_OPTIONS) })));
+}
+
+/** The converter of a fit file of remapc, from its text. */
+export function converterOfFit(text) {
+  if (!isText(text)) fail('converterOfFit: expected the text of a fit file');
+  return publicOf(new MapConverter({ fit: text }));
+}
+
+function publicOf(held) {
+  return Object.freeze({
+    ...held.info,
+    sources: held.sources,
+    targets: held.targets,
+    convert: (maps) => held.convert(maps),
+    close: () => held.close(),
+  });
+}
+
+// The converters of the last calls of convert().
+const recent = new Map();
+const MOST_RECENT = 16;
+
+function recentConverter(names) {
+  const key = JSON.stringify(names);
+  let found = recent.get(key);
+  if (found === undefined) {
+    found = new MapConverter(names);
+    if (recent.size >= MOST_RECENT) {
+      const [oldest, held] = recent.entries().next().value;
+      held.close();
+      recent.delete(oldest);
+    }
+  } else {
+    recent.delete(key);
+  }
+  recent.set(key, found);
+  return found;
+}
+
+/** Converts maps, or single values, from one model to another. */
+export function convert(request) {
+  const options = optionsOf(request, 'convert', [...CONVERTER_OPTIONS, ...SOURCES, ...MAP_OPTIONS]);
+  const held = recentConverter(checked(picked(options, CONVERTER_OPTIONS)));
+  return convertMaps(held, picked(options, SOURCES), picked(options, MAP_OPTIONS));
+}
+
+/** The models, workflows and other names that are known. */
+export function models() {
+  return call({ call: 'models' });
+}
+
+/** What leads from one model to another. */
+export function path(source, target, options) {
+  const held = new MapConverter(checked({ source, target, ...optionsOf(options, 'path', OWN_OPTIONS) }));
+  const { path: found, notes, assumptions } = held.info;
+  held.close();
+  return { ...found, notes, assumptions };
+}
+
+/** The version of the library. */
+export function version() {
+  return call({ call: 'version' });
+}

@@ -1,0 +1,264 @@
+// What JavaScript calls of the library: one function that takes a request as JSON and gives an answer as
+// JSON. Maps stay in memory, and requests name their places; texremap.js alone writes requests.
+#include <cstdint>
+#include <emscripten.h>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "convert/converter_file.hpp"
+#include "converter/converter_fields.hpp"
+#include "core/errors.hpp"
+#include "core/json_field.hpp"
+#include "remap/conversion.hpp"
+#include "remap/convert_maps.hpp"
+#include "remap/version.hpp"
+#include "stages/brdf_stage.hpp"
+
+namespace remap {
+namespace {
+
+// A converter that JavaScript holds, by its number.
+struct HeldConverter {
+  BuiltConversion conversion;         // by names
+  std::unique_ptr<Converter> of_fit;  // of the text of a fit
+  // Of the roughness of maps, unless they say otherwise: a converter of materials may have another inside.
+  RoughnessConvention source = RoughnessConvention::kAlpha, target = RoughnessConvention::kAlpha;
+  const Converter& converter() const { return of_fit ? *of_fit : conversion.converter(); }
+};
+
+const ConverterGraph& graph() {
+  static const ConverterGraph shipped = shipped_graph();
+  return shipped;
+}
+
+std::map<std::int64_t, HeldConverter>& held_converters() {
+  static std::map<std::int64_t, HeldConverter> held;
+  return held;
+}
+
+template <typename Value, std::size_t Count>
+Value named(const Field& field, const NamedValues<Value, Count>& table) {
+  std::string names;
+  for (const NamedValue<Value>& entry : table) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  return field.named(table, "one of " + names);
+}
+
+template <typename Value, std::size_t Count>
+std::optional<Value> named_if(const Field& field, const std::string& key,
+                              const NamedValues<Value, Count>& table) {
+  if (!field.contains(key) || field[key].is_null()) return std::nullopt;
+  return named(field[key], table);
+}
+
+Parameter parameter_named(const Field& field) {
+  for (std::size_t i = 0; i < kParameterCount; ++i)
+    if (plain_name(static_cast<Parameter>(i)) == field.text()) return static_cast<Parameter>(i);
+  field.fail("unknown parameter");
+}
+
+// The places of a message as JavaScript has them.
+ConversionRequest request_of(const Field& field) {
+  ConversionRequest request;
+  request.source = model_named(field["source"].text());
+  request.target = model_named(field["target"].text());
+  request.source_workflow = named_if(field, "sourceWorkflow", kWorkflowKinds);
+  request.target_workflow = named_if(field, "targetWorkflow", kWorkflowKinds);
+  if (field.contains("via"))
+    request.via = field["via"].list(0, [](const Field& model) { return model.text(); });
+  request.diffuse_convention = named_if(field, "diffuseConvention", kDiffuseConventions);
+  if (field.contains("dielectricF0")) request.dielectric_f0 = field["dielectricF0"].number();
+  if (field.contains("prior")) request.prior = field["prior"].number();
+  request.words.source_workflow = "sourceWorkflow";
+  request.words.target_workflow = "targetWorkflow";
+  request.words.dielectric_f0 = "dielectricF0";
+  request.words.diffuse_convention = "diffuseConvention";
+  return request;
+}
+
+Json parameters_json(const std::vector<Parameter>& parameters) {
+  Json list = Json::list();
+  for (const Parameter parameter : parameters)
+    list.push_back({{"name", plain_name(parameter)},
+                    {"color", is_color(parameter)},
+                    {"measure", is_measure(parameter)}});
+  return list;
+}
+
+Json path_json(const ConverterPath& path) {
+  Json steps = Json::list();
+  for (const Converter* step : path.steps)
+    steps.push_back({{"id", step->info().id}, {"expectedError", expected_error(step->info())}});
+  return {{"models", path.steps.empty() ? std::vector<std::string>{} : path_models(path)},
+          {"steps", steps},
+          {"expectedError", path.expected_error}};
+}
+
+Json conversion_json(const HeldConverter& held, const ConverterInfo& domain) {
+  const Converter& converter = held.converter();
+  const ConverterInfo& info = converter.info();
+  return {{"id", info.id},
+          {"source", info.source.model},
+          {"target", info.target.model},
+          {"sourceEncoding", convention_name(held.source)},
+          {"targetEncoding", convention_name(held.target)},
+          {"sources", parameters_json(converter.sources())},
+          {"targets", parameters_json(converter.targets())},
+          {"domain", domain_json(domain)}};
+}
+
+// By names, or of a fit whose text is given.
+Json open_converter(const Field& request) {
+  HeldConverter held;
+  Json answer;
+  if (request.contains("fit")) {
+    auto fit = fitted_converter_from_json(request["fit"].any_text(), "fit");
+    auto* const data = std::get_if<ConverterData>(&fit);
+    if (data == nullptr) throw input_error("fit: is of whole materials (give a fit of width and specular)");
+    held.of_fit = make_converter(*data, best_instruction_set());
+    held.source = held.of_fit->info().source.roughness;
+    held.target = held.of_fit->info().target.roughness;
+    answer = conversion_json(held, held.of_fit->info());
+    answer["path"] = Json();
+    answer["notes"] = answer["assumptions"] = Json::list();
+  } else {
+    const ConversionRequest names = request_of(request);
+    const ConversionChoice choice = choose_conversion(names, graph());
+    held.conversion = build_conversion(choice, names.via, graph());
+    const ConverterInfo& info = held.converter().info();
+    held.source = choice.is_material() ? width_of(*choice.source) : info.source.roughness;
+    held.target = choice.is_material() ? width_of(*choice.target) : info.target.roughness;
+    answer = conversion_json(held, held.conversion.domain());
+    answer["path"] = path_json(held.conversion.path);
+    answer["path"]["looksDifferent"] = held.conversion.closeness.looks_different;
+    answer["path"]["closer"] =
+        held.conversion.closeness.closer ? Json(target_model(*held.conversion.closeness.closer)) : Json();
+    answer["notes"] = choice.notes;
+    answer["assumptions"] = choice.assumptions;
+  }
+  static std::int64_t next = 0;
+  answer["converter"] = ++next;
+  held_converters().emplace(next, std::move(held));
+  return answer;
+}
+
+Json close_converter(const Field& request) {
+  held_converters().erase(request["converter"].count());
+  return {};
+}
+
+Json list_models() {
+  Json models = Json::list();
+  for (const std::string& name : graph().models()) {
+    const ModelSide side = graph().side_of(name);
+    models.push_back({{"name", name},
+                      {"kind", "brdf"},
+                      {"encoding", convention_name(side.roughness)},
+                      {"specular", side.specular}});
+  }
+  for (const WorkflowModel& model : workflow_models())
+    models.push_back({{"name", model_of(model.end)},
+                      {"kind", kind_name(model.end)},
+                      {"encoding", convention_name(width_of(model.end))},
+                      {"brdf", model.brdf}});
+  for (const ModelAlias& alias : model_aliases())
+    models.push_back(
+        {{"name", alias.name}, {"kind", "alias"}, {"model", alias.model}, {"meaning", alias.meaning}});
+  return models;
+}
+
+template <typename View>
+std::vector<View> views_of(const Field& field) {
+  if (!field.contains("channels")) return {};
+  return field["channels"].list(0, [](const Field& channel) {
+    View view;
+    view.first = reinterpret_cast<std::byte*>(static_cast<std::uintptr_t>(channel["at"].count()));
+    view.type = named(channel["type"], kPixelTypes);
+    view.texel_stride = static_cast<std::ptrdiff_t>(channel["texelStride"].count());
+    view.row_stride = static_cast<std::ptrdiff_t>(channel["rowStride"].count());
+    return view;
+  });
+}
+
+SourceParameter source_of(const Field& field) {
+  SourceParameter source;
+  source.name = field["name"].text();
+  source.channels = views_of<ConstChannelView>(field);
+  if (field.contains("constants"))
+    source.constants =
+        field["constants"].list(0, [](const Field& value) { return static_cast<float>(value.number()); });
+  source.transfer = named(field["transfer"], kTransfers);
+  return source;
+}
+
+constexpr NamedValues<BadTexels, 3> kBadTexels = {
+    {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
+
+Json counts_json(const MapStatistics& counts) {
+  return {{"texels", counts.texel_count},      {"outOfDomain", counts.out_of_domain_count},
+          {"nan", counts.nan_count},           {"infinite", counts.infinite_count},
+          {"negative", counts.negative_count}, {"clippedValues", counts.clipped_count},
+          {"aboveOne", counts.above_one_count}};
+}
+
+Json convert(const Field& request) {
+  const auto held = held_converters().find(request["converter"].count());
+  if (held == held_converters().end()) throw usage_error("converter: is closed (make another one)");
+  MapConversion maps;
+  maps.width = static_cast<std::size_t>(request["width"].count());
+  maps.height = static_cast<std::size_t>(request["height"].count());
+  maps.first_row = static_cast<std::size_t>(request["firstRow"].count());
+  maps.dither = request.flag("dither");
+  maps.bad_texels = named_if(request, "badTexels", kBadTexels).value_or(BadTexels::kKeep);
+  maps.source_convention = named_if(request, "sourceEncoding", kConventions).value_or(held->second.source);
+  maps.target_convention = named_if(request, "targetEncoding", kConventions).value_or(held->second.target);
+  for (const Field& source : request["sources"].list(0, [](const Field& field) { return field; }))
+    maps.sources[parameter_named(source["parameter"])] = source_of(source);
+  for (const Field& target : request["targets"].list(0, [](const Field& field) { return field; }))
+    maps.targets[parameter_named(target["parameter"])] = {views_of<ChannelView>(target),
+                                                          named(target["transfer"], kTransfers)};
+  return counts_json(convert_maps(held->second.converter(), maps));
+}
+
+Json answer_to(const Field& request) {
+  const std::string call = request["call"].text();
+  if (call == "open") return open_converter(request);
+  if (call == "close") return close_converter(request);
+  if (call == "convert") return convert(request);
+  if (call == "models") return list_models();
+  if (call == "version") return kVersion;
+  request["call"].fail("unknown call");
+}
+
+constexpr NamedValues<ErrorKind, 5> kErrorKinds = {{{ErrorKind::kUsage, "usage"},
+                                                    {ErrorKind::kInput, "input"},
+                                                    {ErrorKind::kOutput, "output"},
+                                                    {ErrorKind::kNumeric, "numeric"},
+                                                    {ErrorKind::kInterrupted, "interrupted"}}};
+
+std::string failure(std::string_view kind, const std::string& message) {
+  return Json{{"failure", message}, {"kind", kind}}.dump();
+}
+
+}  // namespace
+}  // namespace remap
+
+// The answer lives until the next call.
+extern "C" EMSCRIPTEN_KEEPALIVE const char* texremap_call(const char* request) {
+  static std::string answer;
+  try {
+    const remap::Json json = remap::parse_json(request, "request");
+    answer = remap::Json{{"answer", remap::answer_to(remap::Field(json, "options"))}}.dump();
+  } catch (const remap::Error& error) {
+    answer = remap::failure(remap::name_of(remap::kErrorKinds, error.kind()), error.what());
+  } catch (const std::bad_alloc&) {
+    answer = remap::failure("numeric", "not enough memory (convert fewer texels at a time)");
+  } catch (const std::exception& error) {
+    answer = remap::failure("numeric", error.what());
+  }
+  return answer.c_str();
+}
