@@ -8,7 +8,7 @@ import argparse
 import json
 import os
 import sys
-from typing import NamedTuple, Optional, Tuple
+from typing import List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -255,7 +255,8 @@ def _plan(stage, is_to_metallic, folder):
             yield MaterialReport(path, "failed", str(failure))
 
 
-def convert(source, output, *, to="metallic", force=False, dry_run=False):
+def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathLike[str]"], *, to: str = "metallic",
+            force: bool = False, dry_run: bool = False) -> List[MaterialReport]:
     """Converts every UsdPreviewSurface of ``source`` into a new layer ``output``, which sublayers ``source``.
 
     to: ``"metallic"`` or ``"specular"``. Textures are written into the folder ``STEM_textures`` beside ``output``; a
@@ -327,7 +328,7 @@ def _write_layer(root, layer, stage, edits, output, folder):
             os.remove(unfinished)
 
 
-def main(words: Optional[list] = None):
+def main(words: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(prog="texremap usd", description="Converts the UsdPreviewSurface materials of a USD "
                                      "file between the specular and the metallic workflow, into a new layer over it.")
     parser.add_argument("source", metavar="IN", help="a .usda, .usdc, .usd or .usdz file")
