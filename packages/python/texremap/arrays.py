@@ -1,5 +1,6 @@
 """Converters over NumPy arrays."""
 
+import functools
 import os
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Union
 
@@ -295,12 +296,27 @@ def convert(*, source: str, target: str, roughness: Optional[Map] = None, glossi
     >>> sorted(result), result.base_color.shape, bool((result.metallic > 0.99).all())
     (['base_color', 'metallic', 'roughness'], (4, 4, 3), True)
     """
-    converter = Converter(source, target, **options)
+    converter = _kept_converter(source, target, options)
     return converter.convert(
         roughness=roughness, glossiness=glossiness, specular=specular, diffuse=diffuse, base_color=base_color,
         metallic=metallic, metal_mask=metal_mask, roughness_encoding=roughness_encoding,
         output_encoding=output_encoding, transfer=transfer, dtype=dtype, out=out, measures=measures, outside=outside,
         bad_texels=bad_texels, dither=dither, threads=threads)
+
+
+@functools.lru_cache(maxsize=32)
+def _made_once(source, target, options):
+    return Converter(source, target, **dict(options))
+
+
+def _kept_converter(source, target, options):
+    """One of the last that were used; of files, which may have changed, a new one."""
+    if options.get("converters") is None:
+        try:
+            return _made_once(source, target, tuple(sorted(options.items())))
+        except TypeError:  # what cannot be a key
+            pass
+    return Converter(source, target, **options)
 
 
 def _thread_count(threads):
