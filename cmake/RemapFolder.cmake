@@ -16,3 +16,19 @@ function(remap_folder target folder)
   target_link_libraries(${target} PUBLIC ${LINK_PUBLIC} PRIVATE ${LINK_PRIVATE})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${REMAP_UNITY} UNITY_BUILD_BATCH_SIZE 6)
 endfunction()
+
+# remap_find(PACKAGE DEBIAN_PACKAGE): find_package(), which says what to install where it finds nothing.
+macro(remap_find package debian_package)
+  find_package(${package} QUIET)
+  if(NOT ${package}_FOUND)
+    message(FATAL_ERROR "remap: ${package} is not installed (on Debian: apt-get install ${debian_package}, or scripts/install-packages for all)")
+  endif()
+endmacro()
+
+# remap_find_header(VARIABLE HEADER DEBIAN_PACKAGE): the folder of a library that is one header, and brings no CMake package.
+macro(remap_find_header variable header debian_package)
+  find_path(${variable} ${header})
+  if(NOT ${variable})
+    message(FATAL_ERROR "remap: ${header} is not installed (on Debian: apt-get install ${debian_package}, or scripts/install-packages for all)")
+  endif()
+endmacro()

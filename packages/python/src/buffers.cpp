@@ -31,9 +31,9 @@ Buffer::Buffer(nanobind::handle object, Access access, const std::string& name) 
   const int flags = access == Access::kWrite ? PyBUF_STRIDED | PyBUF_FORMAT : PyBUF_STRIDED_RO | PyBUF_FORMAT;
   if (PyObject_GetBuffer(object.ptr(), view.get(), flags) != 0) {
     PyErr_Clear();
-    throw Error(ErrorKind::kUsage, name + (access == Access::kWrite
-                                               ? ": cannot be written (give a writable array)"
-                                               : ": is no array of numbers"));
+    throw Error(ErrorKind::kUsage,
+                name + (access == Access::kWrite ? ": cannot be written (give a writable array)"
+                                                 : ": is no array of numbers"));
   }
   view_ = std::shared_ptr<Py_buffer>(view.release(), [](Py_buffer* held) {
     PyBuffer_Release(held);
@@ -46,14 +46,15 @@ Buffer::Buffer(nanobind::handle object, Access access, const std::string& name) 
                                        "' (use integers of up to 32 bits or floats of 16 to 64)");
   type_ = *type;
   if (dimensions() != 3)
-    throw Error(ErrorKind::kUsage,
-                name + ": has " + std::to_string(dimensions()) + " dimensions, not (height, width, channels)");
+    throw Error(ErrorKind::kUsage, name + ": has " + std::to_string(dimensions()) +
+                                       " dimensions, not (height, width, channels)");
 }
 
 std::vector<ChannelView> Buffer::channels() const {
   std::vector<ChannelView> channels;
   for (std::size_t c = 0; c < extent(2); ++c) {
-    std::byte* const first = static_cast<std::byte*>(view_->buf) + static_cast<Py_ssize_t>(c) * view_->strides[2];
+    std::byte* const first =
+        static_cast<std::byte*>(view_->buf) + static_cast<Py_ssize_t>(c) * view_->strides[2];
     channels.push_back({first, type_, view_->strides[1], view_->strides[0]});
   }
   return channels;

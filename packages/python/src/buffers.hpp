@@ -3,10 +3,9 @@
 
 #include <cstddef>
 #include <memory>
+#include <nanobind/nanobind.h>
 #include <string>
 #include <vector>
-
-#include <nanobind/nanobind.h>
 
 #include "remap/pixels.hpp"
 
@@ -18,8 +17,8 @@ class Buffer {
  public:
   enum class Access { kRead, kWrite };
 
-  // Throws kUsage, beginning with `name`, for an object without the protocol, one that is not writable but has
-  // to be, and values that are no numbers of 8 to 64 bits in the order of this machine.
+  // Throws kUsage, beginning with `name`, for an object without the protocol, one that is not writable but
+  // has to be, and values that are no numbers of 8 to 64 bits in the order of this machine.
   Buffer(nanobind::handle object, Access access, const std::string& name);
 
   std::size_t dimensions() const noexcept { return static_cast<std::size_t>(view_->ndim); }

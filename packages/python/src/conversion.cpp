@@ -30,7 +30,8 @@ std::optional<Value> member(const nb::dict& dict, const char* name) {
 
 // One of a table of names.
 template <typename Value, std::size_t Count>
-std::optional<Value> named_member(const nb::dict& dict, const char* name, const NamedValues<Value, Count>& table) {
+std::optional<Value> named_member(const nb::dict& dict, const char* name,
+                                  const NamedValues<Value, Count>& table) {
   const auto word = member<std::string>(dict, name);
   if (!word) return std::nullopt;
   return one_of(table, "value").read(name, *word);
@@ -56,8 +57,8 @@ class MapSize {
   void hold(const Buffer& buffer, const std::string& name, MapConversion& maps) {
     const std::size_t height = buffer.extent(0), width = buffer.extent(1);
     if (is_known_ && (height != maps.height || width != maps.width))
-      throw usage_error(name + ": is " + std::to_string(width) + "x" + std::to_string(height) + ", but others are " +
-                        std::to_string(maps.width) + "x" + std::to_string(maps.height));
+      throw usage_error(name + ": is " + std::to_string(width) + "x" + std::to_string(height) +
+                        ", but others are " + std::to_string(maps.width) + "x" + std::to_string(maps.height));
     is_known_ = true;
     maps.height = height;
     maps.width = width;
@@ -171,11 +172,13 @@ MaterialConversion MaterialConversion::load(const std::string& path,
     conversion.choice_.target_brdf = data->info.target.model;
     built = build_conversion(conversion.choice_, make_converter(*data, best_instruction_set()));
   } else if (const auto* warp = std::get_if<WarpMapFit>(&fit)) {
-    const WorkflowKind source = source_workflow == "metallic" ? WorkflowKind::kMetallic : WorkflowKind::kSpecular;
+    const WorkflowKind source =
+        source_workflow == "metallic" ? WorkflowKind::kMetallic : WorkflowKind::kSpecular;
     conversion.choice_ = choice_of_warp(*warp, source, RoughnessConvention::kRoughness);
     built.material = make_warp_converter(*warp, *conversion.choice_.source, best_instruction_set());
   } else {
-    throw input_error(path + ": converts whole materials between workflows, which need no fit (name them as source "
+    throw input_error(path +
+                      ": converts whole materials between workflows, which need no fit (name them as source "
                       "and target)");
   }
   conversion.built_ = std::make_shared<const BuiltConversion>(std::move(built));
@@ -205,7 +208,8 @@ nb::dict MaterialConversion::convert(const nb::dict& sources, const nb::dict& ta
   return counts_of(statistics);
 }
 
-std::size_t MaterialConversion::target_channels(const std::string& parameter, std::size_t specular_channels) const {
+std::size_t MaterialConversion::target_channels(const std::string& parameter,
+                                                std::size_t specular_channels) const {
   return built_->converter().target_channels(parameter_named(parameter), specular_channels);
 }
 
@@ -235,8 +239,8 @@ nb::dict MaterialConversion::describe() const {
   text["steps"] = steps;
   text["expected_error"] = built_->path.expected_error;
   text["looks_different"] = built_->closeness.looks_different;
-  text["closer"] = built_->closeness.closer ? nb::object(nb::cast(target_model(*built_->closeness.closer)))
-                                            : nb::none();
+  text["closer"] =
+      built_->closeness.closer ? nb::object(nb::cast(target_model(*built_->closeness.closer))) : nb::none();
   text["notes"] = choice_.notes;
   text["assumptions"] = choice_.assumptions;
   text["instructions"] = std::string(instruction_set_name(info.instructions));

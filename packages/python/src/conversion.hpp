@@ -3,11 +3,10 @@
 
 #include <map>
 #include <memory>
+#include <nanobind/nanobind.h>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <nanobind/nanobind.h>
 
 #include "remap/conversion.hpp"
 #include "remap/convert_maps.hpp"
@@ -26,8 +25,8 @@ class MaterialConversion {
   static MaterialConversion load(const std::string& path, const std::optional<std::string>& source_workflow);
 
   // `sources`: arrays (height, width, channels) or lists of constants, by the names of parameters; `targets`:
-  // writable arrays. `options`: members of MapTreatment and MapConversion by name, `transfers` of each. Returns
-  // the counts of MapStatistics. Throws as convert_maps().
+  // writable arrays. `options`: members of MapTreatment and MapConversion by name, `transfers` of each.
+  // Returns the counts of MapStatistics. Throws as convert_maps().
   nanobind::dict convert(const nanobind::dict& sources, const nanobind::dict& targets,
                          const nanobind::dict& options) const;
   std::size_t target_channels(const std::string& parameter, std::size_t specular_channels) const;

@@ -2,13 +2,12 @@
 
 #include <atomic>
 #include <cstring>
-#include <utility>
-
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -188,7 +187,8 @@ class WrittenByPython : public NewImage {
   void write_rows(int first_row, int row_count, const std::byte* texels) override {
     in_python(ErrorKind::kOutput, [&] {
       image_->attr("write_rows")(
-          first_row, row_count, memory_of(texels, static_cast<std::size_t>(row_count) * layout().row_bytes()));
+          first_row, row_count,
+          memory_of(texels, static_cast<std::size_t>(row_count) * layout().row_bytes()));
     });
   }
   void finish() override {
@@ -204,7 +204,8 @@ class WrittenByPython : public NewImage {
   nb::object made(const nb::object& images, const std::vector<NewPart>& parts) const {
     nb::list given;
     for (const NewPart& part : parts)
-      given.append(nb::make_tuple(static_cast<const ReadByPython*>(part.model)->object(), changes_of(part.changes)));
+      given.append(
+          nb::make_tuple(static_cast<const ReadByPython*>(part.model)->object(), changes_of(part.changes)));
     return images.attr("create")(path_.string(), unfinished_.string(), given);
   }
 
@@ -246,9 +247,9 @@ class PythonCodec : public ImageCodec {
  private:
   std::string encoded(const ImagePixels& pixels, const char* method, const nb::object& setting, bool) const {
     return in_python(ErrorKind::kOutput, [&] {
-      const nb::object bytes = images_->attr(method)(pixels.width, pixels.height, pixels.channels,
-                                                     name_of_type(pixels.type),
-                                                     memory_of(pixels.bytes.data(), pixels.bytes.size()), setting);
+      const nb::object bytes =
+          images_->attr(method)(pixels.width, pixels.height, pixels.channels, name_of_type(pixels.type),
+                                memory_of(pixels.bytes.data(), pixels.bytes.size()), setting);
       const auto text = nb::cast<nb::bytes>(bytes);
       return std::string(text.c_str(), text.size());
     });
@@ -270,13 +271,15 @@ class PythonImages : public ImageLibrary {
     });
   }
   std::unique_ptr<NewImage> create(const fs::path& path, const std::vector<NewPart>& parts) const override {
-    return in_python(ErrorKind::kOutput, [&] { return std::make_unique<WrittenByPython>(*images_, path, parts); });
+    return in_python(ErrorKind::kOutput,
+                     [&] { return std::make_unique<WrittenByPython>(*images_, path, parts); });
   }
   const ImageCodec& codec() const override { return codec_; }
 
   // Of remapc alone.
   Picture read_picture(const fs::path& path) const override { return refuse(path); }
-  void write_exr(const fs::path& path, const Picture&, const std::map<std::string, std::string>&) const override {
+  void write_exr(const fs::path& path, const Picture&,
+                 const std::map<std::string, std::string>&) const override {
     refuse(path);
   }
   void write_png(const fs::path& path, const Picture&) const override { refuse(path); }

@@ -1,12 +1,11 @@
 // The module texremap._core: converters of the library over arrays, and the commands of texremap.
-#include <string>
-#include <vector>
-
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
+#include <string>
+#include <vector>
 
 #include "command_line/interruption.hpp"
 #include "conversion.hpp"
@@ -23,11 +22,16 @@ namespace {
 
 std::string_view kind_name(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::kUsage: return "usage";
-    case ErrorKind::kInput: return "input";
-    case ErrorKind::kOutput: return "output";
-    case ErrorKind::kNumeric: return "numeric";
-    case ErrorKind::kInterrupted: return "interrupted";
+    case ErrorKind::kUsage:
+      return "usage";
+    case ErrorKind::kInput:
+      return "input";
+    case ErrorKind::kOutput:
+      return "output";
+    case ErrorKind::kNumeric:
+      return "numeric";
+    case ErrorKind::kInterrupted:
+      return "interrupted";
   }
   return "usage";
 }

@@ -6,7 +6,7 @@ class Error(ValueError):
     self-test) or ``"interrupted"``.
     """
 
-    def __init__(self, message, kind="usage"):
+    def __init__(self, message: str, kind: str = "usage") -> None:
         super().__init__(message)
         self.kind = kind
 

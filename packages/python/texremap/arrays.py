@@ -1,15 +1,21 @@
 """Converters over NumPy arrays."""
 
+import functools
 import os
-from typing import NamedTuple, Optional, Tuple
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from ._error import Error
 
 _COLORS = {"specular", "diffuse", "base_color", "residual"}
 _MEASURES = ("residual", "metallic_width", "doubts")
+
+
+Map = Union[npt.NDArray[Any], float]
+Color = Union[npt.NDArray[Any], float, Tuple[float, float, float], List[float]]
 
 
 class Model(NamedTuple):
@@ -54,19 +60,19 @@ class Counts(NamedTuple):
     """The index of the first texel with NaN, an infinity or a negative value."""
 
 
-class Material(dict):
+class Material(Dict[str, npt.NDArray[Any]]):
     """Results by the names of parameters, also as attributes, and their ``counts``."""
 
     counts: Counts
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> npt.NDArray[Any]:
         try:
             return self[name]
         except KeyError:
             raise AttributeError(f"the result has no {name} (it has {', '.join(self)})") from None
 
 
-def models():
+def models() -> List[Model]:
     """All names that ``source`` and ``target`` take, as a list of :class:`Model`.
 
     >>> [model.name for model in models() if model.kind == "metallic"][:2]
@@ -75,7 +81,7 @@ def models():
     return [Model(*fields) for fields in _core.models()]
 
 
-def path(source, target, **options):
+def path(source: str, target: str, **options: Any) -> Path:
     """How closely ``target`` can look like ``source``: a :class:`Path`. ``options`` as of :class:`Converter`.
 
     >>> path("mitsuba/ward", "mitsuba/as").steps
@@ -100,8 +106,11 @@ class Converter:
     A converter may be used by many threads at a time. Raises :class:`Error`.
     """
 
-    def __init__(self, source, target, *, source_workflow=None, target_workflow=None, via=None,
-                 diffuse_convention=None, dielectric_f0=None, prior=None, converters=None, instructions=None):
+    def __init__(self, source: str, target: str, *, source_workflow: Optional[str] = None,
+                 target_workflow: Optional[str] = None, via: Optional[Iterable[str]] = None,
+                 diffuse_convention: Optional[str] = None, dielectric_f0: Optional[float] = None,
+                 prior: Optional[float] = None, converters: Union[str, "os.PathLike[str]", None] = None,
+                 instructions: Optional[str] = None) -> None:
         request = {
             "source": source, "target": target, "source_workflow": source_workflow,
             "target_workflow": target_workflow, "via": None if via is None else list(via),
@@ -111,7 +120,7 @@ class Converter:
         self._hold(_core.Conversion(request))
 
     @classmethod
-    def load(cls, file, *, source_workflow=None):
+    def load(cls, file: Union[str, "os.PathLike[str]"], *, source_workflow: Optional[str] = None) -> "Converter":
         """The converter of a fit or a warp in JSON, as ``remapc fit`` and ``remapc warp`` write them.
 
         A warp takes the specular workflow, or the metallic one if ``source_workflow`` says so.
@@ -124,32 +133,78 @@ class Converter:
         self._conversion = conversion
         self._about = conversion.describe()
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<texremap.Converter {self.source} to {self.target}>"
 
-    source = property(lambda self: self._about["source"], doc="The name of the source.")
-    target = property(lambda self: self._about["target"], doc="The name of the target.")
-    sources = property(lambda self: tuple(self._about["sources"]), doc="The parameters that it takes.")
-    targets = property(lambda self: tuple(self._about["targets"]), doc="The parameters that it can make.")
-    roughness_encoding = property(lambda self: self._about["roughness_encoding"], doc="What the source's roughness is.")
-    output_encoding = property(lambda self: self._about["output_encoding"], doc="What the target's roughness is.")
-    roughness_domain = property(lambda self: self._about["roughness_domain"],
-                                doc="The covered range of the BRDF's own roughness parameter.")
-    specular_domain = property(lambda self: self._about["specular_domain"], doc="The covered range of its specular.")
-    instructions = property(lambda self: self._about["instructions"], doc="The instruction set that it runs on.")
-    notes = property(lambda self: tuple(self._about["notes"]), doc="What the given names mean.")
-    assumptions = property(lambda self: tuple(self._about["assumptions"]), doc="What had to be assumed.")
+    @property
+    def source(self) -> str:
+        """The name of the source."""
+        return self._about["source"]
 
     @property
-    def path(self):
+    def target(self) -> str:
+        """The name of the target."""
+        return self._about["target"]
+
+    @property
+    def sources(self) -> Tuple[str, ...]:
+        """The parameters that it takes."""
+        return tuple(self._about["sources"])
+
+    @property
+    def targets(self) -> Tuple[str, ...]:
+        """The parameters that it can make."""
+        return tuple(self._about["targets"])
+
+    @property
+    def roughness_encoding(self) -> str:
+        """What the source's roughness is."""
+        return self._about["roughness_encoding"]
+
+    @property
+    def output_encoding(self) -> str:
+        """What the target's roughness is."""
+        return self._about["output_encoding"]
+
+    @property
+    def roughness_domain(self) -> Tuple[float, float]:
+        """The covered range of the BRDF's own roughness parameter."""
+        return self._about["roughness_domain"]
+
+    @property
+    def specular_domain(self) -> Tuple[float, float]:
+        """The covered range of its specular."""
+        return self._about["specular_domain"]
+
+    @property
+    def instructions(self) -> str:
+        """The instruction set that it runs on."""
+        return self._about["instructions"]
+
+    @property
+    def notes(self) -> Tuple[str, ...]:
+        """What the given names mean."""
+        return tuple(self._about["notes"])
+
+    @property
+    def assumptions(self) -> Tuple[str, ...]:
+        """What had to be assumed."""
+        return tuple(self._about["assumptions"])
+
+    @property
+    def path(self) -> Path:
         """The :class:`Path` of its BRDF."""
         about = self._about
         return Path(tuple(about["models"]), tuple(about["steps"]), about["expected_error"], about["looks_different"],
                     about["closer"])
 
-    def convert(self, *, roughness=None, glossiness=None, specular=None, diffuse=None, base_color=None, metallic=None,
-                metal_mask=None, roughness_encoding=None, output_encoding=None, transfer=None, dtype=None, out=None,
-                measures=(), outside=False, bad_texels="keep", dither=False, threads=1):
+    def convert(self, *, roughness: Optional[Map] = None, glossiness: Optional[Map] = None,
+                specular: Optional[Color] = None, diffuse: Optional[Color] = None, base_color: Optional[Color] = None,
+                metallic: Optional[Map] = None, metal_mask: Optional[Map] = None,
+                roughness_encoding: Optional[str] = None, output_encoding: Optional[str] = None,
+                transfer: Union[str, Mapping[str, str], None] = None, dtype: Optional[npt.DTypeLike] = None,
+                out: Optional[Mapping[str, npt.NDArray[Any]]] = None, measures: Iterable[str] = (), outside: bool = False,
+                bad_texels: str = "keep", dither: bool = False, threads: int = 1) -> Material:
         """As :func:`convert`, without the names of the models."""
         given = {"roughness": roughness, "specular": specular, "diffuse": diffuse, "base_color": base_color,
                  "metallic": metallic, "metal_mask": metal_mask}
@@ -203,9 +258,14 @@ class Converter:
                 if name not in _MEASURES or name in measures}
 
 
-def convert(*, source, target, roughness=None, glossiness=None, specular=None, diffuse=None, base_color=None,
-            metallic=None, metal_mask=None, roughness_encoding=None, output_encoding=None, transfer=None, dtype=None,
-            out=None, measures=(), outside=False, bad_texels="keep", dither=False, threads=1, **options):
+def convert(*, source: str, target: str, roughness: Optional[Map] = None, glossiness: Optional[Map] = None,
+            specular: Optional[Color] = None, diffuse: Optional[Color] = None, base_color: Optional[Color] = None,
+            metallic: Optional[Map] = None, metal_mask: Optional[Map] = None,
+            roughness_encoding: Optional[str] = None, output_encoding: Optional[str] = None,
+            transfer: Union[str, Mapping[str, str], None] = None, dtype: Optional[npt.DTypeLike] = None,
+            out: Optional[Mapping[str, npt.NDArray[Any]]] = None, measures: Iterable[str] = (), outside: bool = False,
+            bad_texels: str = "keep", dither: bool = False, threads: int = 1,
+            **options: Any) -> Material:
     """Converts the maps of one material; returns a :class:`Material` with an array for each parameter of the target.
 
     source, target: names of :func:`models`. ``options``: those of :class:`Converter`.
@@ -236,12 +296,27 @@ def convert(*, source, target, roughness=None, glossiness=None, specular=None, d
     >>> sorted(result), result.base_color.shape, bool((result.metallic > 0.99).all())
     (['base_color', 'metallic', 'roughness'], (4, 4, 3), True)
     """
-    converter = Converter(source, target, **options)
+    converter = _kept_converter(source, target, options)
     return converter.convert(
         roughness=roughness, glossiness=glossiness, specular=specular, diffuse=diffuse, base_color=base_color,
         metallic=metallic, metal_mask=metal_mask, roughness_encoding=roughness_encoding,
         output_encoding=output_encoding, transfer=transfer, dtype=dtype, out=out, measures=measures, outside=outside,
         bad_texels=bad_texels, dither=dither, threads=threads)
+
+
+@functools.lru_cache(maxsize=32)
+def _made_once(source, target, options):
+    return Converter(source, target, **dict(options))
+
+
+def _kept_converter(source, target, options):
+    """One of the last that were used; of files, which may have changed, a new one."""
+    if options.get("converters") is None:
+        try:
+            return _made_once(source, target, tuple(sorted(options.items())))
+        except TypeError:  # what cannot be a key
+            pass
+    return Converter(source, target, **options)
 
 
 def _thread_count(threads):

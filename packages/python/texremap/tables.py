@@ -1,8 +1,10 @@
 """Tables of matches, as ``remapc sweep`` writes them."""
 
-from typing import NamedTuple
+import os
+from typing import Any, Dict, NamedTuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from ._error import Error
 
@@ -10,9 +12,9 @@ from ._error import Error
 class Table(NamedTuple):
     """Rows of matches and what the comments of the file say."""
 
-    rows: np.ndarray
+    rows: npt.NDArray[Any]
     """A structured array: a field for each column, by its name in the file; float64, or a text such as ``status``."""
-    notes: dict
+    notes: Dict[str, str]
     """``# name: value`` of the head, as texts: ``tool``, ``source``, ``target``, ``source_roughness``, ..."""
 
 
@@ -24,7 +26,7 @@ def _column(cells):
         return np.array(cells)
 
 
-def read_table(path):
+def read_table(path: Union[str, "os.PathLike[str]"]) -> Table:
     """Reads a table of matches (CSV with a head of comments; docs/formats of the project).
 
     Returns a :class:`Table`. Raises :class:`Error` of kind ``"input"`` where the file is no such table.

@@ -1,0 +1,172 @@
+"""UsdPreviewSurface: the layers that are written, by USD's own reader and validators."""
+
+import hashlib
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+pxr = pytest.importorskip("pxr")
+oiio = pytest.importorskip("OpenImageIO")
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade  # noqa: E402
+
+import texremap  # noqa: E402
+from texremap import usd  # noqa: E402
+
+
+def add_material(stage, name, values, textures=()):
+    """A material with its shader; `textures`: (input, file, output, color space)."""
+    material = UsdShade.Material.Define(stage, f"/World/Looks/{name}")
+    shader = UsdShade.Shader.Define(stage, material.GetPath().AppendChild("Surface"))
+    shader.CreateIdAttr("UsdPreviewSurface")
+    kinds = {"useSpecularWorkflow": Sdf.ValueTypeNames.Int, "diffuseColor": Sdf.ValueTypeNames.Color3f,
+             "specularColor": Sdf.ValueTypeNames.Color3f}
+    for word, value in values.items():
+        shader.CreateInput(word, kinds.get(word, Sdf.ValueTypeNames.Float)).Set(value)
+    for word, file, output, space in textures:
+        node = UsdShade.Shader.Define(stage, material.GetPath().AppendChild(f"tex_{word}"))
+        node.CreateIdAttr("UsdUVTexture")
+        node.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(file)
+        node.CreateInput("sourceColorSpace", Sdf.ValueTypeNames.Token).Set(space)
+        node.CreateInput("wrapS", Sdf.ValueTypeNames.Token).Set("repeat")
+        reader = UsdShade.Shader.Define(stage, material.GetPath().AppendChild("st"))
+        reader.CreateIdAttr("UsdPrimvarReader_float2")
+        reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")
+        node.CreateInput("st", Sdf.ValueTypeNames.Float2).ConnectToSource(
+            reader.CreateOutput("result", Sdf.ValueTypeNames.Float2))
+        kind = Sdf.ValueTypeNames.Float3 if output == "rgb" else Sdf.ValueTypeNames.Float
+        shader.CreateInput(word, kinds.get(word, Sdf.ValueTypeNames.Float)).ConnectToSource(node.CreateOutput(output, kind))
+    material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+    return material
+
+
+def png(path, values):
+    values = np.ascontiguousarray(values, np.uint8)
+    output = oiio.ImageOutput.create(str(path))
+    assert output.open(str(path), oiio.ImageSpec(values.shape[1], values.shape[0], values.shape[2], "uint8"))
+    assert output.write_image(values) and output.close()
+
+
+@pytest.fixture
+def scene(tmp_path):
+    random = np.random.default_rng(2)
+    png(tmp_path / "diffuse.png", random.integers(0, 256, (6, 8, 3)))
+    png(tmp_path / "specular.png", random.integers(0, 256, (6, 8, 3)))
+    png(tmp_path / "small.png", random.integers(0, 256, (2, 2, 3)))
+    file = tmp_path / "scene.usda"
+    stage = Usd.Stage.CreateNew(str(file))
+    stage.SetDefaultPrim(UsdGeom.Xform.Define(stage, "/World").GetPrim())
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+    UsdGeom.SetStageMetersPerUnit(stage, 0.01)
+    specular = {"useSpecularWorkflow": 1, "roughness": 0.3}
+    add_material(stage, "gold", {**specular, "diffuseColor": Gf.Vec3f(0), "specularColor": Gf.Vec3f(1.0, 0.77, 0.34)})
+    add_material(stage, "plastic", {**specular, "diffuseColor": Gf.Vec3f(0.2, 0.3, 0.4), "specularColor": Gf.Vec3f(0.04)})
+    add_material(stage, "maps", specular, [("diffuseColor", "diffuse.png", "rgb", "sRGB"),
+                                           ("specularColor", "specular.png", "rgb", "sRGB")])
+    add_material(stage, "sizes", specular, [("diffuseColor", "diffuse.png", "rgb", "sRGB"),
+                                            ("specularColor", "small.png", "rgb", "sRGB")])
+    add_material(stage, "missing", specular, [("diffuseColor", "nowhere.png", "rgb", "sRGB")])
+    add_material(stage, "metal", {"metallic": 1.0, "diffuseColor": Gf.Vec3f(0.9, 0.5, 0.2), "roughness": 0.2})
+    add_material(stage, "glassy", {"metallic": 0.25, "diffuseColor": Gf.Vec3f(0.6), "ior": 1.8})
+    stage.GetRootLayer().Save()
+    return file
+
+
+def surface(stage, name):
+    return UsdShade.Material(stage.GetPrimAtPath(f"/World/Looks/{name}")).ComputeSurfaceSource()[0]
+
+
+def value(stage, name, word):
+    return np.ravel(surface(stage, name).GetInput(word).Get())
+
+
+def test_to_metallic(scene):
+    before = hashlib.sha256(scene.read_bytes()).hexdigest()
+    output = scene.with_name("metallic.usda")
+    reports = {report.path.rsplit("/", 1)[1]: report for report in usd.convert(scene, output, to="metallic")}
+    assert hashlib.sha256(scene.read_bytes()).hexdigest() == before
+    assert {name: report.state for name, report in reports.items()} == {
+        "gold": "converted", "plastic": "converted", "maps": "converted", "sizes": "failed", "missing": "failed",
+        "metal": "left", "glassy": "left"}
+    assert "differ in size" in reports["sizes"].reason and "nowhere.png: file not found" in reports["missing"].reason
+
+    layer = Sdf.Layer.FindOrOpen(str(output))
+    assert list(layer.subLayerPaths) == ["./scene.usda"] and layer.defaultPrim == "World"
+    stage = Usd.Stage.Open(str(output))
+    assert UsdGeom.GetStageUpAxis(stage) == "Z" and UsdGeom.GetStageMetersPerUnit(stage) == 0.01
+    assert value(stage, "gold", "useSpecularWorkflow") == 0 and value(stage, "gold", "metallic") > 0.99
+    assert np.abs(value(stage, "gold", "diffuseColor") - (1.0, 0.77, 0.34)).max() < 1e-3
+    assert value(stage, "plastic", "metallic") < 1e-3
+    assert np.abs(value(stage, "plastic", "diffuseColor") - (0.2, 0.3, 0.4)).max() < 1e-3
+    assert value(stage, "sizes", "useSpecularWorkflow") == 1
+    assert abs(value(stage, "gold", "roughness") - 0.3) < 1e-6
+    # Nothing but these inputs has an opinion in the new layer.
+    touched = set()
+    layer.Traverse("/", lambda path: touched.add(path.name) if path.IsPropertyPath() else None)
+    assert touched == {"inputs:useSpecularWorkflow", "inputs:diffuseColor", "inputs:metallic", "info:id", "inputs:file",
+                       "inputs:sourceColorSpace", "inputs:wrapS", "inputs:st", "outputs:rgb", "outputs:r"}
+
+
+def test_maps_hold_what_arrays_give(scene):
+    output = scene.with_name("metallic.usda")
+    usd.convert(scene, output, to="metallic")
+    stage = Usd.Stage.Open(str(output))
+    node = UsdShade.Shader(surface(stage, "maps").GetInput("metallic").GetConnectedSources()[0][0].source.GetPrim())
+    file = node.GetInput("file").Get().resolvedPath
+    stored = np.round(np.asarray(oiio.ImageInput.open(file).read_image("uint8")))[..., 0]
+    read = [np.asarray(oiio.ImageInput.open(str(scene.with_name(name))).read_image("uint8"))
+            for name in ("diffuse.png", "specular.png")]
+    expected = texremap.convert(source="specular", target="usd-preview-surface", roughness=0.5, diffuse=read[0],
+                                specular=read[1], diffuse_convention="plain", dtype=np.float32)
+    assert np.abs(stored / 255 - expected.metallic).max() <= 0.5 / 255 + 1e-6
+
+
+def test_to_specular_is_exact_and_takes_the_index(scene):
+    output = scene.with_name("specular.usda")
+    usd.convert(scene, output, to="specular")
+    stage = Usd.Stage.Open(str(output))
+    assert np.abs(value(stage, "metal", "specularColor") - (0.9, 0.5, 0.2)).max() < 1e-6
+    assert np.abs(value(stage, "metal", "diffuseColor")).max() < 1e-6
+    f0 = ((1 - 1.8) / (1 + 1.8)) ** 2  # UsdPreviewSurface 2.5: F0 of a dielectric
+    assert np.abs(value(stage, "glassy", "specularColor") - (0.75 * f0 + 0.25 * 0.6)).max() < 1e-6
+    assert np.abs(value(stage, "glassy", "diffuseColor") - 0.75 * 0.6).max() < 1e-6
+
+
+def test_validators_have_no_new_complaint(scene):
+    from pxr import UsdValidation
+
+    validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+    assert len(validators) > 10
+    context = UsdValidation.ValidationContext(validators)
+
+    def complaints(file):
+        return sorted((error.GetName(), error.GetMessage().replace(str(file), ""))
+                      for error in context.Validate(Usd.Stage.Open(str(file))))
+
+    output = scene.with_name("metallic.usda")
+    usd.convert(scene, output)
+    new = [complaint for complaint in complaints(output) if complaint not in complaints(scene)]
+    assert not new, new
+
+
+def test_command_and_bad_input(scene, tmp_path):
+    def run(*words):
+        return subprocess.run([sys.executable, "-m", "texremap", "usd", *map(str, words)], capture_output=True, text=True)
+
+    dry = run(scene, "-o", tmp_path / "out.usda", "--dry-run", "--json")
+    assert dry.returncode == 1 and len([json.loads(line) for line in dry.stdout.splitlines()]) == 7
+    assert not (tmp_path / "out.usda").exists() and not (tmp_path / "out_textures").exists()
+    for words, message in (
+        ((tmp_path / "none.usda", "-o", tmp_path / "out.usda"), "none.usda: cannot be read"),
+        ((scene, "-o", scene), "is the input"),
+        ((scene, "-o", tmp_path / "out.glb"), "a layer is .usda"),
+    ):
+        refused = run(*words)
+        assert refused.returncode == 1 and message in refused.stderr, refused.stderr
+    (tmp_path / "broken.usda").write_text("#usda 1.0\n(((")
+    assert "broken.usda: cannot be read" in run(tmp_path / "broken.usda", "-o", tmp_path / "out.usda").stderr
+    assert run(scene, "-o", tmp_path / "out.usda").returncode == 1  # two materials failed
+    assert "exists" in run(scene, "-o", tmp_path / "out.usda").stderr
+    assert not list(tmp_path.glob(".*unfinished*"))
