@@ -1,4 +1,4 @@
-// Maps themselves, side by side, for models that three.js does not have; each is wiped from before to after.
+// Maps themselves, side by side, for models that three.js does not have; the wipe goes through each.
 
 function canvasOf({ width, height, rgba }) {
   const canvas = document.createElement('canvas');
@@ -42,18 +42,18 @@ export class Flat {
     context.fillStyle = '#fff';
     context.font = `${14 * scale}px system-ui, sans-serif`;
     context.textAlign = 'center';
-    // One border for all, at the place of the wipe in the view.
-    const border = width * wipe;
     this.#pairs.forEach(({ role, images }, i) => {
       const left = first + i * (side + gap);
+      const border = side * wipe;
       images.forEach((image, which) => {
         context.save();
         context.beginPath();
-        context.rect(which === 0 ? 0 : border, 0, which === 0 ? border : width - border, height);
+        context.rect(left + (which === 0 ? 0 : border), top, which === 0 ? border : side - border, side);
         context.clip();
         context.drawImage(image, left, top, side, side);
         context.restore();
       });
+      context.fillRect(left + border - scale, top, 2 * scale, side);
       context.fillText(role, left + side / 2, top + side + 1.8 * gap);
     });
   }

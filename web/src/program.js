@@ -7,7 +7,8 @@ const LONGEST_REPORT = 2 ** 20;  // characters; a run over very many files says 
 export async function makeProgram(module, images) {
   let lines = { out: [], err: [] };
   let length = 0;
-  const hear = (list) => (line) => {
+  const hear = (list) => (text) => {
+    const line = text.replace(/^.*\x1b\[K/s, '');  // progress, as on a terminal
     length += line.length;
     if (length < LONGEST_REPORT) lines[list].push(line);
   };

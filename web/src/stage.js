@@ -66,6 +66,7 @@ export class Stage {
     const isBall = this.#shown === this.#ball;
     $('ball').hidden = !isBall;
     $('flat').hidden = isBall;
+    $('line').hidden = !isBall;
     $('light-label').hidden = !isBall;
     $('stage-note').textContent = note;
     const text = isBall ? `A ball of ${before.name}: before on the left, after on the right`
