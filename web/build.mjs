@@ -8,7 +8,8 @@ import { gzipSync } from 'node:zlib';
 
 const [out, modules, program] = process.argv.slice(2).map((path) => resolve(path));
 const { build } = createRequire(join(modules, 'x'))('esbuild');
-const source = join(dirname(fileURLToPath(import.meta.url)), 'src');
+const repository = join(dirname(fileURLToPath(import.meta.url)), '..');
+const source = join(repository, 'web/src');
 const sourceText = (name) => readFileSync(join(source, name), 'utf8');
 
 async function bundled(entry, alias = {}) {
@@ -37,8 +38,8 @@ const policy = (scripts, worker, connect) =>
   `default-src 'none'; script-src ${scripts} 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; img-src data: blob:; `
   + `worker-src ${worker}; connect-src ${connect}; base-uri 'none'; form-action 'none'`;
 
-const licenses = ['three', 'fast-png', 'fflate', 'iobuffer'].map((name) =>
-  `${name}\n\n${readFileSync(join(modules, name, 'LICENSE'), 'utf8').trim()}\n`).join('\n\n');
+const licenses = [readFileSync(join(repository, 'packages/NOTICES'), 'utf8'), ...['three', 'fast-png', 'fflate', 'iobuffer'].map((name) =>
+  `=== ${name}\n\n${readFileSync(join(modules, name, 'LICENSE'), 'utf8').trim()}\n`)].join('\n');
 
 const wasm = readFileSync(join(program, 'page.wasm'));
 const worker = await bundled('worker.js');

@@ -1,11 +1,12 @@
 // The ball: one sphere, drawn on the left of the wipe with the material before, on the right with that after.
 import {
-  ACESFilmicToneMapping, DataTexture, DirectionalLight, LinearFilter, LinearMipmapLinearFilter, Mesh, MeshPhysicalMaterial,
-  MeshStandardMaterial, NoColorSpace, PMREMGenerator, PerspectiveCamera, RepeatWrapping, SRGBColorSpace, Scene, SphereGeometry,
+  DataTexture, DirectionalLight, LinearFilter, LinearMipmapLinearFilter, Mesh, MeshPhysicalMaterial, MeshStandardMaterial,
+  NeutralToneMapping, NoColorSpace, PMREMGenerator, PerspectiveCamera, RepeatWrapping, SRGBColorSpace, Scene, SphereGeometry,
   WebGLRenderer,
 } from 'three';
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
 
+const DISTANCE = 4.7;  // of the camera, where the view is wider than high
 const COLORS = new Set(['base color', 'diffuse', 'specular']);
 
 function textureOf({ role, width, height, rgba }) {
@@ -80,18 +81,18 @@ export class Ball {
   #renderer;
   #scene = new Scene();
   #camera = new PerspectiveCamera(28, 1, 0.1, 20);
-  #light = new DirectionalLight(0xffffff, 2);
+  #light = new DirectionalLight(0xffffff, 1.5);
   #ball = new Mesh(new SphereGeometry(1, 128, 64));
   #materials = null;
 
   constructor(canvas) {
     this.#canvas = canvas;
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
-    this.#renderer.toneMapping = ACESFilmicToneMapping;
+    this.#renderer.toneMapping = NeutralToneMapping;
     const generator = new PMREMGenerator(this.#renderer);
     this.#scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
     generator.dispose();
-    this.#camera.position.z = 4.7;
+    this.#scene.environmentIntensity = 0.6;
     this.#scene.add(this.#ball, this.#light);
   }
 
@@ -112,6 +113,7 @@ export class Ball {
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.setSize(width, height, false);
     this.#camera.aspect = width / height;
+    this.#camera.position.z = DISTANCE / Math.min(1, this.#camera.aspect);
     this.#camera.updateProjectionMatrix();
     const border = Math.round(width * wipe);
     this.#renderer.setScissorTest(true);

@@ -12,6 +12,8 @@ export function wordsOf(line) {
   return [...line.matchAll(/"([^"]*)"|'([^']*)'|(\S+)/g)].map((match) => match[1] ?? match[2] ?? match[3]);
 }
 
+const quoted = (word) => (/^[\w./:=,-]+$/.test(word) ? word : `'${word}'`);
+
 function commandOf(files, { from, to, preset, more }) {
   const words = ['convert', IN, '--recursive'];
   if (files.some((file) => isAsset(file.path))) words.push('--assets');
@@ -111,5 +113,5 @@ export async function convert(program, files, request, images) {
   } catch (error) {
     preview = { failure: error.message };  // the conversion stands
   }
-  return { status, report: [...err, ...out], command: `texremap ${words.join(' ')}`, files: results, preview };
+  return { status, report: [...err, ...out], command: `texremap ${words.map(quoted).join(' ')}`, files: results, preview };
 }

@@ -31,6 +31,8 @@ function optionGroup(label, options) {
   return group;
 }
 
+const renderersOf = (models) => [...new Set(models.map((name) => name.split('/')[0]))];
+
 function fillNames({ presets, materials, models, aliases }) {
   const ofMaterials = () => optionGroup('Materials', materials.map(({ name }) => [name]));
   const ofModels = () => optionGroup('BRDF models', models.map((name) => [name]));
@@ -40,6 +42,7 @@ function fillNames({ presets, materials, models, aliases }) {
     optionGroup('Other names', aliases.map(({ name, model, meaning }) => [name, name, `${model}: ${meaning}`])));
   $('to').append(
     ofMaterials(),
+    optionGroup('Renderers, the closest of their models', renderersOf(models).map((name) => [name])),
     optionGroup('Files as a tool takes them', presets.map(({ name }) => [`preset:${name}`, `${name}, packed and named`])),
     ofModels());
   $('to').value = 'gltf';

@@ -89,8 +89,10 @@ export class Visit {
 
   /** The report, once it is there. */
   async convert({ from = '', to = 'gltf', more = '' } = {}) {
-    await this.page.select('#from', from);
-    await this.page.select('#to', to);
+    for (const [field, value] of [['#from', from], ['#to', to]]) {
+      const [chosen] = await this.page.select(field, value);
+      if (chosen !== value) throw new Error(`${field} does not have ${value}`);
+    }
     await this.page.$eval('#more', (input, text) => { input.value = text; }, more);
     await this.page.focus('#convert');
     await this.page.keyboard.press('Enter');

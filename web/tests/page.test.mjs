@@ -2,7 +2,7 @@
 // of the C++ build writes: images by every value, all else by bytes. What is missing is skipped, with its reason.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
@@ -45,15 +45,23 @@ async function visited(url, work) {
 // The files of a download, by name.
 const filesOf = ({ name, bytes }) => (name.endsWith('.zip') ? unzipSync(bytes) : { [name]: bytes });
 
-// What the program writes for the same folder `in`.
-function byProgram(name, words) {
-  const work = join(folder, `native-${Math.random()}`);
-  mkdirSync(join(work, 'in'), { recursive: true });
-  execFileSync('cp', ['-r', path(name), join(work, 'in')]);
-  execFileSync(native, ['convert', 'in', '--recursive', ...words, '-o', 'out'], { cwd: work, stdio: 'pipe' });
+// { status, err, files }: what the program does by the command that the page shows, for the same files in a folder `in`.
+async function runProgram(visit, ...names) {
+  const work = mkdtempSync(join(folder, 'native-'));
+  mkdirSync(join(work, 'in'));
+  for (const name of names) execFileSync('cp', ['-r', path(name), join(work, 'in')]);
+  const command = await visit.page.$eval('#command', (line) => line.innerText);
+  assert.match(command, /^texremap convert in /);
+  const { status, stderr } = spawnSync('sh', ['-c', `"$0" ${command.slice('texremap '.length)}`, native], { cwd: work, encoding: 'utf8' });
   const out = join(work, 'out');
-  const files = filesBelow(out).filter((file) => file !== '.texremap.jsonl');
-  return Object.fromEntries(files.map((file) => [file, new Uint8Array(readFileSync(join(out, file)))]));
+  const files = existsSync(out) ? filesBelow(out).filter((file) => file !== '.texremap.jsonl') : [];
+  return { status, stderr, files: Object.fromEntries(files.map((file) => [file, new Uint8Array(readFileSync(join(out, file)))])) };
+}
+
+async function byProgram(visit, ...names) {
+  const { status, stderr, files } = await runProgram(visit, ...names);
+  assert.equal(status, 0, stderr);
+  return files;
 }
 
 function requireSameImage(own, other, place) {
@@ -95,35 +103,52 @@ function requireSame(own, other) {
   }
 }
 
-const FOLDERS = [
-  { input: 'specgloss', from: 'gltf-specgloss', to: 'gltf' },
-  { input: 'specgloss', from: '', to: 'preset:unity-hdrp' },
-  { input: 'unity', from: 'unity-hdrp', to: 'preset:gltf' },
-  { input: 'library', from: 'mitsuba/ward', to: 'mitsuba/as', more: '--roughness-encoding roughness --copy-others' },
-  { input: 'deep', from: 'mitsuba/phong', to: 'mitsuba/ggx', more: '--roughness-encoding roughness' },
-  { input: 'asset', from: '', to: 'gltf', words: ['--assets'] },
-];
+// The cases of every package that the page can be asked for; the names of what it cannot are refused before.
+const CASES = JSON.parse(readFileSync(join(repository, 'packages/tests/cases.json'))).filter(
+  ({ name, formats, arguments: words }) =>
+    words[0] === 'convert' && formats.join() === 'png' && !['an unknown model', 'nothing there'].includes(name));
 
-function programWords({ from, to, more = '', words = [] }) {
-  const target = to.startsWith('preset:') ? ['--preset', to.slice(7)] : ['--to', to];
-  return [...words, ...(from ? ['--from', from] : []), ...target, ...more.split(' ').filter(Boolean)];
+// What a person chooses for the words of a case.
+function choiceOf([, input, ...words]) {
+  const choice = { from: '', to: 'gltf', more: [] };
+  while (words.length > 0) {
+    const word = words.shift();
+    if (word === '--from') choice.from = words.shift();
+    else if (word === '--to') choice.to = words.shift();
+    else if (word === '--preset') choice.to = `preset:${words.shift()}`;
+    else if (word === '-o') words.shift();
+    else if (word !== '--recursive') choice.more.push(word);
+  }
+  // An asset comes with its files.
+  const inputs = input.endsWith('.obj') ? [input, input.replace('.obj', '.mtl')] : [input.split('/')[0]];
+  return { inputs, choice: { ...choice, more: choice.more.join(' ') } };
 }
 
 describe('a folder that is served', { skip }, () => {
-  for (const one of FOLDERS)
-    test(`${one.input}, ${one.from || 'told by the files'} to ${one.to}`, { skip: skipNative }, () =>
+  for (const { name, arguments: words } of CASES)
+    test(name, { skip: skipNative }, () =>
       visited(server.url, async (visit) => {
-        await visit.drop(path(one.input));
-        const report = await visit.convert(one);
-        assert.doesNotMatch(report, /^error/m);
-        requireSame(filesOf(await visit.download()), byProgram(one.input, programWords(one)));
+        const { inputs: given, choice } = choiceOf(words);
+        await visit.drop(...given.map(path));
+        const report = await visit.convert(choice);
+        const { status, stderr, files } = await runProgram(visit, ...given);
+        assert.equal(/^error/m.test(report), status !== 0, report);
+        if (status === 0) requireSame(filesOf(await visit.download()), files);
+        else assert.ok(report.includes(stderr.trim().replace(/^texremap: /, '')), report);
       }));
+
+  test('models are told by the names of maps', { skip: skipNative }, () =>
+    visited(server.url, async (visit) => {
+      await visit.choose('#folder', path('specgloss'));
+      assert.match(await visit.convert(), /--from is taken as gltf-specgloss/);
+      requireSame(filesOf(await visit.download()), await byProgram(visit, 'specgloss'));
+    }));
 
   test('a .glb that is dropped, the ball, and sliders by keyboard', { skip: skipNative }, () =>
     visited(server.url, async (visit) => {
       await visit.drop(path('model.glb'));
       assert.match(await visit.convert(), /2 materials converted/);
-      requireSame(filesOf(await visit.download()), byProgram('model.glb', ['--assets', '--to', 'gltf']));
+      requireSame(filesOf(await visit.download()), await byProgram(visit, 'model.glb'));
       const { page } = visit;
       assert.equal(await page.$eval('#ball', (canvas) => canvas.checkVisibility()), true);
       const picture = () => page.$eval('#ball', (canvas) => canvas.toDataURL());
@@ -164,10 +189,9 @@ describe('a folder that is served', { skip }, () => {
         execFileSync('oiiotool', [source(name), '--resize', '64x48', '--attrib', 'Orientation', '6', '-o', join(set, `a_${role}.jpg`)]);
       await visit.choose('#folder', set);
       // The material stays, so stored values do.
-      const one = { from: 'gltf', to: 'gltf', more: '--layout separate --metallic 0' };
-      const report = await visit.convert(one);
+      const report = await visit.convert({ from: 'gltf', to: 'gltf', more: '--layout separate --metallic 0' });
       assert.doesNotMatch(report, /^error/m);
-      requireSame(filesOf(await visit.download()), byProgram('jpeg', [...programWords(one), '--format', 'png']));
+      requireSame(filesOf(await visit.download()), await byProgram(visit, 'jpeg'));
     }));
 
   test('EXR is refused by name, with what to do', () =>
@@ -206,13 +230,15 @@ describe('a folder that is served', { skip }, () => {
     }));
 });
 
-test('one file from disk', { skip: skipNative }, () =>
-  visited(fileUrl(), async (visit) => {
+test('one file from disk', { skip: skipNative }, (run) => {
+  const start = Date.now();
+  return visited(fileUrl(), async (visit) => {
     await visit.drop(path('model.glb'));
     assert.match(await visit.convert(), /2 materials converted/);
-    requireSame(filesOf(await visit.download()), byProgram('model.glb', ['--assets', '--to', 'gltf']));
+    requireSame(filesOf(await visit.download()), await byProgram(visit, 'model.glb'));
     await visit.drop(path('specgloss'));
     await visit.convert();
-    requireSame(filesOf(await visit.download()), byProgram('specgloss', ['--to', 'gltf']));
+    requireSame(filesOf(await visit.download()), await byProgram(visit, 'specgloss'));
     assert.ok(visit.requests.every((url) => url === fileUrl() || /^(blob|data):/.test(url)), visit.requests.join(' '));
-  }));
+  });
+});
