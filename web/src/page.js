@@ -82,11 +82,14 @@ function offer(results) {
   Object.assign($('download'), { href: link, download: name, textContent: `Download ${name} (${sized(bytes.length)})` });
 }
 
+let isBusy = false;
+
 async function convert() {
+  if (isBusy || files.length === 0 || core === null) return;
+  isBusy = true;
   const chosen = $('to').value;
   const preset = chosen.startsWith('preset:') ? chosen.slice('preset:'.length) : '';
   const request = { from: $('from').value, to: preset ? '' : chosen, preset, more: $('more').value };
-  $('convert').disabled = true;
   $('download').hidden = true;
   document.body.setAttribute('aria-busy', 'true');
   report(['Converting…']);
@@ -104,7 +107,7 @@ async function convert() {
     fail(error.message);
     stage.show({});
   } finally {
-    $('convert').disabled = false;
+    isBusy = false;
     document.body.removeAttribute('aria-busy');
   }
 }
