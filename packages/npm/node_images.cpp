@@ -366,9 +366,8 @@ class NewByNode final : public NewImage {
     if (extension == ".jpg" || extension == ".jpeg") return "jpeg";
     if (extension == ".tif" || extension == ".tiff") return "tiff";
     if (extension == ".exr")
-      fail(
-          "EXR is not written by " REMAP_IMAGE_HOST
-          " (use --format png, or the Debian or the Python package)");
+      fail("EXR is not written by " REMAP_IMAGE_HOST
+           " (use --format png, or the Debian or the Python package)");
     fail("unknown image format (use .png, .tif or .jpg)");
   }
 

@@ -1,6 +1,7 @@
 #include "command_line/progress.hpp"
 
 #include <cstdio>
+#include <ctime>
 #include <sys/resource.h>
 #include <utility>
 
@@ -20,18 +21,21 @@ std::string clock_text(double seconds) {
   return text;
 }
 
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 }  // namespace
 
 ResourceUse resource_use() noexcept {
+#ifdef __EMSCRIPTEN__  // its getrusage() makes numbers up
+  return {static_cast<double>(std::clock()) / CLOCKS_PER_SEC, 0};
+#else
+  const auto seconds_of = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
   rusage usage{};
   if (::getrusage(RUSAGE_SELF, &usage) != 0) return {};
   constexpr std::size_t kUnit = 1024;  // Linux counts in kilobytes
   return {seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime),
           static_cast<std::size_t>(usage.ru_maxrss) * kUnit};
+#endif
 }
 
 Progress::Progress(std::string label, std::size_t total, bool shown)

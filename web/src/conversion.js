@@ -68,18 +68,36 @@ function planOfResults(program, plan, target) {
   return planOf(program, ['convert', OUT, '--recursive', '--from', target.name, '--to', other, '--force', '-o', 'again']).sets;
 }
 
-function materialsOfSets(program, words, files, results, images) {
+const MOST_SHOWN = 16;  // materials; each has textures before and after
+
+// { source, target, pairs: [{ before, after }], count }: sets before, each with what it became.
+function pairsOfSets(program, words, files, results, images) {
   const plan = planOf(program, [...words, '--force']);
   if (!plan.conversion) return {};
   const [source, target] = [endOf(plan.conversion, 'source'), endOf(plan.conversion, 'target')];
-  const drawnAs = (end) => (sets, of) =>
-    sets.map((set) => materialOfSet(withoutRoot(set.name), end.workflow, set.plan ?? [], finder(of, set), images));
-  return {
-    source,
-    target,
-    before: drawnAs(source)(plan.sets, files),
-    after: drawnAs(target)(planOfResults(program, plan, target), results),
-  };
+  const written = new Set(results.map(({ path }) => `${OUT}/${path}`));
+  const made = planOfResults(program, plan, target);
+  const found = plan.sets.flatMap((set) => {
+    const names = new Set((set.results ?? []).filter((path) => written.has(path)));
+    const after = made.find((one) => ((target.workflow === 'brdf' ? one.results : one.inputs) ?? []).some((path) => names.has(path)));
+    return after ? [{ before: set, after }] : [];
+  });
+  const drawn = (set, end, of) => materialOfSet(withoutRoot(set.name), end.workflow, set.plan ?? [], finder(of, set), images);
+  const pairs = found.slice(0, MOST_SHOWN).map(({ before, after }) => ({
+    before: drawn(before, source, files),
+    after: drawn(after, target, results),
+  }));
+  return { source, target, pairs, count: found.length };
+}
+
+function pairsOfAssets(files, results, images) {
+  const [before, after] = [materialsOfAssets(files), materialsOfAssets(results)];
+  const found = before.flatMap((one) => {
+    const other = after.find(({ key }) => key === one.key);
+    return other ? [{ before: one, after: other }] : [];
+  });
+  const pairs = found.slice(0, MOST_SHOWN).map((pair) => ({ before: pair.before.draw(images), after: pair.after.draw(images) }));
+  return { pairs, count: found.length };
 }
 
 /** Images of files that the browser has to decode before the program runs. */
@@ -95,7 +113,7 @@ export async function prepareImages(files, images) {
 }
 
 /**
- * { status, report, command, files, preview: { source, target, before, after } or { failure } }.
+ * { status, report, command, files, preview: { source, target, pairs, count } or { failure } }.
  * `files` are [{ path, bytes }]; `request` is { from, to, preset, more }.
  */
 export async function convert(program, files, request, images) {
@@ -108,8 +126,8 @@ export async function convert(program, files, request, images) {
   let preview = {};
   try {
     preview = words.includes('--assets')
-      ? { before: materialsOfAssets(files, images), after: materialsOfAssets(results, images) }
-      : materialsOfSets(program, words, files, results, images);
+      ? pairsOfAssets(files, results, images)
+      : pairsOfSets(program, words, files, results, images);
   } catch (error) {
     preview = { failure: error.message };  // the conversion stands
   }

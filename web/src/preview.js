@@ -56,27 +56,28 @@ function colorMap(role, image, factor, isLinear) {
   return { role, ...drawn(image ?? ONE_TEXEL, (texel) => texel.slice(0, 3).map(convert)) };
 }
 
-function ofAsset(path, asset, images) {
+function drawnOfAsset({ name, workflow, color, specular, metallic, roughness }, asset, images) {
   const decoded = new Map();
   const imageAt = (index) => {
     if (index === undefined) return undefined;
     if (!decoded.has(index)) decoded.set(index, images.decode(asset.imageBytes(index)));
     return decoded.get(index);
   };
-  return asset.materials.map(({ name, workflow, color, specular, metallic, roughness }) => {
-    const maps = [colorMap(workflow === 'metallic' ? 'base color' : 'diffuse', imageAt(color.image), color.factor)];
-    if (metallic) maps.push(greyMap('metallic', imageAt(metallic.image), metallic.channel, metallic.factor));
-    if (specular) maps.push(colorMap('specular', imageAt(specular.image), specular.factor));
-    maps.push(greyMap('roughness', imageAt(roughness.image), roughness.channel, roughness.factor, roughness.encoding));
-    return { key: `${path} ${name}`, name, workflow, maps };
-  });
+  const maps = [colorMap(workflow === 'metallic' ? 'base color' : 'diffuse', imageAt(color.image), color.factor)];
+  if (metallic) maps.push(greyMap('metallic', imageAt(metallic.image), metallic.channel, metallic.factor));
+  if (specular) maps.push(colorMap('specular', imageAt(specular.image), specular.factor));
+  maps.push(greyMap('roughness', imageAt(roughness.image), roughness.channel, roughness.factor, roughness.encoding));
+  return { name, workflow, maps };
 }
 
-/** The materials of each glTF file. */
-export function materialsOfAssets(files, images) {
+/** The materials of each glTF file, [{ key, draw(images) }]. */
+export function materialsOfAssets(files) {
   return files.filter((file) => isGltf(file.path)).flatMap(({ path }) => {
     const asset = openAsset(files, path);
-    return asset ? ofAsset(path, asset, images) : [];
+    return (asset?.materials ?? []).map((material, i) => ({
+      key: `${path} ${i}`,
+      draw: (images) => drawnOfAsset(material, asset, images),
+    }));
   });
 }
 
@@ -97,5 +98,5 @@ export function materialOfSet(name, workflow, plan, bytesOf, images) {
     if (role === 'roughness' || role === 'metallic') maps.push(greyMap(role, image, channel, 1, encoding));
     else maps.push(colorMap(role.replace('_', ' '), image, [1, 1, 1], encoding === 'linear'));
   }
-  return { key: name, name, workflow, maps };
+  return { name, workflow, maps };
 }

@@ -1,24 +1,19 @@
 // One instance of the program: files in memory, and runs over them.
 import makeInstance from 'page.mjs';
 
-const LONGEST_REPORT = 2 ** 20;  // characters; a run over very many files says no more
+const MOST_LINES = 1000;  // of what the program says in words
 
 /** `module` is page.wasm, compiled; `images` decodes and encodes whole files (images.js). */
 export async function makeProgram(module, images) {
-  let lines = { out: [], err: [] };
-  let length = 0;
-  const hear = (list) => (text) => {
-    const line = text.replace(/^.*\x1b\[K/s, '');  // progress, as on a terminal
-    length += line.length;
-    if (length < LONGEST_REPORT) lines[list].push(line);
-  };
+  let out = [];
+  let err = [];
   const instance = await makeInstance({
     images,
     locateFile: (name) => name,
     noInitialRun: true,
     thisProgram: 'texremap',
-    print: hear('out'),
-    printErr: hear('err'),
+    print: (line) => out.push(line),
+    printErr: (line) => err.push(line.replace(/^.*\x1b\[K/s, '')),  // without progress, as on a terminal
     instantiateWasm(imports, done) {
       WebAssembly.instantiate(module, imports).then(done);
       return {};
@@ -51,11 +46,13 @@ export async function makeProgram(module, images) {
 
   /** { status, out, err }: what the program prints, as lines. It runs in the folder `/`. */
   function run(words) {
-    lines = { out: [], err: [] };
-    length = 0;
+    out = [];
+    err = [];
     FS.chdir('/');
     const status = instance.callMain(words);
-    return { status, ...lines };
+    const more = err.length - MOST_LINES;
+    if (more > 0) err.splice(MOST_LINES / 2, more, `(${more} lines are left out)`);
+    return { status, out, err };
   }
 
   const names = () => JSON.parse(instance.UTF8ToString(instance._texremap_names()));

@@ -23,18 +23,14 @@ export class Stage {
 
   /** `preview` of conversion.js. */
   show(preview) {
-    const pairs = this.#pairs(preview);
+    const pairs = (preview.pairs ?? []).filter(({ before, after }) => before.maps.length && after.maps.length);
     $('stage').hidden = pairs.length === 0;
     if (pairs.length === 0) return;
     this.#preview = { ...preview, pairs };
     $('material').replaceChildren(...pairs.map(({ before }, i) => new Option(before.name, i)));
     $('material-label').hidden = pairs.length < 2;
+    $('material-note').textContent = preview.count > pairs.length ? `${pairs.length} of ${preview.count} are shown; all are converted.` : '';
     this.#choose();
-  }
-
-  #pairs({ before = [], after = [] }) {
-    return before.flatMap((material, i) =>
-      after[i]?.maps.length && material.maps.length ? [{ before: material, after: after[i] }] : []);
   }
 
   // The end without a counterpart in three.js; none for glTF files.

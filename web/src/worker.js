@@ -16,11 +16,16 @@ const calls = {
   },
 };
 
+// The program itself ends by `abort` for one reason: its memory, of 2 GB at most, is full.
+const textOf = (error) =>
+  error instanceof WebAssembly.RuntimeError || error instanceof RangeError
+    ? `not enough memory (convert fewer files at a time): ${error.message}` : `${error.message ?? error}`;
+
 onmessage = async ({ data: { call, number, ...given } }) => {
   try {
     const answer = await calls[call](given);
     postMessage({ number, answer });
   } catch (error) {
-    postMessage({ number, failure: `${error.message ?? error}` });
+    postMessage({ number, failure: textOf(error) });
   }
 };
