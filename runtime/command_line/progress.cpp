@@ -1,7 +1,7 @@
 #include "command_line/progress.hpp"
 
+#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <sys/resource.h>
 #include <utility>
 
@@ -21,11 +21,15 @@ std::string clock_text(double seconds) {
   return text;
 }
 
+#ifdef __EMSCRIPTEN__
+const auto kProgramStart = std::chrono::steady_clock::now();
+#endif
+
 }  // namespace
 
 ResourceUse resource_use() noexcept {
-#ifdef __EMSCRIPTEN__  // its getrusage() makes numbers up
-  return {static_cast<double>(std::clock()) / CLOCKS_PER_SEC, 0};
+#ifdef __EMSCRIPTEN__  // its getrusage() makes numbers up; there is one thread, which never waits
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - kProgramStart).count(), 0};
 #else
   const auto seconds_of = [](const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);

@@ -112,24 +112,37 @@ export async function prepareImages(files, images) {
   }
 }
 
-/**
- * { status, report, command, files, preview: { source, target, pairs, count } or { failure } }.
- * `files` are [{ path, bytes }]; `request` is { from, to, preset, more }.
- */
-export async function convert(program, files, request, images) {
-  await prepareImages(files, images);
-  program.write(files.map(({ path, bytes }) => ({ path: `/${IN}/${path}`, bytes })));
-  const words = commandOf(files, request);
-  const { status, err, out } = program.run(words);
-  // Without the journal, which resumes a conversion where files stay.
-  const results = program.read(`/${OUT}`).filter(({ path }) => !baseName(path).startsWith('.'));
-  let preview = {};
-  try {
-    preview = words.includes('--assets')
-      ? pairsOfAssets(files, results, images)
-      : pairsOfSets(program, words, files, results, images);
-  } catch (error) {
-    preview = { failure: error.message };  // the conversion stands
+/** A conversion by one instance of the program. */
+export class Conversion {
+  #program;
+  #images;
+  #files;
+  #words;
+
+  constructor(program, images) {
+    this.#program = program;
+    this.#images = images;
   }
-  return { status, report: [...err, ...out], command: `texremap ${words.map(quoted).join(' ')}`, files: results, preview };
+
+  /** { status, report, command, files }; `files` are [{ path, bytes }], `request` is { from, to, preset, more }. */
+  async run(files, request) {
+    await prepareImages(files, this.#images);
+    this.#files = files;
+    this.#words = commandOf(files, request);
+    this.#program.write(files.map(({ path, bytes }) => ({ path: `/${IN}/${path}`, bytes })));
+    const { status, err, out } = this.#program.run(this.#words);
+    return { status, report: [...err, ...out], command: `texremap ${this.#words.map(quoted).join(' ')}`, files: this.#results() };
+  }
+
+  // Without the journal, which resumes a conversion where files stay.
+  #results() {
+    return this.#program.read(`/${OUT}`).filter(({ path }) => !baseName(path).startsWith('.'));
+  }
+
+  /** What the page draws of it: { source, target, pairs, count }. */
+  preview() {
+    const [words, files, results] = [this.#words, this.#files, this.#results()];
+    return words.includes('--assets') ? pairsOfAssets(files, results, this.#images)
+      : pairsOfSets(this.#program, words, files, results, this.#images);
+  }
 }

@@ -9,6 +9,8 @@ function canvasOf({ width, height, rgba }) {
 }
 
 const GAP = 12;
+// What is beside a map that the other workflow does not have.
+const PARTNERS = { diffuse: 'base color', 'base color': 'diffuse', specular: 'metallic', metallic: 'specular' };
 
 export class Flat {
   #canvas;
@@ -20,8 +22,8 @@ export class Flat {
 
   show(before, after) {
     this.#pairs = before.maps.flatMap((map) => {
-      const other = after.maps.find(({ role }) => role === map.role);
-      return other ? [{ role: map.role, images: [canvasOf(map), canvasOf(other)] }] : [];
+      const other = [map.role, PARTNERS[map.role]].map((wanted) => after.maps.find(({ role }) => role === wanted)).find(Boolean);
+      return other ? [{ text: other.role === map.role ? map.role : `${map.role} | ${other.role}`, images: [canvasOf(map), canvasOf(other)] }] : [];
     });
   }
 
@@ -42,7 +44,7 @@ export class Flat {
     context.fillStyle = '#fff';
     context.font = `${14 * scale}px system-ui, sans-serif`;
     context.textAlign = 'center';
-    this.#pairs.forEach(({ role, images }, i) => {
+    this.#pairs.forEach(({ text, images }, i) => {
       const left = first + i * (side + gap);
       const border = side * wipe;
       images.forEach((image, which) => {
@@ -54,7 +56,7 @@ export class Flat {
         context.restore();
       });
       context.fillRect(left + border - scale, top, 2 * scale, side);
-      context.fillText(role, left + side / 2, top + side + 1.8 * gap);
+      context.fillText(text, left + side / 2, top + side + 1.8 * gap);
     });
   }
 }

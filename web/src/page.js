@@ -82,6 +82,16 @@ function offer(results) {
   Object.assign($('download'), { href: link, download: name, textContent: `Download ${name} (${sized(bytes.length)})` });
 }
 
+// The conversion stands, whatever becomes of the pictures.
+async function draw(lines) {
+  try {
+    stage.show(await core.call('preview'));
+  } catch (error) {
+    stage.show({});
+    report([...lines, `texremap: warning: there are no pictures of it: ${error.message}`]);
+  }
+}
+
 let isBusy = false;
 
 async function convert() {
@@ -99,10 +109,9 @@ async function convert() {
     $('command').firstElementChild.textContent = answer.command;
     const lines = [...answer.report];
     if (answer.status !== 0) lines.push(`error: not everything was converted (exit code ${answer.status})`);
-    if (answer.preview.failure) lines.push(`texremap: warning: no pictures: ${answer.preview.failure}`);
     report(lines);
     offer(answer.files);
-    stage.show(answer.preview);
+    await draw(lines);
   } catch (error) {
     fail(error.message);
     stage.show({});

@@ -1,9 +1,10 @@
 // The worker: one instance of the program a conversion, so that memory is given back.
-import { convert } from './conversion.js';
+import { Conversion } from './conversion.js';
 import { Images } from './images.js';
 import { makeProgram } from './program.js';
 
 let compiled = null;
+let last = null;
 
 const calls = {
   async start({ wasm }) {
@@ -12,8 +13,11 @@ const calls = {
   },
   async convert({ files, request }) {
     const images = new Images();
-    return convert(await makeProgram(compiled, images), files, request, images);
+    last = new Conversion(await makeProgram(compiled, images), images);
+    return last.run(files, request);
   },
+  // Later, so that files need not wait for pictures.
+  preview: () => last.preview(),
 };
 
 // The program itself ends by `abort` for one reason: its memory, of 2 GB at most, is full.
