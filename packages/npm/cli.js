@@ -7,7 +7,7 @@ import { isatty } from 'node:tty';
 
 import * as images from './images.js';
 
-// Of the marks of unfinished files (runtime/core/process_mark.hpp).
+// For the marks of unfinished files (runtime/core/process_mark.hpp), and for reports.
 const processes = {
   own: process.pid,
   machine: hostname(),
@@ -18,6 +18,10 @@ const processes = {
     } catch (error) {
       return error.code === 'ESRCH';
     }
+  },
+  use() {
+    const { userCPUTime, systemCPUTime, maxRSS } = process.resourceUsage();
+    return [(userCPUTime + systemCPUTime) / 1e6, maxRSS * 1024];
   },
 };
 const makeProgram = createRequire(import.meta.url)('./program.cjs');

@@ -39,6 +39,12 @@ test('files too large for memory are refused by name, with a remedy', () => {
 
 const library = ['convert', 'library', '--recursive', '--from', 'mitsuba/ward', '--to', 'mitsuba/as', '--roughness-encoding', 'roughness', '-o', 'out'];
 
+test('the processor time is that of node', () => {
+  const done = runOwn([...library, '--json'], copyOfInputs());
+  const seconds = Number(/([0-9.]+) s of processor time/.exec(done.stderr)[1]);
+  assert.ok(seconds > 0 && seconds < 3, done.stderr);
+});
+
 test('two commands at once in one folder give what one gives', async () => {
   const [together, alone] = [copyOfInputs(), copyOfInputs()];
   assert.deepEqual(await Promise.all([1, 2].map(() => startOwn([...library, '--force'], together))), [0, 0]);
