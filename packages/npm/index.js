@@ -2,7 +2,7 @@
 import makeCore from './texremap.mjs';
 
 // Texels that are converted at a time, so that the memory of the core stays small whatever the size of a map.
-const BAND = 131072;
+const BAND = 262144;
 
 // What arrays hold: the names that the core has for them, and the largest of whole numbers.
 const ARRAYS = {
