@@ -97,7 +97,7 @@ test('sources are not changed', () => {
 // KHR_materials_pbrSpecularGlossiness and glTF 2.0: a metal has no diffuse, a dielectric F0 of 0.04.
 test('materials: metals and dielectrics of specular-gloss become those of metal-rough', () => {
   const made = convert({
-    source: 'gltf-specgloss', target: 'gltf', roughness: new Float32Array([0.75, 0.5]),
+    source: 'gltf-specgloss', target: 'gltf', glossiness: new Float32Array([0.75, 0.5]),
     diffuse: new Float32Array([0, 0, 0, 0.5, 0.4, 0.3]), specular: new Float32Array([0.9, 0.7, 0.3, 0.04, 0.04, 0.04]),
     measures: ['residual', 'doubts'],
   });
@@ -127,10 +127,18 @@ test('8 and 16 bits: colors are sRGB, and a conversion to the same model keeps e
 });
 
 test('encodings of roughness', () => {
-  const same = (options) => convert({ source: 'gltf', target: 'gltf', baseColor: 0.5, metallic: 0, ...options }).roughness;
+  const made = (options) => convert({ source: 'gltf', target: 'gltf', baseColor: 0.5, metallic: 0, ...options });
+  const same = (options) => made(options).roughness;
   const near = (found, expected) => assert.ok(Math.abs(found - expected) < 1e-6, `${found}`);
   near(same({ roughness: 0.25, sourceEncoding: 'alpha' }), 0.5);
-  near(same({ roughness: 0.25, targetEncoding: 'glossiness' }), 0.75);
+  near(made({ roughness: 0.25, targetEncoding: 'glossiness' }).glossiness, 0.75);
+  near(same({ glossiness: 0.25 }), 0.75);
+  // Roughness is roughness, whatever the model calls its own.
+  near(convert({ source: 'gltf-specgloss', target: 'gltf', diffuse: 0.5, specular: 0.04, roughness: 0.25 }).roughness, 0.25);
+  const into = { glossiness: new Float32Array(1) };
+  made({ roughness: new Float32Array([0.25]), targetEncoding: 'glossiness', into });
+  near(into.glossiness[0], 0.75);
+  assert.throws(() => made({ roughness: 0.25, glossiness: 0.75 }), /glossiness cannot be given with roughness/);
   near(same({ roughness: 6, sourceEncoding: 'exponent', targetEncoding: 'alpha' }), 0.5);
 });
 
