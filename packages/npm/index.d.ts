@@ -11,7 +11,8 @@
  *
  * Units. Float32Array and Float64Array hold the values themselves, colors linear. Whole numbers are parts of 255 or 65535,
  * colors in sRGB; `transfer` says otherwise. Roughness is in the encoding of its model (`models()`): alpha, perceptual
- * roughness, a Phong exponent, glossiness or alpha squared; `sourceEncoding` and `targetEncoding` say otherwise.
+ * roughness, a Phong exponent or alpha squared, and means roughness even where the model takes glossiness, which has a name
+ * of its own; `sourceEncoding` and `targetEncoding` say otherwise.
  */
 
 export type MapArray = Float32Array | Float64Array | Uint8Array | Uint8ClampedArray | Uint16Array;
@@ -40,6 +41,8 @@ export interface ConverterOptions {
 /** The maps of a model: roughness and specular; of a workflow: those with diffuse, or base color and metallic. */
 export interface SourceMaps {
   roughness?: ScalarMap;
+  /** 1 - roughness, in its place. */
+  glossiness?: ScalarMap;
   specular?: ColorMap;
   diffuse?: ColorMap;
   baseColor?: ColorMap;
@@ -84,6 +87,8 @@ export interface Statistics {
 /** Arrays as the sources have them; numbers where the sources are numbers. */
 export interface TargetMaps {
   roughness?: any;
+  /** In place of roughness, where that is the encoding of the target. */
+  glossiness?: any;
   specular?: any;
   diffuse?: any;
   baseColor?: any;

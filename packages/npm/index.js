@@ -2,7 +2,7 @@
 import makeCore from './texremap.mjs';
 
 // Texels that are converted at a time, so that the memory of the core stays small whatever the size of a map.
-const BAND = 131072;
+const BAND = 262144;
 
 // What arrays hold: the names that the core has for them, and the largest of whole numbers.
 const ARRAYS = {
@@ -44,6 +44,7 @@ const MAP_OPTIONS = [
   'width', 'firstRow', 'transfer', 'type', 'sourceEncoding', 'targetEncoding', 'badTexels', 'dither', 'measures', 'into',
 ];
 const SOURCES = ['roughness', 'specular', 'diffuse', 'baseColor', 'metallic', 'metalMask'];
+const GIVEN = [...SOURCES, 'glossiness'];
 
 /** An error of the library. `kind` is usage, input, output or numeric, as in C++. */
 export class RemapError extends Error {
@@ -258,7 +259,9 @@ function convertMaps(held, maps, options) {
   if ('type' in options && !Object.hasOwn(OUTPUTS, options.type))
     fail(`type: expected one of ${Object.keys(OUTPUTS).join(', ')}`);
 
-  const into = optionsOf(options.into, 'into', held.targets);
+  const isGlossiness = (options.targetEncoding ?? held.info.targetEncoding) === 'glossiness';
+  const shown = (name) => (name === 'roughness' && isGlossiness ? 'glossiness' : name);
+  const into = optionsOf(options.into, 'into', held.targets.map(shown));
 
   // Each target is laid out as the source of its name, else as the first color, else as the first map.
   const inputs = sources.filter((source) => source.arrays);
@@ -273,7 +276,7 @@ function convertMaps(held, maps, options) {
       const model = inputs.find((source) => source.name === name)
         ?? (isColor ? inputs.find((source) => source.isColor && (source.values > 1 || source.arrays.length === 3)) : undefined)
         ?? inputs[0];
-      const given = name in into ? arraysInto(name, into[name]) : undefined;
+      const given = shown(name) in into ? arraysInto(shown(name), into[shown(name)]) : undefined;
       const kind = given?.kind ?? ('type' in options ? OUTPUTS[options.type] : model?.kind ?? OUTPUTS.float32);
       let planes = 1;
       let values = 1;
@@ -285,7 +288,7 @@ function convertMaps(held, maps, options) {
         }
       }
       if (given && (given.arrays.length !== planes || given.arrays[0].length !== count * values))
-        fail(`into.${name}: has ${given.arrays.length} arrays of ${given.arrays[0].length} values (give ${planes} of ${count * values})`);
+        fail(`into.${shown(name)}: has ${given.arrays.length} arrays of ${given.arrays[0].length} values (give ${planes} of ${count * values})`);
       const arrays = given?.arrays ?? Array.from({ length: planes }, () => new kind.Type(count * values));
       // Opacity stays.
       if (values === 4) copyOpacity(model, kind, arrays[0], count);
@@ -348,8 +351,9 @@ function convertMaps(held, maps, options) {
   }
   const result = { statistics: total };
   for (const target of targets) {
-    if (!isPlain) result[target.name] = target.arrays.length === 1 ? target.arrays[0] : target.arrays;
-    else result[target.name] = target.arrays[0].length === 1 ? target.arrays[0][0] : Array.from(target.arrays[0]);
+    const name = shown(target.name);
+    if (!isPlain) result[name] = target.arrays.length === 1 ? target.arrays[0] : target.arrays;
+    else result[name] = target.arrays[0].length === 1 ? target.arrays[0][0] : Array.from(target.arrays[0]);
   }
   return result;
 }
@@ -374,6 +378,16 @@ function keepOpacity(array, band, first) {
 const registry = typeof FinalizationRegistry === 'undefined' ? null
   : new FinalizationRegistry((number) => call({ call: 'close', converter: number }));
 
+// `roughness` is roughness even where a model takes glossiness, as for the program; glossiness has a name of its own.
+function widthNamed(options, info) {
+  const { glossiness, ...others } = options;
+  if (glossiness !== undefined) {
+    if ('roughness' in others || 'sourceEncoding' in others) fail('glossiness cannot be given with roughness or sourceEncoding');
+    return { ...others, roughness: glossiness, sourceEncoding: 'glossiness' };
+  }
+  return { sourceEncoding: info.sourceEncoding === 'glossiness' ? 'roughness' : info.sourceEncoding, ...others };
+}
+
 class MapConverter {
   constructor(request) {
     const { converter, sources, targets, ...info } = call({ call: 'open', ...request });
@@ -385,7 +399,7 @@ class MapConverter {
   }
   convert(maps) {
     if (this.number === 0) fail('converter: is closed (make another one)');
-    const options = optionsOf(maps, 'convert', [...SOURCES, ...MAP_OPTIONS]);
+    const options = widthNamed(optionsOf(maps, 'convert', [...GIVEN, ...MAP_OPTIONS]), this.info);
     return convertMaps(this, picked(options, SOURCES), picked(options, MAP_OPTIONS));
   }
   close() {
@@ -440,9 +454,9 @@ function recentConverter(names) {
 
 /** Converts maps, or single values, from one model to another. */
 export function convert(request) {
-  const options = optionsOf(request, 'convert', [...CONVERTER_OPTIONS, ...SOURCES, ...MAP_OPTIONS]);
+  const options = optionsOf(request, 'convert', [...CONVERTER_OPTIONS, ...GIVEN, ...MAP_OPTIONS]);
   const held = recentConverter(checked(picked(options, CONVERTER_OPTIONS)));
-  return convertMaps(held, picked(options, SOURCES), picked(options, MAP_OPTIONS));
+  return held.convert(picked(options, [...GIVEN, ...MAP_OPTIONS]));
 }
 
 /** The models, workflows and other names that are known. */

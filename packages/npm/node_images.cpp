@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/plain_text.hpp"
+#include "core/read_file.hpp"
 #include "texture/image_library.hpp"
 
 // What messages call the program that is built.
@@ -136,6 +137,19 @@ std::string refusal_of(std::string_view bytes) {
   return "is no image of a known format (PNG, JPEG, WebP and TIFF are read)";
 }
 
+// Files are held whole in memory, of which WebAssembly has 2 GB.
+constexpr std::uintmax_t kLargestImageFile = std::uintmax_t{512} << 20;
+
+std::string image_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (!ignored && size > kLargestImageFile)
+    throw input_error(path.string() + ": has " + std::to_string(size >> 20) +
+                      " MB, and the package for node reads " + std::to_string(kLargestImageFile >> 20) +
+                      " MB at most (use the Debian or the Python package)");
+  return read_file(path, kLargestImageFile);
+}
+
 // The chunks of PNG files.
 
 struct PngChunk {
@@ -236,7 +250,7 @@ void read_png_header(std::string_view file, const std::vector<PngChunk>& chunks,
 
 class StoredByNode final : public StoredImage {
  public:
-  StoredByNode(const std::filesystem::path& path, int part) : path_(path), file_(read_file(path)) {
+  StoredByNode(const std::filesystem::path& path, int part) : path_(path), file_(image_file(path)) {
     layout_.format = format_of(file_);
     if (layout_.format.empty()) fail(refusal_of(file_));
     if (part != 0) fail("part " + std::to_string(part) + " not found (number of parts: 1)");

@@ -1,9 +1,12 @@
 #include "command_line/progress.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <sys/resource.h>
 #include <utility>
+#ifdef __EMSCRIPTEN__
+#include <array>
+#include <emscripten.h>
+#endif
 
 namespace remap {
 namespace {
@@ -21,26 +24,36 @@ std::string clock_text(double seconds) {
   return text;
 }
 
+}  // namespace
+
 #ifdef __EMSCRIPTEN__
-const auto kProgramStart = std::chrono::steady_clock::now();
-#endif
+// What the host knows of its process (packages/npm/cli.js): seconds and bytes. A page has none.
+// clang-format off
+EM_JS(void, remap_host_use, (double* use), { if (Module["processes"]) HEAPF64.set(Module["processes"].use(), use >> 3); });
+// clang-format on
+
+ResourceUse resource_use() noexcept {
+  std::array<double, 2> use{};
+  remap_host_use(use.data());
+  return {use[0], static_cast<std::size_t>(use[1])};
+}
+#else
+namespace {
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
 
 }  // namespace
 
 ResourceUse resource_use() noexcept {
-#ifdef __EMSCRIPTEN__  // its getrusage() makes numbers up; there is one thread, which never waits
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - kProgramStart).count(), 0};
-#else
-  const auto seconds_of = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
   rusage usage{};
   if (::getrusage(RUSAGE_SELF, &usage) != 0) return {};
   constexpr std::size_t kUnit = 1024;  // Linux counts in kilobytes
   return {seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime),
           static_cast<std::size_t>(usage.ru_maxrss) * kUnit};
-#endif
 }
+#endif
 
 Progress::Progress(std::string label, std::size_t total, bool shown)
     : label_(std::move(label)),

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 
+#include "convert/interleaved.hpp"
 #include "convert/linear_values.hpp"
 #include "core/number_text.hpp"
 #include "remap/error.hpp"
@@ -85,6 +86,20 @@ auto float_row(const BasicChannelView<Byte>& view, const Segment& segment) {
   return is_array ? reinterpret_cast<Float*>(first) : nullptr;
 }
 
+// The first texel of a segment of a color, if its floats stand side by side and hold linear values; else
+// null.
+template <typename View>
+auto interleaved_floats(const std::vector<View>& channels, Transfer transfer, const Segment& segment) {
+  using Byte = decltype(at(channels[0], 0, 0));
+  if (channels.size() != kMaxChannels || transfer != Transfer::kLinear) return Byte{nullptr};
+  const Byte first = at(channels[0], segment.x, segment.y);
+  for (std::size_t c = 0; c < kMaxChannels; ++c)
+    if (channels[c].type != PixelType::kFloat || channels[c].texel_stride != kMaxChannels * sizeof(float) ||
+        at(channels[c], segment.x, segment.y) != first + c * sizeof(float))
+      return Byte{nullptr};
+  return first;
+}
+
 class Conversion {
  public:
   Conversion(const Converter& converter, const MapConversion& maps);
@@ -105,6 +120,7 @@ class Conversion {
                     float* values) const;
   const float* row_of_map(const SourceParameter& parameter, std::size_t channel,
                           const Segment& segment) const;
+  bool load_at_once(Parameter parameter, const Segment& segment, Scratch& scratch) const;
   void refer_to_targets(const Segment& segment, Scratch& scratch) const;
   bool is_source_of_another(Parameter target, std::size_t channel, const float* row, std::size_t count,
                             const Scratch& scratch) const;
@@ -203,6 +219,18 @@ void Conversion::load_channel(const SourceParameter& parameter, std::size_t chan
   for (std::size_t i = 0; i < segment.count; ++i) values[i] *= factor;
 }
 
+// Loads every channel of a color, where its memory allows that; else returns false.
+bool Conversion::load_at_once(Parameter parameter, const Segment& segment, Scratch& scratch) const {
+  const SourceParameter& source = maps_.sources.at(parameter);
+  const std::byte* const texels = interleaved_floats(source.channels, source.transfer, segment);
+  const bool is_as_stored = source.factor(0) == 1.0f && source.factor(1) == 1.0f && source.factor(2) == 1.0f;
+  if (!is_color(parameter) || texels == nullptr || !is_as_stored) return false;
+  load_interleaved(texels, segment.count,
+                   {scratch.source.own_row(parameter, 0), scratch.source.own_row(parameter, 1),
+                    scratch.source.own_row(parameter, 2)});
+  return true;
+}
+
 // Writes rows of a map in place of own ones where the map holds floats as they are and no source row that is
 // still read.
 void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) const {
@@ -280,11 +308,12 @@ void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStati
     const bool changes =
         maps_.bad_texels == BadTexels::kClamp ||
         (parameter == Parameter::kRoughness && source_convention() != converter_.info().source.roughness);
+    const bool is_loaded = load_at_once(parameter, segment, scratch);
     for (std::size_t c = 0; c < count; ++c) {
       const float* const stored = changes ? nullptr : row_of_map(source, c, segment);
       if (stored != nullptr)
         scratch.source.refer(parameter, c, stored);
-      else
+      else if (!is_loaded)
         load_channel(source, c, segment, scratch.source.own_row(parameter, c));
       if (maps_.value_statistics)
         statistics.sources[parameter] +=
@@ -389,6 +418,11 @@ void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStat
             value_statistics(segment.count, scratch.target.row(parameter, c), scratch);
     const TargetParameter* target = wanted(parameter);
     if (target == nullptr) continue;
+    if (std::byte* const texels = interleaved_floats(target->channels, target->transfer, segment)) {
+      const auto row = [&](std::size_t c) { return scratch.target.row(parameter, std::min(c, made - 1)); };
+      store_interleaved({row(0), row(1), row(2)}, segment.count, texels);
+      continue;
+    }
     std::size_t clipped = 0;
     for (std::size_t c = 0; c < target->channels.size(); ++c) {
       const float* const row = scratch.target.row(parameter, std::min(c, made - 1));

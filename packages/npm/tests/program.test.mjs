@@ -1,119 +1,71 @@
-// The command of the package against the program of the C++ build, over the same sets and assets: pixels are equal.
-// TEXREMAP_NATIVE is that program. What is missing is skipped, with its reason.
+// The command of the package against the program of the C++ build: the cases of packages/tests in PNG.
 import assert from 'node:assert/strict';
-import { execFileSync, spawnSync } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { tmpdir } from 'node:os';
+import { existsSync, readlinkSync, truncateSync, writeFileSync } from 'node:fs';
+import { hostname } from 'node:os';
 import { join } from 'node:path';
 import test from 'node:test';
-import { pathToFileURL } from 'node:url';
 
-import { packageFolder, randomArray, randomNumbers } from './package.mjs';
+import { cases, copyOfInputs, filesBelow, folder, requireSame, requireSameResults, runNative, runOwn, startOwn } from './commands.mjs';
 
-function png() {
-  try {
-    return createRequire(join(packageFolder, 'cli.js')).resolve('fast-png');
-  } catch {
-    return undefined;
-  }
-}
-const native = process.env.TEXREMAP_NATIVE;
-const skip = !existsSync(join(packageFolder, 'program.wasm')) ? 'program.wasm is not built'
-  : png() === undefined ? `fast-png is not installed (cd ${packageFolder} && npm install)`
-  : false;
-const skipNative = skip || (native ? false : 'TEXREMAP_NATIVE names no program');
-const { decode, encode } = skip ? {} : await import(pathToFileURL(png()).href);
-
-const folder = mkdtempSync(join(tmpdir(), 'texremap-'));
-process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
-
-const runOwn = (...words) => spawnSync(process.execPath, [join(packageFolder, 'cli.js'), ...words], { encoding: 'utf8', cwd: folder });
-const runNative = (...words) => execFileSync(native, words, { encoding: 'utf8', cwd: folder, stdio: 'pipe' });
-
-function writePng(file, width, height, channels, depth, random) {
-  const data = randomArray(depth === 16 ? Uint16Array : Uint8Array, width * height * channels, random);
-  writeFileSync(file, encode({ width, height, channels, depth, data }));
+// JPEG and TIFF: sharp.test.mjs.
+const own = ['png', 'jpg', 'tif'];
+for (const one of cases) {
+  const others = one.formats.filter((format) => !own.includes(format));
+  if (others.length > 0) test(one.name, { skip: `the package does not read or write ${others}` }, () => {});
+  else if (one.formats.every((format) => format === 'png')) test(one.name, () => requireSame(one));
 }
 
-function filesBelow(root, below = '') {
-  return readdirSync(join(root, below), { withFileTypes: true }).flatMap((entry) =>
-    entry.isDirectory() ? filesBelow(root, join(below, entry.name)) : [join(below, entry.name)]).sort();
-}
-
-function requireSamePixels(own, other) {
-  const files = filesBelow(own);
-  assert.deepEqual(files, filesBelow(other));
-  assert.ok(files.length > 0);
-  for (const file of files) {
-    const a = readFileSync(join(own, file));
-    const b = readFileSync(join(other, file));
-    if (!file.endsWith('.png')) continue;
-    const [x, y] = [decode(a), decode(b)];
-    assert.deepEqual([x.width, x.height, x.channels, x.depth], [y.width, y.height, y.channels, y.depth], file);
-    assert.deepEqual(x.data, y.data, file);
-  }
-}
-
-function makeSets() {
-  const random = randomNumbers(7);
-  const root = join(folder, 'sets');
-  if (existsSync(root)) return root;
-  for (const [set, depth] of [['metal', 8], ['paint', 16]]) {
-    mkdirSync(join(root, set), { recursive: true });
-    writePng(join(root, set, `${set}_diffuse.png`), 37, 21, 3, depth, random);
-    writePng(join(root, set, `${set}_specular.png`), 37, 21, 3, depth, random);
-    writePng(join(root, set, `${set}_glossiness.png`), 37, 21, 1, depth, random);
-  }
-  return root;
-}
-
-test('help and refusals are those of the program', { skip }, () => {
-  assert.match(runOwn('--help').stdout, /Convert texture maps/);
-  const wrong = runOwn('convert', '--from', 'mitsuba/wrd');
+test('help and refusals are those of the program', () => {
+  assert.match(runOwn(['--help']).stdout, /Convert texture maps/);
+  const wrong = runOwn(['convert', '--from', 'mitsuba/wrd']);
   assert.notEqual(wrong.status, 0);
   assert.match(wrong.stderr, /^texremap: /);
 });
 
-test('files of other formats are refused by name', { skip }, () => {
+test('files of other formats are refused by name', () => {
   writeFileSync(join(folder, 'map.exr'), Buffer.from([0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0]));
-  const refused = runOwn('convert', '--from', 'mitsuba/ward', '--to', 'mitsuba/ggx', '--roughness', 'map.exr', '--specular', '0.5', '-o', 'out');
+  const refused = runOwn(['convert', '--from', 'mitsuba/ward', '--to', 'mitsuba/ggx', '--roughness', 'map.exr', '--specular', '0.5', '-o', 'out']);
   assert.equal(refused.status, 1);
   assert.match(refused.stderr, /EXR is not read by the package for node/);
 });
 
-for (const [from, to] of [['gltf-specgloss', 'gltf'], ['specular', 'cycles-5/principled']])
-  test(`sets, ${from} to ${to}: the pixels of the program`, { skip: skipNative }, () => {
-    const sets = makeSets();
-    const name = to.replace('/', '_');
-    const words = (out) => ['convert', sets, '--recursive', '--from', from, '--to', to, '-o', join(folder, out)];
-    runNative(...words(`native_${name}`));
-    const own = runOwn(...words(`own_${name}`));
-    assert.equal(own.status, 0, own.stderr);
-    requireSamePixels(join(folder, `own_${name}`), join(folder, `native_${name}`));
-  });
+test('files too large for memory are refused by name, with a remedy', () => {
+  const copy = copyOfInputs();
+  truncateSync(join(copy, 'deep', 'deep_specular.png'), 5 * 2 ** 30);
+  const refused = runOwn(['convert', 'deep', '--from', 'mitsuba/ward', '--to', 'mitsuba/as', '-o', 'out'], copy);
+  assert.equal(refused.status, 1);
+  assert.match(refused.stderr, /deep_specular.png: has 5120 MB, and .* \(use the Debian or the Python package\)/);
+});
 
-test('a glTF file: the JSON and the pixels of the program', { skip: skipNative }, () => {
-  const random = randomNumbers(9);
-  const root = join(folder, 'asset');
-  mkdirSync(root);
-  writePng(join(root, 'diffuse.png'), 16, 16, 3, 8, random);
-  writePng(join(root, 'specgloss.png'), 16, 16, 4, 8, random);
-  writeFileSync(join(root, 'model.gltf'), JSON.stringify({
-    asset: { version: '2.0' },
-    extensionsUsed: ['KHR_materials_pbrSpecularGlossiness'],
-    images: [{ uri: 'diffuse.png' }, { uri: 'specgloss.png' }],
-    textures: [{ source: 0 }, { source: 1 }],
-    materials: [{
-      name: 'm',
-      extensions: { KHR_materials_pbrSpecularGlossiness: { diffuseTexture: { index: 0 }, specularGlossinessTexture: { index: 1 } } },
-    }],
-  }));
-  const words = (out) => ['convert', join(root, 'model.gltf'), '--to', 'gltf', '-o', join(folder, out)];
-  runNative(...words('native_asset'));
-  const own = runOwn(...words('own_asset'));
-  assert.equal(own.status, 0, own.stderr);
-  requireSamePixels(join(folder, 'own_asset'), join(folder, 'native_asset'));
-  for (const file of filesBelow(join(folder, 'own_asset')).filter((name) => name.endsWith('.gltf')))
-    assert.deepEqual(JSON.parse(readFileSync(join(folder, 'own_asset', file))), JSON.parse(readFileSync(join(folder, 'native_asset', file))));
+const library = ['convert', 'library', '--recursive', '--from', 'mitsuba/ward', '--to', 'mitsuba/as', '--roughness-encoding', 'roughness', '-o', 'out'];
+
+test('the processor time is that of node', () => {
+  const done = runOwn([...library, '--json'], copyOfInputs());
+  const seconds = Number(/([0-9.]+) s of processor time/.exec(done.stderr)[1]);
+  assert.ok(seconds > 0 && seconds < 3, done.stderr);
+});
+
+test('two commands at once in one folder give what one gives', async () => {
+  const [together, alone] = [copyOfInputs(), copyOfInputs()];
+  assert.deepEqual(await Promise.all([1, 2].map(() => startOwn([...library, '--force'], together))), [0, 0]);
+  assert.equal(runOwn(library, alone).status, 0);
+  await requireSameResults(together, alone);
+});
+
+// FNV-1a, as runtime/core/process_mark.cpp has it.
+function tagOfMachine() {
+  let hash = 0x811c9dc5;
+  for (const byte of Buffer.from(`${hostname()}/${readlinkSync('/proc/self/ns/pid')}`)) hash = Math.imul(hash ^ byte, 0x01000193);
+  return (hash >>> 0).toString(16).padStart(8, '0');
+}
+
+test('unfinished files of processes that have ended go, by either program; those of others stay', { skip: process.platform !== 'linux' && 'has no /proc' }, () => {
+  const noProcess = 2 ** 30;
+  for (const run of [runOwn, runNative]) {
+    const copy = copyOfInputs();
+    const name = (process) => join(copy, 'library', `.a.unfinished-${tagOfMachine()}-${process}.png`);
+    for (const number of [noProcess, process.pid]) writeFileSync(name(number), '');
+    run(['convert', 'deep', '--from', 'mitsuba/ward', '--to', 'mitsuba/as', '-o', 'library'], copy);
+    assert.deepEqual([existsSync(name(noProcess)), existsSync(name(process.pid))], [false, true], filesBelow(copy).join(' '));
+  }
 });

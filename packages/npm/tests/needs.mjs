@@ -1,0 +1,30 @@
+// What a test cannot do without: what is missing is said, and the test counts as skipped (77), or as failed where REMAP_REQUIRE
+// holds "npm".
+import { existsSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+import { packageFolder } from './package.mjs';
+
+function skipAll(reason) {
+  console.log(`skipped: npm: ${reason}`);
+  const isRequired = (process.env.REMAP_REQUIRE ?? '').split(',').includes('npm');
+  process.exit(isRequired ? 1 : 77);
+}
+
+export function needFile(file, remedy) {
+  if (!file || !existsSync(file)) skipAll(`${file || 'a file'} is not there (${remedy})`);
+  return file;
+}
+
+/** The default of a package of npm, as the package under test finds it. */
+export async function needPackage(name) {
+  let file;
+  try {
+    file = createRequire(join(packageFolder, 'cli.js')).resolve(name);
+  } catch {
+    skipAll(`${name} is not installed (cd ${packageFolder} && npm install --no-save sharp)`);
+  }
+  return import(pathToFileURL(file).href);
+}
