@@ -145,7 +145,7 @@ std::string image_file(const std::filesystem::path& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
   if (!ignored && size > kLargestImageFile)
     throw input_error(path.string() + ": has " + std::to_string(size >> 20) +
-                      " MB, and the package for node reads " + std::to_string(kLargestImageFile >> 20) +
+                      " MB, and " REMAP_IMAGE_HOST " reads " + std::to_string(kLargestImageFile >> 20) +
                       " MB at most (use the Debian or the Python package)");
   return read_file(path, kLargestImageFile);
 }

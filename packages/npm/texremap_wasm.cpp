@@ -1,5 +1,5 @@
 // What JavaScript calls of the library: one function that takes a request as JSON and gives an answer as
-// JSON. Maps stay in memory, and requests name their places; texremap.js alone writes requests.
+// JSON. Maps stay in memory, and requests name their places; index.js alone writes requests.
 #include <cstdint>
 #include <emscripten.h>
 #include <map>
@@ -12,6 +12,7 @@
 
 #include "convert/converter_file.hpp"
 #include "converter/converter_fields.hpp"
+#include "core/error_kind.hpp"
 #include "core/errors.hpp"
 #include "core/json_field.hpp"
 #include "remap/conversion.hpp"
@@ -130,8 +131,8 @@ Json open_converter(const Field& request) {
     const ConversionChoice choice = choose_conversion(names, graph());
     held.conversion = build_conversion(choice, names.via, graph());
     const ConverterInfo& info = held.converter().info();
-    held.source = choice.is_material() ? width_of(*choice.source) : info.source.roughness;
-    held.target = choice.is_material() ? width_of(*choice.target) : info.target.roughness;
+    held.source = choice.source_width(info);
+    held.target = choice.target_width(info);
     answer = conversion_json(held, held.conversion.domain());
     answer["path"] = path_json(held.conversion.path);
     answer["path"]["looksDifferent"] = held.conversion.closeness.looks_different;
@@ -195,9 +196,6 @@ SourceParameter source_of(const Field& field) {
   return source;
 }
 
-constexpr NamedValues<BadTexels, 3> kBadTexels = {
-    {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
-
 Json counts_json(const MapStatistics& counts) {
   return {{"texels", counts.texel_count},      {"outOfDomain", counts.out_of_domain_count},
           {"nan", counts.nan_count},           {"infinite", counts.infinite_count},
@@ -233,12 +231,6 @@ Json answer_to(const Field& request) {
   if (call == "version") return kVersion;
   request["call"].fail("unknown call");
 }
-
-constexpr NamedValues<ErrorKind, 5> kErrorKinds = {{{ErrorKind::kUsage, "usage"},
-                                                    {ErrorKind::kInput, "input"},
-                                                    {ErrorKind::kOutput, "output"},
-                                                    {ErrorKind::kNumeric, "numeric"},
-                                                    {ErrorKind::kInterrupted, "interrupted"}}};
 
 std::string failure(std::string_view kind, const std::string& message) {
   return Json{{"failure", message}, {"kind", kind}}.dump();

@@ -17,8 +17,6 @@ constexpr NamedValues<PixelType, 4> kWrittenTypes = {{{PixelType::kUint8, "uint8
                                                       {PixelType::kUint16, "uint16"},
                                                       {PixelType::kHalf, "half"},
                                                       {PixelType::kFloat, "float"}}};
-constexpr NamedValues<BadTexels, 3> kBadTexels = {
-    {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 constexpr NamedValues<Parameter, 2> kOnly = {
     {{Parameter::kRoughness, "roughness"}, {Parameter::kSpecular, "specular"}}};
 

@@ -37,9 +37,6 @@ std::optional<Value> named_member(const nb::dict& dict, const char* name,
   return one_of(table, "value").read(name, *word);
 }
 
-constexpr NamedValues<BadTexels, 3> kBadTexels = {
-    {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
-
 Parameter parameter_named(const std::string& name) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < kParameterCount; ++i) {
@@ -216,9 +213,6 @@ std::size_t MaterialConversion::target_channels(const std::string& parameter,
 nb::dict MaterialConversion::describe() const {
   const Converter& converter = built_->converter();
   const ConverterInfo &info = converter.info(), &domain = built_->domain();
-  const auto encoding = [](const std::optional<WorkflowEnd>& end, RoughnessConvention own) {
-    return std::string(convention_name(end ? width_of(*end) : own));
-  };
   const auto range = [](const Range& covered) { return nb::make_tuple(covered.min, covered.max); };
   nb::dict text;
   text["id"] = info.id;
@@ -229,8 +223,8 @@ nb::dict MaterialConversion::describe() const {
   text["is_material"] = choice_.is_material();
   text["sources"] = names_of_parameters(converter.sources());
   text["targets"] = names_of_parameters(converter.targets());
-  text["roughness_encoding"] = encoding(choice_.source, info.source.roughness);
-  text["output_encoding"] = encoding(choice_.target, info.target.roughness);
+  text["roughness_encoding"] = std::string(convention_name(choice_.source_width(info)));
+  text["output_encoding"] = std::string(convention_name(choice_.target_width(info)));
   text["roughness_domain"] = range(domain.roughness);
   text["specular_domain"] = range(domain.specular);
   text["models"] = built_->path.steps.empty() ? std::vector<std::string>{} : path_models(built_->path);

@@ -238,14 +238,14 @@ class PythonCodec : public ImageCodec {
     });
   }
   std::string encode_png(const ImagePixels& pixels, PngEffort effort) const override {
-    return encoded(pixels, "encode_png", nb::cast(effort == PngEffort::kSmallest), false);
+    return encoded(pixels, "encode_png", nb::cast(effort == PngEffort::kSmallest));
   }
   std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
-    return encoded(pixels, "encode_jpeg", nb::int_(quality), true);
+    return encoded(pixels, "encode_jpeg", nb::int_(quality));
   }
 
  private:
-  std::string encoded(const ImagePixels& pixels, const char* method, const nb::object& setting, bool) const {
+  std::string encoded(const ImagePixels& pixels, const char* method, const nb::object& setting) const {
     return in_python(ErrorKind::kOutput, [&] {
       const nb::object bytes =
           images_->attr(method)(pixels.width, pixels.height, pixels.channels, name_of_type(pixels.type),

@@ -9,6 +9,7 @@
 
 #include "command_line/interruption.hpp"
 #include "conversion.hpp"
+#include "core/error_kind.hpp"
 #include "images.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
@@ -20,26 +21,11 @@ namespace nb = nanobind;
 namespace remap::python {
 namespace {
 
-std::string_view kind_name(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::kUsage:
-      return "usage";
-    case ErrorKind::kInput:
-      return "input";
-    case ErrorKind::kOutput:
-      return "output";
-    case ErrorKind::kNumeric:
-      return "numeric";
-    case ErrorKind::kInterrupted:
-      return "interrupted";
-  }
-  return "usage";
-}
-
 // texremap.Error is made in Python: a ValueError with the kind as a member.
 void raise_error(const Error& error) {
   const nb::object type = nb::module_::import_("texremap._error").attr("Error");
-  const nb::object value = type(nb::str(error.what()), nb::cast(std::string(kind_name(error.kind()))));
+  const nb::object value =
+      type(nb::str(error.what()), nb::cast(std::string(name_of(kErrorKinds, error.kind()))));
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 

@@ -92,7 +92,7 @@ def _shader_value(node, name, otherwise):
 
 
 def _read(texture):
-    """Linear floats of shape (height, width, channels), and the type of the file."""
+    """Linear floats of shape (height, width, channels)."""
     from .images import Images
 
     image = Images().open(texture.path, 0)
@@ -119,7 +119,7 @@ def _read(texture):
     four = four * np.array(_shader_value(texture.shader, "scale", (1, 1, 1, 1)), np.float32)
     four = four + np.array(_shader_value(texture.shader, "bias", (0, 0, 0, 0)), np.float32)
     places = {"rgb": slice(0, 3), "r": slice(0, 1), "g": slice(1, 2), "b": slice(2, 3), "a": slice(3, 4)}
-    return np.ascontiguousarray(four[..., places[texture.channels]], np.float32), dtype
+    return np.ascontiguousarray(four[..., places[texture.channels]], np.float32)
 
 
 def _write(path, values, is_color):
@@ -140,10 +140,10 @@ def _write(path, values, is_color):
 
 
 class _MaterialEdit:
-    """One material in the new layer."""
+    """What one material of the source becomes."""
 
-    def __init__(self, stage, material, shader, is_to_metallic, folder):
-        self._stage, self._shader, self._folder = stage, shader, folder
+    def __init__(self, material, shader, is_to_metallic, folder):
+        self._shader, self._folder = shader, folder
         self._material = material
         self._takes, self._makes = (_SPECULAR, _METALLIC) if is_to_metallic else (_METALLIC, _SPECULAR)
         self._is_to_metallic = is_to_metallic
@@ -159,7 +159,7 @@ class _MaterialEdit:
         sizes = {}
         for name, source in sources.items():
             if isinstance(source, _Texture):
-                values, _ = _read(source)
+                values = _read(source)
                 sizes[name] = values.shape[:2]
                 self._model_texture = self._model_texture or source
                 given[self._takes[name]] = values if name != "metallic" else values[..., 0]
@@ -189,29 +189,31 @@ class _MaterialEdit:
     def _is_map(values):
         return values.ndim == 3 and not (values == values[:1, :1]).all()
 
-    def author(self):
+    def author(self, stage):
+        """Writes it into the edit target of ``stage``."""
+        shader = UsdShade.Shader(stage.GetPrimAtPath(self._shader.GetPath()))
         for name, values in self._converted.items():
             is_color = name != "metallic"
             kind = Sdf.ValueTypeNames.Color3f if is_color else Sdf.ValueTypeNames.Float
-            target = self._shader.CreateInput(name, kind)
+            target = shader.CreateInput(name, kind)
             if self._is_map(values):
-                target.ConnectToSource(self._texture_output(name, values, is_color))
+                target.ConnectToSource(self._texture_output(stage, name, values, is_color))
                 continue
             constant = values.reshape(-1, values.shape[-1])[0] if values.ndim == 3 else values
             numbers = [float(number) for number in constant]
             target.GetAttr().SetConnections([])
             target.Set(Gf.Vec3f(*(numbers * 3)[:3]) if is_color else numbers[0])
-        workflow = self._shader.CreateInput("useSpecularWorkflow", Sdf.ValueTypeNames.Int)
+        workflow = shader.CreateInput("useSpecularWorkflow", Sdf.ValueTypeNames.Int)
         workflow.GetAttr().SetConnections([])
         workflow.Set(0 if self._is_to_metallic else 1)
 
-    def _texture_output(self, name, values, is_color):
+    def _texture_output(self, stage, name, values, is_color):
         file = self._file(name)
         _write(file, values if is_color else values[..., :1], is_color)
         path = self._material.GetPath().AppendChild(f"texremap_{name}")
-        node = UsdShade.Shader.Define(self._stage, path)
+        node = UsdShade.Shader.Define(stage, path)
         node.CreateIdAttr("UsdUVTexture")
-        layer = os.path.dirname(self._stage.GetEditTarget().GetLayer().realPath)
+        layer = os.path.dirname(stage.GetEditTarget().GetLayer().realPath)
         relative = os.path.relpath(file, layer).replace(os.sep, "/")
         node.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath("./" + relative))
         node.CreateInput("sourceColorSpace", Sdf.ValueTypeNames.Token).Set("sRGB" if is_color else "raw")
@@ -250,7 +252,7 @@ def _plan(stage, is_to_metallic, folder):
             elif prim.IsInstanceProxy():
                 yield MaterialReport(path, "failed", "lies in an instance, where a layer has no say")
             else:
-                yield path, _MaterialEdit(stage, material, shader, is_to_metallic, folder).convert()
+                yield path, _MaterialEdit(material, shader, is_to_metallic, folder).convert()
         except (Error, ValueError, ImportError) as failure:
             yield MaterialReport(path, "failed", str(failure))
 
@@ -275,16 +277,12 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
     if os.path.exists(output) and not force:
         raise Error(f"{output}: exists (use --force to replace it)", "output")
     try:
-        stage_of_source = Usd.Stage.Open(source)
+        stage = Usd.Stage.Open(source)
     except Exception as failure:  # Tf.ErrorException is made of lines for developers
         lines = str(failure).strip().splitlines()
         raise Error(f"{source}: cannot be read: {lines[-1].strip() if lines else 'unknown reason'}", "input") from None
 
     folder = os.path.splitext(output)[0] + "_textures"
-    layer = Sdf.Layer.CreateAnonymous(".usda")
-    stage = Usd.Stage.Open(layer)
-    root = stage_of_source.GetRootLayer()
-    layer.subLayerPaths.append(root.realPath)
     reports, edits = [], []
     for found in _plan(stage, to == "metallic", folder):
         if isinstance(found, MaterialReport):
@@ -295,11 +293,11 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
             reports.append(MaterialReport(path, "converted", "", tuple(edit.textures())))
     if dry_run:
         return reports
-    _write_layer(root, layer, stage, edits, output, folder)
+    _write_layer(stage.GetRootLayer(), edits, output, folder)
     return reports
 
 
-def _write_layer(root, layer, stage, edits, output, folder):
+def _write_layer(root, edits, output, folder):
     """Authors the edits, then saves the layer under an unfinished name and renames it."""
     parent = os.path.dirname(os.path.abspath(output))
     stem, extension = os.path.splitext(os.path.basename(output))
@@ -307,7 +305,6 @@ def _write_layer(root, layer, stage, edits, output, folder):
     try:
         os.makedirs(folder if any(edit.textures() for edit in edits) else parent, exist_ok=True)
         saved = Sdf.Layer.CreateNew(unfinished)
-        saved.TransferContent(layer)
         relative = os.path.relpath(root.realPath, parent).replace(os.sep, "/")
         saved.subLayerPaths[:] = [relative if relative.startswith("../") else "./" + relative]
         for name in _STAGE_METADATA:
@@ -315,10 +312,7 @@ def _write_layer(root, layer, stage, edits, output, folder):
                 saved.pseudoRoot.SetInfo(name, root.pseudoRoot.GetInfo(name))
         target = Usd.Stage.Open(saved)
         for edit in edits:
-            edit._stage = target
-            edit._shader = UsdShade.Shader(target.GetPrimAtPath(edit._shader.GetPath()))
-            edit._material = UsdShade.Material(target.GetPrimAtPath(edit._material.GetPath()))
-            edit.author()
+            edit.author(target)
         saved.Save()
         os.replace(unfinished, output)
     except OSError as failure:

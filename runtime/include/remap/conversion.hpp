@@ -64,6 +64,14 @@ struct ConversionChoice {
   }
   // Whether metallic is made from other values.
   bool finds_metallic() const noexcept { return is_to_metallic() && !changes_nothing; }
+  // What roughness is at each end, unless somebody says otherwise. `info` is of the converter, which may have
+  // another convention inside where it converts a material.
+  RoughnessConvention source_width(const ConverterInfo& info) const noexcept {
+    return source ? width_of(*source) : info.source.roughness;
+  }
+  RoughnessConvention target_width(const ConverterInfo& info) const noexcept {
+    return target ? width_of(*target) : info.target.roughness;
+  }
   // The parameters of the source and of the target, in the order of Parameter.
   std::vector<Parameter> sources() const;
   std::vector<Parameter> targets() const;

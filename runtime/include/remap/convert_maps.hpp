@@ -111,6 +111,10 @@ enum class BadTexels {
   kFail,   // the first invalid value ends the conversion
 };
 
+// The words for it.
+inline constexpr NamedValues<BadTexels, 3> kBadTexels = {
+    {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
+
 struct MapTreatment {
   std::optional<RoughnessConvention> target_convention;  // of the results; by default that of the model
   BadTexels bad_texels = BadTexels::kKeep;

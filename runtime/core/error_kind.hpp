@@ -1,0 +1,15 @@
+// The kinds of errors by name, for hosts in other languages.
+#pragma once
+
+#include "remap/error.hpp"
+#include "remap/model.hpp"
+
+namespace remap {
+
+inline constexpr NamedValues<ErrorKind, 5> kErrorKinds = {{{ErrorKind::kUsage, "usage"},
+                                                           {ErrorKind::kInput, "input"},
+                                                           {ErrorKind::kOutput, "output"},
+                                                           {ErrorKind::kNumeric, "numeric"},
+                                                           {ErrorKind::kInterrupted, "interrupted"}}};
+
+}  // namespace remap
