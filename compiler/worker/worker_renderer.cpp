@@ -11,7 +11,9 @@ namespace remap {
 namespace {
 
 // Processes that one picture may cost. Many may be lost at once with the machine they ran on, so the losses
-// of all together say little; a picture that ends every renderer is found by its own.
+// of all together say little; a picture that ends every renderer is found by its own. The last process is
+// new: where processes end after some number of pictures, one picture could otherwise meet the end of all
+// three.
 constexpr int kMostLosses = 3;
 
 // How often a pause checks for an interruption.
@@ -52,10 +54,13 @@ class WorkerRenderer::Turn {
   const std::string& key_;
 };
 
-// A worker for one picture: one that is idle, or a new one.
+// A worker for one picture: one that is idle, or a new one in its place.
 class WorkerRenderer::Lease {
  public:
-  explicit Lease(const WorkerRenderer& renderer) : renderer_(renderer), worker_(renderer.idle_worker()) {}
+  Lease(const WorkerRenderer& renderer, bool must_be_new)
+      : renderer_(renderer), worker_(renderer.idle_worker()) {
+    if (must_be_new) worker_.reset();
+  }
   ~Lease() { renderer_.give_back(std::move(worker_)); }
   Lease(const Lease&) = delete;
   Lease& operator=(const Lease&) = delete;
@@ -122,7 +127,7 @@ void WorkerRenderer::give_back(std::unique_ptr<Worker> worker) const {
 Image WorkerRenderer::render_anew(const PictureRequest& request) const {
   for (int losses = 1;; ++losses) {
     try {
-      return Lease(*this).worker().render(request);
+      return Lease(*this, losses == kMostLosses).worker().render(request);
     } catch (const LostWorker& lost) {
       accept_loss(lost, losses);
     }
