@@ -10,6 +10,7 @@
 #include "assets/asset.hpp"
 #include "core/files.hpp"
 #include "core/open_file.hpp"
+#include "texremap/manifest.hpp"
 
 namespace remap {
 
@@ -18,7 +19,9 @@ namespace remap {
 struct AssetJob {
   std::filesystem::path input, output;
   std::filesystem::path input_root, output_root;
-  std::string image_prefix;  // of new images beside it
+  std::string image_prefix = {};                  // of new images beside it
+  std::vector<std::filesystem::path> files = {};  // that it names and that are there; of several assets alone
+  ListedSizes listed = {};                        // sizes of files that a manifest states
 
   // The path below the root, as bytes.
   std::string name() const { return input.lexically_relative(input_root).generic_string(); }

@@ -1,4 +1,5 @@
-// The assets that a run converts: those that the command line names, or those of a folder.
+// The assets that a run converts: those that the command line names, those of a folder, or those of a
+// manifest.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +20,12 @@ struct AssetList {
 // Whether the name is that of an asset that this program reads.
 bool is_asset(const std::filesystem::path& path);
 
-// Throws kUsage where two assets would become one file, or where a folder has none; kInput if a folder cannot
-// be read.
-AssetList asset_list(const ConvertOptions& options);
+// `listing`: of the manifest, if there is one. Throws kUsage where two assets would become one file, or where
+// a folder has none; kInput if a folder cannot be read.
+AssetList asset_list(const ConvertOptions& options, const Listing* listing);
+
+// The assets of a folder as a manifest lists them. `format`: that OBJ files are to become, or empty. Throws
+// as asset_list().
+Listing listing_of_assets(const std::filesystem::path& folder, const std::string& format);
 
 }  // namespace remap

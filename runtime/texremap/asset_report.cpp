@@ -134,7 +134,9 @@ Json summary_json(const AssetSummary& summary) {
             {"failed", summary.failed},
             {"materials_converted", summary.materials},
             {"problems", problems},
-            {"seconds", rounded(summary.seconds, 3)}}}};
+            {"seconds", rounded(summary.seconds, 3)},
+            {"processor_seconds", summary.used.processor_seconds},
+            {"peak_memory_bytes", summary.used.peak_memory_bytes}}}};
 }
 
 }  // namespace remap

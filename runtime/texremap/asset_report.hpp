@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assets/asset.hpp"
+#include "command_line/progress.hpp"
 #include "core/json.hpp"
 
 namespace remap {
@@ -37,6 +38,7 @@ struct AssetSummary {
   std::size_t materials = 0;  // converted
   std::vector<std::string> problems;
   double seconds = 0.0;
+  ResourceUse used;
 };
 AssetSummary summary_of(const std::vector<AssetReport>& reports);
 std::string summary_text(const AssetSummary& summary, bool dry_run);

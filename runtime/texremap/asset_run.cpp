@@ -76,19 +76,18 @@ std::string inputs_hash_of(const AssetJob& job, const std::vector<AssetResource>
 
 class AssetRunner {
  public:
-  AssetRunner(const AssetList& list, const ConvertOptions& options)
+  AssetRunner(const AssetList& list, const ConvertOptions& options, const ConversionNote& conversion)
       : list_(list),
         options_(options),
         conversion_(asset_options(options)),
-        journal_(options.output,
-                 conversion_note("assets", options.to.name,
-                                 *specgloss_projection(options.prior, options.instructions), options),
-                 std::nullopt) {
+        journal_(options.output, conversion,
+                 options.part ? std::make_optional(options.part->part) : std::nullopt) {
     if (list.is_tree && !options.force) journal_.require_own();
   }
 
   void run(const AssetJob& job, AssetReport& report) {
     const Stopwatch stopwatch;
+    require_as_listed(job.listed);
     const FileSource source(job.input);
     const FolderResources files(job);
     std::vector<AssetResource> named;
@@ -192,10 +191,16 @@ std::string progress_text(std::size_t done, std::size_t all) {
 
 }  // namespace
 
+ConversionNote conversion_of_assets(const ConvertOptions& options) {
+  return conversion_note("assets", options.to.name,
+                         *specgloss_projection(options.prior, options.instructions), options);
+}
+
 std::vector<AssetReport> run_assets(const AssetList& list, const ConvertOptions& options,
+                                    const ConversionNote& conversion,
                                     const std::function<void(const AssetReport&)>& finished) {
   const std::size_t threads = std::min(static_cast<std::size_t>(options.threads()), list.jobs.size());
-  AssetRunner runner(list, options);
+  AssetRunner runner(list, options, conversion);
   std::vector<AssetReport> reports(list.jobs.size());
   Progress line(progress_text(0, list.jobs.size()), list.jobs.size(), !options.quiet);
   std::mutex mutex;
@@ -213,8 +218,10 @@ std::vector<AssetReport> run_assets(const AssetList& list, const ConvertOptions&
       });
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted)
-        throw Error(error.kind(), std::string("interrupted: finished assets are complete") +
-                                      (list.is_tree ? " (--resume converts the others)" : ""));
+        throw Error(error.kind(),
+                    std::string("interrupted: finished assets are complete") +
+                        (list.is_tree ? " (--resume converts the others)" : ""),
+                    options.part ? EINTR : 0);
       if (list.jobs.size() == 1 && !list.is_tree) throw;
       report.failure = error.what();
       report.failure_code = error.system_code();

@@ -153,12 +153,13 @@ void warn_of_encoding(const ConvertOptions& options, const JobList& list, const 
                       " (use --roughness-encoding roughness if they hold its square root)");
 }
 
-// The sets that the manifest lists for this run. DIR becomes the root of the tree.
-SetManifest listed_sets(ConvertOptions& options) {
+// What the manifest lists for this run; none without one. DIR becomes the root of the tree.
+std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
+  if (options.manifest.empty()) return std::nullopt;
   if (!options.names.empty())
     throw usage_error("--names cannot be used with --manifest (give it to texremap index)");
   const Part all;
-  SetManifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
+  TreeManifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
   if (options.folder.empty()) options.folder = manifest.head.root;
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.folder, ignored))
@@ -178,12 +179,12 @@ struct CheckedConversion {
   ChosenConverter chosen;
 };
 
-CheckedConversion checked(ConvertOptions& options) {
+CheckedConversion checked(ConvertOptions& options, std::optional<TreeManifest> manifest) {
   CheckedConversion conversion;
-  if (!options.manifest.empty()) {
-    SetManifest listed = listed_sets(options);
-    conversion.manifest = listed.head;
-    conversion.sets = std::move(listed.found);
+  apply_preset(options);
+  if (manifest) {
+    conversion.manifest = manifest->head;
+    conversion.sets = std::move(manifest->listing.found);
   }
   std::string told;
   if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
@@ -214,14 +215,9 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
       conversion_jobs(options, chosen.workflow, conversion.request, std::move(conversion.sets));
   warn_of_encoding(options, list, chosen.info().source);
   Outcome outcome{chosen, list, {}, options.dry_run, options.histograms, options.json, 0.0, {}};
-  // What a run says of a set, it says as soon as the set is finished: a killed run has told what it did. The
-  // report of a part is there when the part is finished.
-  const bool as_lines = options.json && list.is_tree;
-  std::string part_report;
+  RunLines lines(options);
   const auto tell = [&](const Json& line) {
-    const std::string text = line.dump() + '\n';
-    if (as_lines) std::cout << text << std::flush;
-    if (options.part) part_report += text;
+    if (list.is_tree) lines.tell(line);
   };
   print_left_out(kProgram, list, options.quiet);
   if (options.part) tell(part_json(*options.part, conversion.manifest, conversion_note(chosen, options)));
@@ -242,8 +238,7 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
     tell_end(outcome, tell);
   else if (options.json)
     print_json(outcome);
-  if (options.part && !options.dry_run)
-    write_file(report_of(options.output, options.part->part), part_report);
+  lines.finish();
   const std::size_t all = outcome.reports.size() + list.left_out.size();
   const std::string of_all = " of " + std::to_string(all) + (all == 1 ? " set " : " sets ");
   if (const std::size_t failed = outcome.failed_count(); failed > 0)
@@ -258,7 +253,10 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
 }  // namespace
 
 void convert(ConvertOptions options) {
-  CheckedConversion conversion = checked(options);
+  std::optional<TreeManifest> manifest = listed_entries(options);
+  const TreeManifest* const listed = manifest ? &*manifest : nullptr;
+  if (are_assets(options, listed)) return convert_assets(options, listed);
+  CheckedConversion conversion = checked(options, std::move(manifest));
   if (options.folder.empty() && are_constants(conversion.request)) {
     refuse(options, kNeedsFiles,
            ": applies to nothing, because all maps are numbers (give a file, or remove this option)");
@@ -270,7 +268,10 @@ void convert(ConvertOptions options) {
 }
 
 void check_conversion(ConvertOptions options) {
-  CheckedConversion conversion = checked(options);
+  std::optional<TreeManifest> manifest = listed_entries(options);
+  const TreeManifest* const listed = manifest ? &*manifest : nullptr;
+  if (are_assets(options, listed)) return check_assets(options, listed);
+  CheckedConversion conversion = checked(options, std::move(manifest));
   const JobList list =
       conversion_jobs(options, conversion.chosen.workflow, conversion.request, std::move(conversion.sets));
   warn_of_encoding(options, list, conversion.chosen.info().source);
@@ -281,8 +282,6 @@ void add_convert_command(Command& app) {
       "convert", "Convert the maps of a material: roughness and specular, or a whole workflow");
   ConvertOptions& options = set_work<ConvertOptions>(*command, [command](ConvertOptions given) {
     given.given = command->given();
-    if (convert_as_assets(given)) return;
-    apply_preset(given);
     convert(given);
   });
   add_convert_options(*command, options);

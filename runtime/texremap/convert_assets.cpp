@@ -13,32 +13,35 @@
 #include "texremap/asset_report.hpp"
 #include "texremap/asset_run.hpp"
 #include "texremap/commands.hpp"
+#include "texremap/part_report.hpp"
 
 namespace remap {
 namespace {
 
 // The options of `texremap convert` that apply to assets, besides those with the tag kNeedsAsset.
-constexpr std::array<std::string_view, 15> kAssetOptions = {
-    "DIR",     "--from",         "--to",       "--prior",     "--output", "--force",   "--dry-run", "--json",
-    "--quiet", "--instructions", "--resample", "--recursive", "--resume", "--threads", "--format"};
+constexpr std::array<std::string_view, 17> kAssetOptions = {
+    "DIR",       "--from",    "--to",     "--prior",        "--output",   "--force",
+    "--dry-run", "--json",    "--quiet",  "--instructions", "--resample", "--recursive",
+    "--resume",  "--threads", "--format", "--manifest",     "--part"};
 // Of these, those that apply to folders alone.
 constexpr std::array<std::string_view, 2> kTreeOptions = {"--recursive", "--resume"};
 
 bool holds(const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
 void require_asset_options(const ConvertOptions& options) {
+  const bool is_tree = options.assets || !options.manifest.empty();
   for (const GivenOption& option : options.given) {
     if ((option.tags & kNeedsAsset) == 0 && !holds(kAssetOptions, option.name))
       throw usage_error(option.name + ": applies to nothing, because " + shown(options.folder) +
-                        (options.assets ? " is converted as a folder of assets" : " is an asset") +
+                        (is_tree ? " is converted as a folder of assets" : " is an asset") +
                         " (remove this option)");
-    if (!options.assets && holds(kTreeOptions, option.name))
+    if (!is_tree && holds(kTreeOptions, option.name))
       throw usage_error(option.name +
                         ": applies to folders of assets alone (remove this option, or name a "
                         "folder and --assets)");
   }
-  if (options.assets && (!options.more_assets.empty() || !options.asset_root.empty()))
-    throw usage_error("--assets: cannot be used with " +
+  if (is_tree && (!options.more_assets.empty() || !options.asset_root.empty()))
+    throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
                       (options.more_assets.empty()
                            ? std::string("--root, which is DIR")
                            : shown(options.more_assets.front()) + " (name one folder)"));
@@ -88,35 +91,53 @@ void require_success(const std::vector<AssetReport>& reports, const AssetSummary
                     " materials failed");
 }
 
-void convert_assets(const ConvertOptions& options) {
+AssetList checked_list(const ConvertOptions& options, const TreeManifest* manifest) {
   require_asset_options(options);
-  const Stopwatch stopwatch;
-  const AssetList list = asset_list(options);
+  AssetList list = asset_list(options, manifest == nullptr ? nullptr : &manifest->listing);
   require_gltf(options, list);
-  const bool is_one = list.jobs.size() == 1 && !list.is_tree;
-  for (const std::string& problem : list.problems) print_message(kProgram, "failed: " + problem);
-  const std::vector<AssetReport> reports = run_assets(list, options, [&](const AssetReport& report) {
-    print_asset(report, options.dry_run, options.quiet);
-    if (options.json) std::cout << asset_json(report, options.dry_run).dump(is_one ? 2 : -1) << std::endl;
-  });
-  AssetSummary summary = summary_of(reports);
-  summary.problems = list.problems;
-  summary.seconds = stopwatch.seconds();
-  if (!is_one && !options.quiet) print_message(kProgram, summary_text(summary, options.dry_run));
-  if (!is_one && options.json) std::cout << summary_json(summary).dump() << std::endl;
-  require_success(reports, summary);
+  return list;
 }
 
 }  // namespace
 
-bool convert_as_assets(const ConvertOptions& options) {
-  if (options.assets || is_asset(options.folder)) {
-    convert_assets(options);
+bool are_assets(const ConvertOptions& options, const TreeManifest* manifest) {
+  if (manifest != nullptr ? manifest->head.kind == ListedKind::kAssets
+                          : options.assets || is_asset(options.folder))
     return true;
-  }
   refuse(options, kNeedsAsset,
          ": applies to assets alone (remove it, name a glTF, MTL or OBJ file, or --assets)");
   return false;
+}
+
+void check_assets(const ConvertOptions& options, const TreeManifest* manifest) {
+  (void)checked_list(options, manifest);
+}
+
+void convert_assets(const ConvertOptions& options, const TreeManifest* manifest) {
+  const Stopwatch stopwatch;
+  const AssetList list = checked_list(options, manifest);
+  const bool is_one = list.jobs.size() == 1 && !list.is_tree;
+  const ConversionNote conversion = conversion_of_assets(options);
+  RunLines lines(options);
+  if (options.part) lines.tell(part_json(*options.part, manifest->head, conversion));
+  for (const std::string& problem : list.problems) print_message(kProgram, "failed: " + problem);
+  const std::vector<AssetReport> reports =
+      run_assets(list, options, conversion, [&](const AssetReport& report) {
+        print_asset(report, options.dry_run, options.quiet);
+        const Json json = asset_json(report, options.dry_run);
+        if (!is_one)
+          lines.tell(json);
+        else if (options.json)
+          std::cout << json.dump(2) << std::endl;
+      });
+  AssetSummary summary = summary_of(reports);
+  summary.problems = list.problems;
+  summary.seconds = stopwatch.seconds();
+  summary.used = resource_use();
+  if (!is_one && !options.quiet) print_message(kProgram, summary_text(summary, options.dry_run));
+  if (!is_one) lines.tell(summary_json(summary));
+  lines.finish();
+  require_success(reports, summary);
 }
 
 }  // namespace remap

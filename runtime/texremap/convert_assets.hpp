@@ -1,12 +1,19 @@
-// `texremap convert` of glTF files: a file in, the same file with converted materials out.
+// `texremap convert` of assets: a file in, the same file with converted materials out.
 #pragma once
 
 #include "texremap/convert_options.hpp"
+#include "texremap/manifest.hpp"
 
 namespace remap {
 
-// Whether DIR is a glTF file, which then is converted. Where it is not, throws kUsage for options that only
-// assets have. Throws as the conversion of sets does: after the last file, where one failed.
-bool convert_as_assets(const ConvertOptions& options);
+// Whether the options name assets: as a manifest of them, a folder or files. `manifest`: null for none. Where
+// they do not, throws kUsage for options that only assets have.
+bool are_assets(const ConvertOptions& options, const TreeManifest* manifest);
+
+// Converts them. Throws as the conversion of sets does: after the last file, where one failed.
+void convert_assets(const ConvertOptions& options, const TreeManifest* manifest);
+
+// All that convert_assets() checks before it opens the first asset.
+void check_assets(const ConvertOptions& options, const TreeManifest* manifest);
 
 }  // namespace remap

@@ -149,10 +149,11 @@ void add_source_options(Command& command, ConvertOptions& options) {
           "Assets may name files below this folder, whose tree the results mirror (default: the folder "
           "of the asset; with --assets DIR)")
       ->tag(kNeedsAsset);
-  Option* manifest =
-      command.add_option("--manifest FILE", options.manifest,
-                         "Convert the sets that texremap index has listed; DIR is where the tree lies now");
+  Option* manifest = command.add_option(
+      "--manifest FILE", options.manifest,
+      "Convert the sets or assets that texremap index has listed; DIR is where the tree lies now");
   manifest->excludes(command.option("--recursive"));
+  manifest->excludes(command.option("--assets"));
   command
       .add_option("--part I/N", options.part, given_part(),
                   "Convert part I of N of the manifest; auto takes both from the array of jobs that this "

@@ -64,7 +64,7 @@ struct ConvertOptions {
   std::string fit;
   UsedConverters converters;
   bool recursive = false;
-  std::filesystem::path manifest;  // that lists the sets, in place of a search in the folder
+  std::filesystem::path manifest;  // that lists the sets or assets, in place of a search in the folder
   std::optional<GivenPart> part;   // of the manifest
 
   std::map<Parameter, std::optional<MapSource>> maps;

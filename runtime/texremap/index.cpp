@@ -1,5 +1,5 @@
-// `texremap index`: lists the texture sets of a tree in a manifest, by which many processes share one
-// conversion.
+// `texremap index`: lists the texture sets of a tree, or its assets, in a manifest, by which many processes
+// share one conversion.
 #include <iostream>
 
 #include "command_line/run_app.hpp"
@@ -9,6 +9,7 @@
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "core/stopwatch.hpp"
+#include "texremap/asset_jobs.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/manifest.hpp"
 #include "texture/content_hash.hpp"
@@ -18,42 +19,52 @@ namespace {
 
 struct IndexOptions {
   std::filesystem::path folder, output;
-  std::string names;
-  bool force = false, json = false, quiet = false;
+  std::string names, format;
+  bool assets = false, force = false, json = false, quiet = false;
 };
+
+Listing listing_of_sets(const IndexOptions& options) {
+  const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
+  DiscoveryOptions discovery;
+  discovery.naming = &naming;
+  Listing listing;
+  listing.found = find_sets(options.folder, discovery);
+  if (listing.found.sets.empty() && listing.found.problems.empty())
+    throw usage_error(options.folder.string() +
+                      ": no texture set found by file names (use --names FILE for other names, or "
+                      "--assets for glTF and MTL files)");
+  return listing;
+}
 
 void index(const IndexOptions& options) {
   const Stopwatch stopwatch;
   require_new(options.output, options.force);
-  const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
-  DiscoveryOptions discovery;
-  discovery.naming = &naming;
-  Discovery found = find_sets(options.folder, discovery);
-  if (found.sets.empty() && found.problems.empty())
-    throw usage_error(options.folder.string() +
-                      ": no texture set found by file names (use --names FILE for other names)");
-  const std::size_t unrecognised = found.unrecognised.size();
+  Listing listing =
+      options.assets ? listing_of_assets(options.folder, options.format) : listing_of_sets(options);
+  const std::size_t unrecognised = listing.found.unrecognised.size();
   if (!options.quiet)
-    for (const WalkProblem& problem : found.problems) print_message(kProgram, "failed: " + problem.message);
+    for (const WalkProblem& problem : listing.found.problems)
+      print_message(kProgram, "failed: " + problem.message);
   const ManifestHead head =
       write_manifest(options.output, options.folder, options.names.empty() ? "" : hash_of_file(options.names),
-                     std::move(found));
-  if (options.json)
-    std::cout << Json({{"manifest", options.output.string()},
-                       {"sets", head.set_count},
-                       {"files", head.file_count},
-                       {"bytes", head.bytes},
-                       {"cost", head.cost},
-                       {"unrecognised_images", unrecognised},
-                       {"hash", head.hash},
-                       {"seconds", stopwatch.seconds()}})
-                     .dump(2)
-              << '\n';
+                     std::move(listing));
+  if (options.json) {
+    Json json = {{"manifest", options.output.string()},
+                 {std::string(name_of(kListedKinds, head.kind)), head.count},
+                 {"files", head.file_count},
+                 {"bytes", head.bytes},
+                 {"cost", head.cost}};
+    if (head.kind == ListedKind::kSets) json["unrecognised_images"] = unrecognised;
+    json["hash"] = head.hash;
+    json["seconds"] = stopwatch.seconds();
+    std::cout << json.dump(2) << '\n';
+  }
   if (options.quiet) return;
   if (unrecognised > 0)
     print_message(kProgram, counted(unrecognised, "image") +
                                 " left out, because no habit knows the name (--names FILE teaches one)");
-  print_message(kProgram, counted(head.set_count, "set") + " of " + counted(head.file_count, "file") + ", " +
+  print_message(kProgram, counted(head.count, noun_of(head.kind)) + " of " +
+                              counted(head.file_count, "file") + ", " +
                               fixed(static_cast<double>(head.bytes) * 1e-9, 2) + " GB, in " +
                               fixed(stopwatch.seconds(), 1) + " s");
 }
@@ -61,11 +72,20 @@ void index(const IndexOptions& options) {
 }  // namespace
 
 void add_index_command(Command& app) {
-  Command* command = app.add_subcommand("index", "List the texture sets of a tree, for conversions in parts");
+  Command* command =
+      app.add_subcommand("index", "List the texture sets or assets of a tree, for conversions in parts");
   IndexOptions& options = set_work<IndexOptions>(*command, index);
-  command->add_option("DIR", options.folder, "Folder of texture sets, with its subfolders")->required();
-  command->add_option("-o,--output FILE", options.output, "The manifest: JSON, a set a line")->required();
-  command->add_option("--names FILE", options.names, "More file-name habits (JSON)");
+  command->add_option("DIR", options.folder, "Folder of texture sets or assets, with its subfolders")
+      ->required();
+  command->add_option("-o,--output FILE", options.output, "The manifest: JSON, a set or an asset a line")
+      ->required();
+  Option* assets =
+      command->add_flag("--assets", options.assets,
+                        "List the assets (glTF and MTL files, with --format glb or gltf OBJ files) "
+                        "in DIR, not the texture sets");
+  command->add_option("--format EXT", options.format, "What OBJ files are to become, as for convert")
+      ->needs(assets);
+  command->add_option("--names FILE", options.names, "More file-name habits (JSON)")->excludes(assets);
   command->add_flag("--force", options.force, "Overwrite an existing manifest");
   command->add_flag("--json", options.json, "Print what was found as JSON");
   command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");

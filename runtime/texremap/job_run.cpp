@@ -19,6 +19,7 @@
 #include "texremap/conversion_hash.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/journal.hpp"
+#include "texremap/manifest.hpp"
 #include "texremap/repeats.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_pass.hpp"
@@ -290,26 +291,10 @@ void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const s
     if (std::filesystem::exists(folder, ignored)) flush_to_disk(folder, folder);
 }
 
-// Refuses files that are not what the manifest lists, such as one that is still being copied.
-void require_as_listed(const ConversionJob& job) {
-  for (const auto& [file, bytes] : job.listed) {
-    std::error_code failure;
-    const std::uintmax_t size = std::filesystem::file_size(file, failure);
-    if (failure)
-      throw system_error(
-          ErrorKind::kInput,
-          file.string() + ": the manifest lists it (texremap index again), but it cannot be read",
-          failure.value());
-    if (size != bytes)
-      throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, the manifest says " +
-                        std::to_string(bytes) + " (texremap index again)");
-  }
-}
-
 void JobRunner::run(const ConversionJob& job, const std::function<void(double)>& progress,
                     JobReport& report) {
   const Stopwatch stopwatch;
-  require_as_listed(job);
+  require_as_listed(job.listed);
   TextureSet set = open_texture_set(job.request);
   require_scale(set, set.convention.value_or(chosen_.info().source.roughness));
   report.inputs = files_of(set);

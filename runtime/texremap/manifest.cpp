@@ -30,10 +30,11 @@ bool is_read(const FoundMap& map) {
   });
 }
 
-// A set, and what stands in its line.
-struct ListedSet {
-  const FoundSet& set;
-  std::vector<std::uintmax_t> sizes;  // of the files of all maps, in order
+// A set or an asset, and what stands in its line.
+template <class Entry>
+struct Listed {
+  const Entry& entry;
+  std::vector<std::uintmax_t> sizes;  // of its files, in order
   std::uintmax_t bytes = 0;
   std::uint64_t cost = 0;
 
@@ -47,27 +48,38 @@ struct ListedSet {
   }
 };
 
-void require_utf8(const FoundSet& set) {
-  const auto require = [](const fs::path& path) {
-    if (!is_utf8(path.string()))
-      throw input_error(shown(path) + ": the name is no UTF-8, which a manifest cannot hold (rename it)");
-  };
-  require(set.folder / set.name);
-  for (const FoundMap& map : set.maps) require(map.path);
+void require_utf8(const fs::path& path) {
+  if (!is_utf8(path.string()))
+    throw input_error(shown(path) + ": the name is no UTF-8, which a manifest cannot hold (rename it)");
 }
 
-ListedSet listed(const fs::path& root, const FoundSet& set) {
-  require_utf8(set);
-  ListedSet all{set, {}};
+fs::path place_of(const FoundSet& set) { return set.folder / set.name; }
+const fs::path& place_of(const ListedAsset& asset) { return asset.path; }
+
+Listed<FoundSet> listed(const fs::path& root, const FoundSet& set) {
+  Listed<FoundSet> all{set, {}};
+  require_utf8(place_of(set));
   for (const FoundMap& map : set.maps) {
+    require_utf8(map.path);
     if (map.tiles.empty()) all.add_file(root, map.path, is_read(map));
     for (const Tile& tile : map.tiles) all.add_file(root, tile.path, is_read(map));
   }
   return all;
 }
 
-std::string line_of(const ListedSet& listed) {
-  const FoundSet& set = listed.set;
+Listed<ListedAsset> listed(const fs::path& root, const ListedAsset& asset) {
+  Listed<ListedAsset> all{asset, {}};
+  require_utf8(asset.path);
+  all.add_file(root, asset.path, true);
+  for (const fs::path& file : asset.files) {
+    require_utf8(file);
+    all.add_file(root, file, true);
+  }
+  return all;
+}
+
+std::string line_of(const Listed<FoundSet>& listed) {
+  const FoundSet& set = listed.entry;
   Json maps = Json::list();
   auto size = listed.sizes.begin();
   for (const FoundMap& map : set.maps) {
@@ -79,16 +91,35 @@ std::string line_of(const ListedSet& listed) {
     for (const Tile& tile : map.tiles) json["tiles"].push_back(Json::list({tile.number, *size++}));
     maps.push_back(json);
   }
-  const Json json = {{"cost", listed.cost},           {"id", (set.folder / set.name).string()},
-                     {"folder", set.folder.string()}, {"name", set.name},
-                     {"bytes", listed.bytes},         {"maps", maps}};
+  const Json json = {{"cost", listed.cost}, {"id", place_of(set).string()}, {"folder", set.folder.string()},
+                     {"name", set.name},    {"bytes", listed.bytes},        {"maps", maps}};
+  return json.dump() + '\n';
+}
+
+std::string line_of(const Listed<ListedAsset>& listed) {
+  const ListedAsset& asset = listed.entry;
+  Json files = Json::list();
+  auto size = listed.sizes.begin();
+  files.push_back(Json::list({asset.path.string(), *size++}));
+  for (const fs::path& file : asset.files) files.push_back(Json::list({file.string(), *size++}));
+  const Json json = {{"cost", listed.cost},
+                     {"asset", asset.path.string()},
+                     {"prefix", asset.image_prefix},
+                     {"bytes", listed.bytes},
+                     {"files", files}};
   return json.dump() + '\n';
 }
 
 Json head_json(const ManifestHead& head) {
-  return {{"remap_manifest", kFormat}, {"version", head.version}, {"root", head.root.string()},
-          {"names", head.names},       {"sets", head.set_count},  {"files", head.file_count},
-          {"bytes", head.bytes},       {"cost", head.cost},       {"hash", head.hash}};
+  return {{"remap_manifest", kFormat},
+          {"version", head.version},
+          {"root", head.root.string()},
+          {"names", head.names},
+          {std::string(name_of(kListedKinds, head.kind)), head.count},
+          {"files", head.file_count},
+          {"bytes", head.bytes},
+          {"cost", head.cost},
+          {"hash", head.hash}};
 }
 
 // Of what the first line says, but for the hash itself; the other lines are added.
@@ -105,14 +136,15 @@ class ManifestReader {
     require_regular_file(path);
     if (!file_) throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
   }
-  SetManifest read(const Part& part);
+  TreeManifest read(const Part& part);
 
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw input_error(path_.string() + ": " + what); }
   ManifestHead read_head();
-  void read_lines(const Part& part, SetManifest& manifest, ContentHash& hash);
-  void add_set(const std::string& line, SetManifest& manifest) const;
-  void add_rest(const std::string& line, SetManifest& manifest) const;
+  void read_lines(const Part& part, TreeManifest& manifest, ContentHash& hash);
+  void add_set(const Field& field, Listing& listing) const;
+  void add_asset(const Field& field, Listing& listing) const;
+  void add_rest(const Field& field, Listing& listing) const;
   std::uint64_t cost_in(const std::string& line) const;
 
   const fs::path& path_;
@@ -135,7 +167,8 @@ ManifestHead ManifestReader::read_head() {
     refuse("is of version " + head.version + " of texremap, this is " + kVersion + " (texremap index again)");
   head.root = field["root"].any_text();
   head.names = field["names"].text();
-  head.set_count = static_cast<std::size_t>(field["sets"].count());
+  head.kind = field.contains("assets") ? ListedKind::kAssets : ListedKind::kSets;
+  head.count = static_cast<std::size_t>(field[std::string(name_of(kListedKinds, head.kind))].count());
   head.file_count = static_cast<std::size_t>(field["files"].count());
   head.bytes = static_cast<std::uintmax_t>(field["bytes"].count());
   head.cost = static_cast<std::uint64_t>(field["cost"].count());
@@ -150,15 +183,26 @@ std::uint64_t ManifestReader::cost_in(const std::string& line) const {
   return cost;
 }
 
-void ManifestReader::add_set(const std::string& line, SetManifest& manifest) const {
-  const std::string place = path_.string();
-  const Json json = parse_json(line, place);
-  const Field field(json, place);
+void ManifestReader::add_asset(const Field& field, Listing& listing) const {
+  ListedAsset asset;
+  asset.path = field["asset"].any_text();
+  asset.image_prefix = field["prefix"].any_text();
+  field["files"].list(1, [&](const Field& file) {
+    const fs::path path = file.at(0, 2).any_text();
+    listing.found.sizes[path] = static_cast<std::uintmax_t>(file.at(1, 2).count());
+    if (path != asset.path) asset.files.push_back(path);
+    return true;
+  });
+  if (!listing.found.sizes.contains(asset.path)) refuse(kChanged);
+  listing.assets.push_back(std::move(asset));
+}
+
+void ManifestReader::add_set(const Field& field, Listing& listing) const {
   FoundSet set;
   set.name = field["name"].any_text();
   set.folder = field["folder"].any_text();
   const auto note_size = [&](const fs::path& file, const Field& bytes) {
-    manifest.found.sizes[file] = static_cast<std::uintmax_t>(bytes.count());
+    listing.found.sizes[file] = static_cast<std::uintmax_t>(bytes.count());
   };
   field["maps"].list(1, [&](const Field& entry) {
     FoundMap& map = set.maps.emplace_back();
@@ -185,20 +229,19 @@ void ManifestReader::add_set(const std::string& line, SetManifest& manifest) con
     return true;
   });
   judge(set);
-  manifest.found.sets.push_back(std::move(set));
+  listing.found.sets.push_back(std::move(set));
 }
 
-void ManifestReader::add_rest(const std::string& line, SetManifest& manifest) const {
-  const Json json = parse_json(line, path_.string());
-  const Field field(json, path_.string());
+void ManifestReader::add_rest(const Field& field, Listing& listing) const {
   if (field.contains("problem"))
-    manifest.found.problems.push_back({{}, field["problem"].any_text()});
+    listing.found.problems.push_back({{}, field["problem"].any_text()});
   else
-    manifest.found.unrecognised.emplace_back(field["unrecognised"].any_text());
+    listing.found.unrecognised.emplace_back(field["unrecognised"].any_text());
 }
 
-SetManifest ManifestReader::read(const Part& part) {
-  SetManifest manifest{read_head(), {}, {}};
+TreeManifest ManifestReader::read(const Part& part) {
+  TreeManifest manifest{read_head(), {}, {}};
+  manifest.listing.kind = manifest.head.kind;
   ContentHash hash = hash_of_head(manifest.head);
   try {
     read_lines(part, manifest, hash);
@@ -209,49 +252,68 @@ SetManifest ManifestReader::read(const Part& part) {
   return manifest;
 }
 
-void ManifestReader::read_lines(const Part& part, SetManifest& manifest, ContentHash& hash) {
+void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, ContentHash& hash) {
+  const auto add = [&](const std::string& line, auto adder) {
+    const std::string place = path_.string();
+    const Json json = parse_json(line, place);
+    (this->*adder)(Field(json, place), manifest.listing);
+  };
+  const auto add_entry =
+      manifest.head.kind == ListedKind::kSets ? &ManifestReader::add_set : &ManifestReader::add_asset;
   std::uint64_t before = 0;
   for (std::string line; std::getline(file_, line);) {
     hash.add(line);
     if (!line.starts_with(kCostFirst)) {
-      if (part.index == 1) add_rest(line, manifest);
+      if (part.index == 1) add(line, &ManifestReader::add_rest);
       continue;
     }
     const std::uint64_t cost = cost_in(line);
-    if (part_of_set(before, cost, manifest.head, part.count) == part.index) {
-      add_set(line, manifest);
+    if (part_of_entry(before, cost, manifest.head, part.count) == part.index) {
+      add(line, add_entry);
       manifest.costs.push_back(cost);
     }
     before += cost;
   }
 }
 
+// Those that can be listed; the others become problems.
+template <class Entry>
+std::vector<Listed<Entry>> listed_all(const fs::path& root, const std::vector<Entry>& entries,
+                                      ManifestHead& head, std::vector<WalkProblem>& problems) {
+  std::vector<Listed<Entry>> all;
+  for (const Entry& entry : entries) {
+    try {
+      all.push_back(listed(root, entry));
+    } catch (const Error& error) {
+      problems.push_back({place_of(entry), shown(root) + "/" + error.what()});
+      continue;
+    }
+    head.file_count += all.back().sizes.size();
+    head.bytes += all.back().bytes;
+    head.cost += all.back().cost;
+  }
+  head.count += all.size();
+  return all;
+}
+
 }  // namespace
 
 ManifestHead write_manifest(const fs::path& file, const fs::path& root, const std::string& names,
-                            Discovery found) {
+                            Listing listing) {
+  Discovery& found = listing.found;
   ManifestHead head;
+  head.kind = listing.kind;
   head.version = kVersion;
   head.root = fs::absolute(root).lexically_normal();
   head.names = names;
   if (!is_utf8(head.root.string()))
     throw input_error(shown(head.root) + ": the name is no UTF-8, which a manifest cannot hold (rename it)");
-  std::vector<ListedSet> sets;
-  for (const FoundSet& set : found.sets) {
-    try {
-      sets.push_back(listed(root, set));
-    } catch (const Error& error) {
-      found.problems.push_back({set.folder / set.name, shown(root) + "/" + error.what()});
-      continue;
-    }
-    head.file_count += sets.back().sizes.size();
-    head.bytes += sets.back().bytes;
-    head.cost += sets.back().cost;
-  }
-  head.set_count = sets.size();
+  const std::vector<Listed<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
+  const std::vector<Listed<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
   // The hash stands before the lines, which are made twice rather than kept: a manifest may have gigabytes.
   const auto make_lines = [&](const auto& take) {
-    for (const ListedSet& set : sets) take(line_of(set));
+    for (const Listed<FoundSet>& set : sets) take(line_of(set));
+    for (const Listed<ListedAsset>& asset : assets) take(line_of(asset));
     for (const fs::path& image : found.unrecognised)
       take(Json({{"unrecognised", image.string()}}).dump() + '\n');
     for (const WalkProblem& problem : found.problems)
@@ -267,14 +329,29 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
   return head;
 }
 
-std::size_t part_of_set(std::uint64_t cost_before, std::uint64_t cost, const ManifestHead& head,
-                        std::size_t count) {
+std::size_t part_of_entry(std::uint64_t cost_before, std::uint64_t cost, const ManifestHead& head,
+                          std::size_t count) {
   if (head.cost == 0) return 1;
   const double middle = static_cast<double>(cost_before) + 0.5 * static_cast<double>(cost);
   const double place = middle / static_cast<double>(head.cost) * static_cast<double>(count);
   return std::min(static_cast<std::size_t>(place), count - 1) + 1;
 }
 
-SetManifest read_manifest(const fs::path& file, const Part& part) { return ManifestReader(file).read(part); }
+TreeManifest read_manifest(const fs::path& file, const Part& part) { return ManifestReader(file).read(part); }
+
+void require_as_listed(const ListedSizes& files) {
+  for (const auto& [file, bytes] : files) {
+    std::error_code failure;
+    const std::uintmax_t size = fs::file_size(file, failure);
+    if (failure)
+      throw system_error(
+          ErrorKind::kInput,
+          file.string() + ": the manifest lists it (texremap index again), but it cannot be read",
+          failure.value());
+    if (size != bytes)
+      throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, the manifest says " +
+                        std::to_string(bytes) + " (texremap index again)");
+  }
+}
 
 }  // namespace remap

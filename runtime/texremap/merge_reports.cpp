@@ -18,18 +18,19 @@ struct MergeOptions {
 };
 
 Json summary_json(const MergedReport& merged) {
-  return {{"summary",
-           {{"parts", merged.part_count},
-            {"sets", merged.set_count},
-            {"converted", merged.converted},
-            {"done_before", merged.done_before},
-            {"failed", merged.failed},
-            {"left_out", merged.left_out},
-            {"texels", merged.texels},
-            {"bytes_read", merged.bytes_read},
-            {"bytes_written", merged.bytes_written},
-            {"processor_seconds", merged.processor_seconds},
-            {"problems", merged.problems}}}};
+  Json summary = {{"parts", merged.part_count},
+                  {std::string(name_of(kListedKinds, merged.kind)), merged.entry_count},
+                  {"converted", merged.converted},
+                  {"done_before", merged.done_before},
+                  {"failed", merged.failed}};
+  if (merged.kind == ListedKind::kSets)
+    summary.update({{"left_out", merged.left_out},
+                    {"texels", merged.texels},
+                    {"bytes_read", merged.bytes_read},
+                    {"bytes_written", merged.bytes_written}});
+  summary["processor_seconds"] = merged.processor_seconds;
+  summary["problems"] = merged.problems;
+  return {{"summary", summary}};
 }
 
 // More failures than a person reads; the report has all.
@@ -51,10 +52,10 @@ void merge(const MergeOptions& options) {
   for (const std::string& problem : merged.problems) print_message(kProgram, problem);
   for (std::size_t i = 0; i < std::min(merged.failures.size(), kShownFailures); ++i)
     print_message(kProgram, "failed: " + merged.failures[i]);
-  const std::string text = counted(merged.part_count, "part") + ": " + counted(merged.converted, "set") +
-                           " converted, " + std::to_string(merged.failed) + " failed, " +
-                           std::to_string(merged.done_before) + " done before, " +
-                           std::to_string(merged.left_out) + " left out; " +
+  const std::string text = counted(merged.part_count, "part") + ": " +
+                           counted(merged.converted, noun_of(merged.kind)) + " converted, " +
+                           std::to_string(merged.failed) + " failed, " + std::to_string(merged.done_before) +
+                           " done before, " + std::to_string(merged.left_out) + " left out; " +
                            fixed(merged.processor_seconds, 1) + " s of processor time";
   if (!merged.problems.empty()) throw input_error(text + "; " + counted(merged.problems.size(), "problem"));
   if (merged.failed > 0) throw input_error(text);
@@ -69,12 +70,13 @@ void add_merge_reports_command(Command& app) {
   MergeOptions& options = set_work<MergeOptions>(*command, merge);
   command->add_option("DIR", options.folder, "The output folder of the conversion")->required();
   command->add_option("-o,--output FILE", options.output,
-                      "Write the report: JSON, a set a line, then a summary");
+                      "Write the report: JSON, a set or an asset a line, then a summary");
   command->add_flag("--force", options.force, "Overwrite an existing report");
   command->add_flag("--json", options.json, "Print the report to standard output");
   command->add_flag("--quiet", options.quiet, "Print nothing but failures to standard error");
   command->footer(
-      "The exit code is 1 if a set failed, or if the parts are not those of one conversion, each once.\n\n"
+      "The exit code is 1 if a set or an asset failed, or if the parts are not those of one conversion, each "
+      "once.\n\n"
       "Example:\n"
       "  texremap merge-reports converted -o report.jsonl");
 }

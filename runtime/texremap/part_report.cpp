@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iostream>
 #include <unistd.h>
 #include <unordered_map>
 
 #include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/report_text.hpp"
 #include "remap/version.hpp"
@@ -42,6 +44,8 @@ class ReportMerger {
   void compare(const Part& part, const Field& said);
   void add(const Part& part, const Field& line, std::string_view text);
   void add_set(const Part& part, const Field& set);
+  void add_asset(const Part& part, const Field& asset);
+  void count(const std::string& name, const std::string& failure, bool was_done);
   void require_once(const Part& part, const std::string& what, const std::string& name);
   void problem(const std::string& text) { merged_.problems.push_back(text); }
 
@@ -74,14 +78,16 @@ std::vector<Part> ReportMerger::parts_found() const {
 void ReportMerger::compare(const Part& part, const Field& said) {
   std::map<std::string, std::string> own;
   for (const char* name : {"manifest", "version", "converter", "options", "conversion"})
-    own[name] = said[name].any_text();
+    if (said.contains(name)) own[name] = said[name].any_text();
   if (said["index"].count() != static_cast<std::int64_t>(part.index) ||
       said["count"].count() != static_cast<std::int64_t>(part.count))
     problem(name_of(part) + kPartReport + ": is the report of another part (convert this one again)");
   if (first_.empty()) {
     first_ = own;
     first_part_ = part;
-    merged_.set_count = static_cast<std::size_t>(said["sets"].count());
+    merged_.kind = said.contains("assets") ? ListedKind::kAssets : ListedKind::kSets;
+    merged_.entry_count =
+        static_cast<std::size_t>(said[std::string(name_of(kListedKinds, merged_.kind))].count());
     return;
   }
   for (const auto& [name, value] : own)
@@ -101,17 +107,39 @@ void ReportMerger::require_once(const Part& part, const std::string& what, const
   if (count++ == 0) first = name;
 }
 
+// `failure`: empty for none.
+void ReportMerger::count(const std::string& name, const std::string& failure, bool was_done) {
+  if (!failure.empty()) {
+    ++merged_.failed;
+    merged_.failures.push_back(shown(name) + ": " + failure);
+    return;
+  }
+  ++(was_done ? merged_.done_before : merged_.converted);
+}
+
+void ReportMerger::add_asset(const Part& part, const Field& asset) {
+  const std::string& name = asset["asset"].any_text();
+  require_once(part, "asset", name);
+  const std::int64_t failed_materials = asset["failed"].count();
+  std::string failure;
+  if (asset["failure"].json().text() != nullptr) failure = asset["failure"].any_text();
+  if (failure.empty() && failed_materials > 0)
+    failure = counted(static_cast<std::size_t>(failed_materials), "material") + " failed";
+  count(name, failure, asset.flag("was_done"));
+  asset["images"].list(0, [&](const Field& image) {
+    require_once(part, "result", image.any_text());
+    return true;
+  });
+}
+
 void ReportMerger::add_set(const Part& part, const Field& set) {
   const std::string& name = set["name"].any_text();
   require_once(part, "set", name);
   const std::string& state = set["state"].any_text();
-  if (state == "failed") {
-    ++merged_.failed;
-    merged_.failures.push_back(shown(name) + ": " + set["failure"].any_text());
-  }
-  merged_.converted += state == "converted";
-  merged_.done_before += state == "done before";
-  if (state != "failed")
+  const bool has_failed = state == "failed";
+  if (has_failed || state == "converted" || state == "done before")
+    count(name, has_failed ? set["failure"].any_text() : "", state == "done before");
+  if (!has_failed)
     set["results"].list(0, [&](const Field& result) {
       require_once(part, "result", result.any_text());
       return true;
@@ -126,19 +154,31 @@ void ReportMerger::add(const Part& part, const Field& line, std::string_view tex
   if (line.contains("summary")) {
     const Field summary = line["summary"];
     merged_.processor_seconds += summary["processor_seconds"].number();
-    const std::int64_t stated = summary["sets"].count() + summary["left_out"].count();
+    std::int64_t stated = 0;
+    if (merged_.kind == ListedKind::kSets) {
+      stated = summary["sets"].count() + summary["left_out"].count();
+    } else {
+      stated = summary["assets"].count();
+      summary["problems"].list(0, [&](const Field& problem) {
+        ++merged_.failed;
+        merged_.failures.push_back(problem.any_text());
+        return true;
+      });
+    }
     if (stated != static_cast<std::int64_t>(lines_of_part_))
       throw input_error(name_of(part) + kPartReport + ": is incomplete");
   }
-  const bool is_set = line.contains("set"), is_left_out = line.contains("left_out");
-  lines_of_part_ += is_set || is_left_out;
+  const bool is_set = line.contains("set"), is_asset = line.contains("asset"),
+             is_left_out = line.contains("left_out");
+  lines_of_part_ += is_set || is_asset || is_left_out;
   if (is_set) add_set(part, line["set"]);
+  if (is_asset) add_asset(part, line);
   if (is_left_out) {
     const bool is_failure = line["left_out"].flag("is_failure");
     is_failure ? ++merged_.failed : ++merged_.left_out;
     if (is_failure) merged_.failures.push_back(line["left_out"]["message"].any_text());
   }
-  if (is_set || is_left_out) take_(text);
+  if (is_set || is_asset || is_left_out) take_(text);
 }
 
 void ReportMerger::read(const Part& part) {
@@ -179,18 +219,29 @@ MergedReport ReportMerger::merge() {
             " (convert them again with --resume)");
   for (const auto& [where, cases] : twice_)
     problem("the same " + where + ": " + shown(cases.second) +
-            (cases.first > 1 ? " and " + std::to_string(cases.first - 1) + " more" : "") +
-            " (two sets must not give one file: rename one)");
+            (cases.first > 1 ? " and " + std::to_string(cases.first - 1) + " more" : "") + " (two " +
+            noun_of(merged_.kind) + "s must not give one file: rename one)");
   return std::move(merged_);
 }
 
 }  // namespace
 
+void RunLines::tell(const Json& line) {
+  const std::string text = line.dump() + '\n';
+  if (options_.json) std::cout << text << std::flush;
+  if (options_.part) report_ += text;
+}
+
+void RunLines::finish() const {
+  if (options_.part && !options_.dry_run)
+    write_file(report_of(options_.output, options_.part->part), report_);
+}
+
 Json part_json(const GivenPart& part, const ManifestHead& manifest, const ConversionNote& conversion) {
   Json json = {{"index", part.part.index},
                {"count", part.part.count},
                {"manifest", manifest.hash},
-               {"sets", manifest.set_count},
+               {std::string(name_of(kListedKinds, manifest.kind)), manifest.count},
                {"conversion", conversion.hash}};
   for (const auto& [name, value] : conversion.details) json[name] = value;
   json["host"] = host_name();

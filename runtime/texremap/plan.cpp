@@ -1,5 +1,5 @@
-// `texremap plan`: files that hand a conversion in parts to a scheduler. It measures a few sets to say what a
-// part needs, and submits nothing.
+// `texremap plan`: files that hand a conversion in parts to a scheduler. It measures a few entries to say
+// what a part needs, and submits nothing.
 #include "texremap/plan.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct PlanOptions {
 constexpr double kUsualSeconds = 900.0;
 // More parts are refused by a cluster with the default of Slurm's MaxArraySize.
 constexpr std::size_t kMostParts = 1000;
-constexpr std::size_t kMeasuredSets = 8;
+constexpr std::size_t kMeasuredEntries = 8;
 
 // What a conversion needs on this machine.
 struct Measured {
@@ -45,19 +45,25 @@ struct Measured {
   double memory_bytes = 0.0;
 };
 
-// The largest set, and others evenly spread over the sets by their cost.
-Discovery sample_of(const SetManifest& manifest) {
+// The largest entry, and others evenly spread over the entries by their cost.
+Listing sample_of(const TreeManifest& manifest) {
   std::vector<std::size_t> order(manifest.costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return manifest.costs[i]; });
-  const std::size_t count = std::min(kMeasuredSets, order.size());
-  Discovery sample;
-  for (std::size_t i = 1; i <= count; ++i)
-    sample.sets.push_back(manifest.found.sets[order[i * order.size() / count - 1]]);
+  const std::size_t count = std::min(kMeasuredEntries, order.size());
+  Listing sample;
+  sample.kind = manifest.head.kind;
+  for (std::size_t i = 1; i <= count; ++i) {
+    const std::size_t at = order[i * order.size() / count - 1];
+    if (sample.kind == ListedKind::kSets)
+      sample.found.sets.push_back(manifest.listing.found.sets[at]);
+    else
+      sample.assets.push_back(manifest.listing.assets[at]);
+  }
   return sample;
 }
 
-Measured measured(const SetManifest& manifest, ConvertOptions options) {
+Measured measured(const TreeManifest& manifest, ConvertOptions options) {
   const ScratchFolder scratch("texremap-plan");
   options.manifest = scratch.file("sets.jsonl");
   options.output = scratch.file("out");
@@ -77,11 +83,11 @@ Measured measured(const SetManifest& manifest, ConvertOptions options) {
           static_cast<double>(resource_use().peak_memory_bytes)};
 }
 
-std::uint64_t highest_cost_of_part(const SetManifest& manifest, std::size_t count) {
+std::uint64_t highest_cost_of_part(const TreeManifest& manifest, std::size_t count) {
   std::vector<std::uint64_t> parts(count, 0);
   std::uint64_t before = 0;
   for (const std::uint64_t cost : manifest.costs) {
-    parts[part_of_set(before, cost, manifest.head, count) - 1] += cost;
+    parts[part_of_entry(before, cost, manifest.head, count) - 1] += cost;
     before += cost;
   }
   return *std::ranges::max_element(parts);
@@ -102,7 +108,6 @@ class ConvertWords {
     add_convert_options(command_, options_);
     run_words(command_, words);
     options_.given = command_.given();
-    apply_preset(options_);
     if (options_.is_given("DIR")) refuse("DIR");
     if (options_.output.empty())
       throw usage_error("--output is required after -- (the folder of the results)");
@@ -157,8 +162,9 @@ int rounded_up(double value, int step) { return static_cast<int>(std::ceil(value
 
 void plan(const PlanOptions& options) {
   const ConvertWords words(options.words);
-  const SetManifest manifest = read_manifest(options.manifest, Part());
-  if (manifest.costs.empty()) throw input_error(options.manifest.string() + ": lists no set");
+  const TreeManifest manifest = read_manifest(options.manifest, Part());
+  if (manifest.costs.empty())
+    throw input_error(options.manifest.string() + ": lists no " + std::string(noun_of(manifest.head.kind)));
   ConvertOptions conversion = words.options();
   conversion.manifest = options.manifest;
   conversion.folder = manifest.head.root;
@@ -197,7 +203,7 @@ void plan(const PlanOptions& options) {
   if (options.json) {
     std::cout << Json({{"files", names},
                        {"submit", files.submit},
-                       {"sets", manifest.head.set_count},
+                       {std::string(name_of(kListedKinds, manifest.head.kind)), manifest.head.count},
                        {"parts", farm.parts},
                        {"threads", farm.threads},
                        {"minutes", farm.minutes},
@@ -209,7 +215,8 @@ void plan(const PlanOptions& options) {
     return;
   }
   if (!options.quiet) {
-    std::string text = counted(manifest.head.set_count, "set") + " in " + counted(farm.parts, "part");
+    std::string text =
+        counted(manifest.head.count, noun_of(manifest.head.kind)) + " in " + counted(farm.parts, "part");
     if (!is_given)
       text += ": about " + fixed(seconds / 60.0, 1) + " processor minutes by this machine, " +
               fixed(longest / 60.0, 1) + " the longest part";
@@ -234,7 +241,7 @@ void add_plan_command(Command& app) {
           "slurm (batch scripts), openjd (a job template of render farms) or commands (one a line, for "
           "GNU parallel and others)")
       ->required();
-  command->add_option("--manifest FILE", options.manifest, "The sets, as texremap index lists them")
+  command->add_option("--manifest FILE", options.manifest, "The sets or assets, as texremap index lists them")
       ->required();
   command->add_option("-o,--output FOLDER", options.folder, "Where the plan is written")->required();
   command->add_option("OPTIONS", options.words,
@@ -253,7 +260,8 @@ void add_plan_command(Command& app) {
   command->add_flag("--json", options.json, "Print what was planned as JSON");
   command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
   command->footer(
-      "A few sets are converted to a temporary folder, which tells time and memory. Standard output has the "
+      "A few of them are converted to a temporary folder, which tells time and memory. Standard output has "
+      "the "
       "line that submits the plan.\n\n"
       "Example:\n"
       "  texremap plan slurm --manifest sets -o plan -- --from unity --to gltf -o out\n"

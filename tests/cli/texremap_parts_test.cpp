@@ -333,3 +333,127 @@ TEST_CASE("texremap parts: plans name every part, and refuse what would fail in 
   refused("--form mitsuba/ward --to mitsuba/as -o x", "did you mean --from?");
   refused("--from mitsuba/ward --to mitsuba/as -o x --part 1/2", "is written by texremap plan itself");
 }
+
+namespace {
+
+const std::string kOfAssets = "convert --manifest assets.jsonl --to gltf -o ";
+
+// A file whose material has one texture for diffuse and one for specular and glossiness.
+void write_asset(const Tree& tree, const std::string& name, const std::string& image) {
+  write_file(
+      tree.path(name),
+      R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],)"
+      R"("materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},)"
+      R"("specularGlossinessTexture":{"index":1}}}}],"textures":[{"source":0},{"source":1}],)"
+      R"("images":[{"uri":")" +
+          image + R"(_d.png"},{"uri":")" + image + R"(_s.png"}]})");
+}
+
+// Four assets in two folders: two share the images of a third folder, one names images that are not there.
+void write_assets(const Tree& tree) {
+  for (const char* image : {"in/maps/wood", "in/a/own"}) {
+    tree.map(std::string(image) + "_d.png", kColor, OIIO::TypeUInt8, 16);
+    tree.map(std::string(image) + "_s.png", kWithAlpha, OIIO::TypeUInt8, 16);
+  }
+  fs::create_directories(tree.path("in/b"));
+  write_asset(tree, "in/a/table.gltf", "../maps/wood");
+  write_asset(tree, "in/b/chair.gltf", "../maps/wood");
+  write_asset(tree, "in/a/lamp.gltf", "own");
+  write_file(tree.path("in/b/paint.mtl"), "newmtl paint\nKd 0.5 0.5 0.5\nKs 0.2 0.2 0.2\nNs 50\n");
+}
+
+}  // namespace
+
+TEST_CASE("texremap parts: the union of the parts of assets is what one process makes") {
+  const Tree tree;
+  write_assets(tree);
+  const ProcessResult index = tree.texremap("index in --assets -o assets.jsonl --json");
+  INFO(index.errors);
+  REQUIRE(index.exit_code == 0);
+  CHECK(nlohmann::json::parse(index.output)["assets"] == 4);
+  CHECK(nlohmann::json::parse(index.output)["files"] == 10);  // shared images count for each asset
+  CHECK(tree.texremap("convert in --assets --recursive --to gltf -o walked").exit_code == 0);
+  CHECK(tree.texremap(kOfAssets + "one").exit_code == 0);
+  const auto states = [&](const std::string& more) {
+    std::string all;
+    for (const char* which : {"1/3", "2/3", "3/3"}) {
+      const ProcessResult result = tree.texremap(kOfAssets + "out --json --part " + which + Words(more));
+      INFO(result.errors);
+      CHECK(result.exit_code == 0);
+      std::istringstream lines(result.output);
+      for (std::string line; std::getline(lines, line);) {
+        const auto json = nlohmann::json::parse(line);
+        if (json.contains("asset")) all += json["was_done"] == true ? 'd' : 'c';
+      }
+    }
+    return all;
+  };
+  CHECK(states("") == "cccc");
+  const auto one = results_in(tree, "one");
+  CHECK(one.size() == 14);  // 4 assets, 4 copied images, 6 new ones: the shared ones for each of two assets
+  CHECK(results_in(tree, "out") == one);
+  CHECK(results_in(tree, "walked") == one);
+  const auto summary = merged(tree, 0);
+  CHECK(summary["assets"] == 4);
+  CHECK(summary["converted"] == 4);
+  CHECK(states("--resume") == "dddd");
+  fs::remove(tree.path("out/b/chair.gltf"));
+  CHECK(states("--resume").find('c') != std::string::npos);
+}
+
+TEST_CASE("texremap parts: an asset that fails is named, and files that changed fail their asset alone") {
+  const Tree tree;
+  write_assets(tree);
+  write_file(tree.path("in/b/broken.gltf"), "{");
+  REQUIRE(tree.texremap("index in --assets -o assets.jsonl").exit_code == 0);
+  tree.map("in/a/own_s.png", kWithAlpha, OIIO::TypeUInt8, 32);
+  for (const char* which : {"1/2", "2/2"}) tree.texremap(kOfAssets + "out --quiet --part " + which);
+  const auto summary = merged(tree, 1);
+  CHECK(summary["assets"] == 5);
+  CHECK(summary["converted"] == 3);
+  CHECK(summary["failed"] == 2);
+  const std::string errors = tree.texremap("merge-reports out").errors;
+  CHECK_THAT(errors, Contains("broken.gltf: ") && Contains("lamp.gltf: ") && Contains("the manifest says"));
+  CHECK_FALSE(exists(tree, "out/a/lamp.gltf"));
+  CHECK(exists(tree, "out/b/chair.gltf"));
+}
+
+TEST_CASE("texremap parts: manifests of assets and of sets take the options of their kind") {
+  const Tree tree;
+  write_assets(tree);
+  REQUIRE(tree.texremap("index in --assets -o assets.jsonl").exit_code == 0);
+  const auto refused = [&](const std::string& words, const std::string& message) {
+    const ProcessResult result = tree.texremap(words);
+    INFO(result.errors);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.errors, Contains(message));
+    CHECK_FALSE(exists(tree, "out"));
+  };
+  refused(kOfAssets + "out --roughness 0.4", "--roughness: applies to nothing");
+  refused(kOfAssets + "out --assets", "--assets");
+  refused(kOfAssets + "out --root in", "--manifest: cannot be used with --root");
+  refused("convert --manifest assets.jsonl --to gltf -o in/out", "the tree of the manifest");
+  refused("index in --assets --names x.json -o other.jsonl", "--names");
+  refused("index in --format glb -o other.jsonl", "--format requires --assets");
+  refused("index in --assets --format glb -o other.jsonl", "no OBJ file in it");
+  write_library(tree);
+  index(tree);
+  refused("convert --manifest sets.jsonl --to gltf --profile core -o out",
+          "--profile: applies to assets alone");
+}
+
+TEST_CASE("texremap parts: plans hand out assets as they hand out sets") {
+  const Tree tree;
+  write_assets(tree);
+  REQUIRE(tree.texremap("index in --assets -o assets.jsonl").exit_code == 0);
+  const ProcessResult plan =
+      tree.texremap("plan commands --manifest assets.jsonl --parts 2 -o plan -- --to gltf -o out");
+  INFO(plan.errors);
+  REQUIRE(plan.exit_code == 0);
+  CHECK_THAT(plan.errors, Contains("4 assets in 2 parts"));
+  CHECK(tree.run("/bin/sh plan/commands.txt").exit_code == 0);
+  CHECK(tree.run("/bin/sh plan/merge.sh").exit_code == 0);
+  CHECK(results_in(tree, "out").size() == 14);
+  CHECK(tree.texremap("plan commands --manifest assets.jsonl -o other -- --to mitsuba/ward -o out2")
+            .exit_code == 2);
+}

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """How a conversion in parts grows: the figures of docs/farm.md.
 
-Prints time and memory of the index of a tree, what a part costs beside its sets, how many files a set opens and renames
-(where strace is installed), and sets a second against the number of parts at once.
+Prints time and memory of the index of a tree of sets and of one of assets, what a part costs beside its sets, how many
+files a set opens and renames (where strace is installed), and sets a second against the number of parts at once.
 
 Usage: tests/farm/growth.py TEXREMAP [--sets 100000] [--small 512]
 """
@@ -57,6 +57,21 @@ def make_tree(root, sets, size):
                 shutil.copy(image, target)
 
 
+def make_assets(root, assets):
+    """glTF files of five materials and a buffer, 100 a folder, without images."""
+    materials = [{"name": f"m{i}", "extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0.1 * i, 0.3, 0.5, 1], "specularFactor": [0.04, 0.04, 0.04], "glossinessFactor": 0.5}}}
+        for i in range(5)]
+    text = json.dumps({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
+                       "materials": materials, "buffers": [{"uri": "b.bin", "byteLength": 16}]})
+    for i in range(assets):
+        folder = root / f"library{i // 10000:03}" / f"folder{i // 100 % 100:03}"
+        if i % 100 == 0:
+            folder.mkdir(parents=True)
+            (folder / "b.bin").write_bytes(bytes(16))
+        (folder / f"asset{i:06}.gltf").write_text(text)
+
+
 def measured(*words):
     """Seconds and peak memory of a command, and what it prints."""
     begin = time.monotonic()
@@ -109,6 +124,16 @@ def report(texremap, scratch, options):
                                   scratch / "empty", "--quiet")
     print(f"a part without sets of {options.sets}: {seconds:.2f} s, {memory:.0f} MB")
     shutil.rmtree(scratch / "large")
+    make_assets(scratch / "assets", options.sets)
+    manifest = scratch / "assets.jsonl"
+    seconds, memory, _ = measured(texremap, "index", scratch / "assets", "--assets", "-o", manifest, "--quiet")
+    print(f"index of {options.sets} glTF files, each with a buffer: {seconds:.1f} s, {memory:.0f} MB, "
+          f"{manifest.stat().st_size / 1e6:.0f} MB on disk")
+    begin = time.monotonic()
+    measured(texremap, "convert", "--manifest", manifest, "--part", "1/20", "--to", "gltf", "-o", scratch / "converted",
+             "--threads", "1", "--quiet")
+    print(f"glTF files of five factor materials, one thread: {options.sets / 20 / (time.monotonic() - begin):.0f} a second")
+    shutil.rmtree(scratch / "assets")
 
     tree, manifest, sets = scratch / "small/tree", scratch / "small.jsonl", options.small
     make_tree(tree, sets, 64)
