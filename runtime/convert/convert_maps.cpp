@@ -236,7 +236,8 @@ bool Conversion::load_at_once(Parameter parameter, const Segment& segment, Scrat
 void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) const {
   for (const auto& [parameter, target] : maps_.targets) {
     const bool changes =
-        parameter == Parameter::kRoughness && target_convention() != converter_.info().target.roughness;
+        parameter == Parameter::kRoughness &&
+        (target_convention() != converter_.info().target.roughness || maps_.target_roughness_factor != 1.0f);
     if (changes || target.transfer != Transfer::kLinear) continue;
     const std::size_t count = std::min(scratch.target.count(parameter), target.channels.size());
     for (std::size_t c = 0; c < count; ++c) {
@@ -462,6 +463,9 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
                                                  maps_.coverage ? scratch.coverage.data() : nullptr});
   change_convention(info.target.roughness, target_convention(),
                     {scratch.target.row(Parameter::kRoughness, 0), count});
+  if (maps_.target_roughness_factor != 1.0f)
+    for (float& value : std::span(scratch.target.row(Parameter::kRoughness, 0), count))
+      value /= maps_.target_roughness_factor;
   store_targets(segment, scratch, statistics);
 }
 

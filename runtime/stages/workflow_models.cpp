@@ -27,6 +27,8 @@ std::vector<WorkflowModel> make_models() {
       {MetallicWorkflow{"usd-preview-surface", kCommonDielectricF0, kPlain, kRoughness}, "mitsuba/ggx", false,
        "UsdPreviewSurface with metallic at its default index 1.5; what renderers make of its diffuse "
        "differs"},
+      {SpecularWorkflow{"usd-preview-surface-specular", kPlain, kRoughness}, "mitsuba/ggx", false,
+       "UsdPreviewSurface with useSpecularWorkflow 1: specularColor is F0, which rises to 1 at the rim"},
       {MetallicWorkflow{"metallic", kCommonDielectricF0, kPlain, kRoughness}, "mitsuba/ggx", false,
        "what most metallic materials mean"},
       {SpecularWorkflow{"specular", kPlain, kRoughness}, "mitsuba/ggx", false,
@@ -44,7 +46,7 @@ constexpr std::string_view kUnrealLit =
     "default lit: base color (1 - metallic), F0 0.04 at a Specular of 0.5";
 constexpr std::string_view kBlinn =
     "(N.H)^n, neither normalised nor times the cosine of the light; roughness is the exponent n";
-constexpr std::array<ModelAlias, 48> kAliases = {{
+constexpr std::array<ModelAlias, 50> kAliases = {{
     {"ambientcg", "metallic", kPlainMetal},
     {"arnold", "gltf", kLayered},
     {"babylon", "gltf", kLayered},
@@ -64,6 +66,9 @@ constexpr std::array<ModelAlias, 48> kAliases = {{
     {"metalness", "metallic", kPlainMetal},
     {"metalrough", "metallic", kPlainMetal},
     {"mtl", "legacy/blinn-phong", kBlinn},
+    {"mujoco", "mujoco/material-linear",
+     "what its windows show on a display of gamma 2.2; roughness is the exponent, 128 times shininess, and "
+     "specular is linear"},
     {"opengl", "legacy/blinn-phong", kBlinn},
     {"openpbr", "gltf", kLayered},
     {"pbr", "metallic", kPlainMetal},
@@ -91,6 +96,7 @@ constexpr std::array<ModelAlias, 48> kAliases = {{
     {"unreal", "metallic", kUnrealLit},
     {"unreal-engine", "metallic", kUnrealLit},
     {"usd", "usd-preview-surface", "UsdPreviewSurface with metallic"},
+    {"usd-specular", "usd-preview-surface-specular", "UsdPreviewSurface with useSpecularWorkflow 1"},
     {"usdpreviewsurface", "usd-preview-surface", "UsdPreviewSurface with metallic"},
     {"usdz", "usd-preview-surface", "UsdPreviewSurface with metallic"},
 }};
@@ -126,7 +132,7 @@ WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, Roughnes
   model.brdf = brdf;
   model.reason = "a " + std::string(name_of(kWorkflowKinds, kind)) + " layer over " + brdf;
   // Lobes of an exponent are added to diffuse, which loses nothing to them (OpenGL 1.0, section 2.13).
-  model.conventions_known = brdf.starts_with("legacy/");
+  model.conventions_known = brdf.starts_with("legacy/") || brdf.starts_with("mujoco/");
   if (kind == WorkflowKind::kSpecular)
     model.end = SpecularWorkflow{brdf, kPlain, width};
   else

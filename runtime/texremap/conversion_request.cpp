@@ -5,6 +5,7 @@
 #include <map>
 #include <thread>
 
+#include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 #include "remap/error.hpp"
 #include "sets/folder_walk.hpp"
@@ -274,9 +275,16 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   return choice;
 }
 
+void require_factor_of_exponent(const ConvertOptions& options, RoughnessConvention width) {
+  if (options.scales_exponents() && width != RoughnessConvention::kExponent)
+    throw usage_error("--output-roughness-factor: applies to exponents alone, and the results hold " +
+                      std::string(convention_name(width)) + " (remove this option)");
+}
+
 PassOptions pass_options(const ConvertOptions& options) {
   PassOptions pass;
   pass.target_convention = options.output_encoding;
+  pass.target_roughness_factor = static_cast<float>(options.output_roughness_factor);
   pass.bad_texels = options.bad_texels;
   pass.dither = options.dither;
   pass.value_statistics = options.json;

@@ -33,6 +33,9 @@ struct WidthSource {
 // holds glossiness. Throws kUsage if --output-encoding contradicts a name that stays.
 RoughnessConvention written_width(const ConvertOptions& options, const TargetChoice& choice,
                                   const WidthSource& source, RoughnessConvention usual);
+// Refuses --output-roughness-factor for results that hold no exponent.
+void require_factor_of_exponent(const ConvertOptions& options, RoughnessConvention width);
+
 PassOptions pass_options(const ConvertOptions& options);
 
 }  // namespace remap

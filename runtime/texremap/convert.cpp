@@ -108,10 +108,12 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
   }
   maps.source_convention = request.convention;
   maps.target_convention = pass.target_convention;
+  maps.target_roughness_factor = pass.target_roughness_factor;
   if (!maps.target_convention && chosen.workflow.is_material())
     maps.target_convention = width_of(*chosen.workflow.target);
   maps.bad_texels = pass.bad_texels;
   const RoughnessConvention width = maps.target_convention.value_or(info.target.roughness);
+  require_factor_of_exponent(options, width);
   const auto specular = maps.sources.find(Parameter::kSpecular);
   ConvertedValues values;
   for (const Parameter parameter : chosen.converter().targets()) {

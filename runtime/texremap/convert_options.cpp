@@ -345,6 +345,13 @@ void add_rare_options(Command& command, ConvertOptions& options) {
           "What the roughness results hold (default: as the inputs where that is known, else what the "
           "target model takes; a file named glossiness holds glossiness)")
       ->tag(kChangesResults);
+  command
+      .add_option(
+          "--output-roughness-factor NUMBER", options.output_roughness_factor,
+          "Exponent that 1, or white, stands for in the result: 1000 as in MTL files, 128 as in OpenGL, "
+          "100 for percent")
+      ->positive()
+      ->tag(kChangesResults);
   const auto add_factor = [&](const std::string& names, Parameter parameter, const std::string& description) {
     command.add_option(names, options.factors[parameter], factors(), description)
         ->tag(kChangesResults | kNotWithDiffuseWarp);

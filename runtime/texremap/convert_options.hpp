@@ -88,6 +88,7 @@ struct ConvertOptions {
   std::optional<PixelType> type;
   std::optional<int> compression;  // level
   std::optional<RoughnessConvention> output_encoding;
+  double output_roughness_factor = 1.0;  // the exponent that a stored 1 stands for
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
   std::filesystem::path diagnose;  // folder for the maps of diagnoses; empty for none
@@ -105,6 +106,8 @@ struct ConvertOptions {
     return found == maps.end() || !found->second ? nullptr : &*found->second;
   }
   bool is_given(std::string_view name) const;
+  // Whether it is known which exponent a stored 1 stands for in the results.
+  bool scales_exponents() const { return is_given("--output-roughness-factor"); }
   // Whether the roughness map was given as glossiness.
   bool reads_glossiness() const { return is_given("--glossiness"); }
 };

@@ -311,10 +311,15 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   choice.force = options_.force || options_.resume || is_tree_;  // existing files are checked below
   choice.copies = job.copies;
   const RoughnessConvention width = written_width(options_, choice, width_source(set), usual_width(set));
-  choice.width_name = width == RoughnessConvention::kGlossiness ? "glossiness" : "roughness";
-  if (width != set.convention.value_or(chosen_.info().source.roughness))
+  const bool is_exponent = width == RoughnessConvention::kExponent;
+  choice.width_name = width == RoughnessConvention::kGlossiness ? "glossiness"
+                      : is_exponent                             ? "exponent"
+                                                                : "roughness";
+  require_factor_of_exponent(options_, width);
+  if (options_.scales_exponents() || width != set.convention.value_or(chosen_.info().source.roughness))
     std::erase(choice.unchanged, Parameter::kRoughness);
   const TargetPlan plan = plan_targets(set, choice);
+  if (is_exponent && !options_.scales_exponents()) require_target_scale(set, plan);
   for (const PlannedMap& map : plan.maps) report.results.push_back(result_of(map));
   for (const PlannedCopy& copy : plan.copies)
     if (copy.parts.empty())

@@ -5,6 +5,7 @@
 #include <optional>
 #include <system_error>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
 #include "remap/error.hpp"
@@ -411,6 +412,22 @@ std::optional<fs::path> repeated_file(const TextureSet& set, const PlannedMap& p
 }
 
 }  // namespace
+
+void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
+  for (const PlannedMap& map : plan.maps)
+    for (const TargetPart& part : map.parts) {
+      const PixelType own = set.maps[part.model].layout().channels.front().type;
+      if (!is_integer(part.changes.type.value_or(own))) continue;
+      for (const TargetChannel& channel : part.channels)
+        if (const auto* made = std::get_if<ConvertedChannel>(&channel);
+            made != nullptr && made->parameter == Parameter::kRoughness)
+          throw usage_error(
+              map.path.string() +
+              ": would hold whole numbers, and its roughness is an exponent "
+              "(--output-roughness-factor says which exponent white is: 1000 in MTL files, 128 in "
+              "OpenGL, 100 for percent; or --format exr)");
+    }
+}
 
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
   if (!choice.extension.empty()) require_known_extension(choice.extension);

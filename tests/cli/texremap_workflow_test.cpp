@@ -252,7 +252,7 @@ TEST_CASE("texremap workflows: list and path show them", "[slow]") {
   const Session session;
   const ProcessResult list = require_success(session.texremap("list --workflows --json"));
   const auto models = nlohmann::json::parse(list.output);
-  CHECK(models.size() == 7);
+  CHECK(models.size() == 8);
   CHECK(models[0]["model"] == "gltf");
   CHECK(models[0]["dielectric_f0"] == 0.04);
   const ProcessResult path = require_success(session.texremap("path --from mitsuba/ward --to gltf"));
@@ -260,6 +260,57 @@ TEST_CASE("texremap workflows: list and path show them", "[slow]") {
                               Contains("to base color and metallic by projection") &&
                               Contains("mitsuba_ward_to_mitsuba_ggx"));
   require_success(session.texremap("path --from gltf-specgloss --to gltf --json"));
+}
+
+TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole numbers have a scale") {
+  const Session session;
+  write_metallic(session);
+  const std::string command = "convert --from gltf --base-color b.exr --metallic m.exr --roughness r.exr ";
+  REQUIRE(session.texremap(command + "--to mtl -o floats").exit_code == 0);
+  const TestImage exponents = session.image("floats/exponent.exr"),
+                  specular = session.image("floats/specular.exr"),
+                  diffuse = session.image("floats/diffuse.exr");
+  const TestImage base = session.image("b.exr"), metal = session.image("m.exr"),
+                  rough = session.image("r.exr");
+  std::size_t compared = 0;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const float n = exponents.at(x, y, 0), m = metal.at(x, y, 0),
+                  fourth = std::pow(rough.at(x, y, 0), 4.0f);
+      float most = 0.0f;
+      for (int c = 0; c < 3; ++c) {
+        const float f0 = 0.04f * (1.0f - m) + base.at(x, y, c) * m, ks = specular.at(x, y, c);
+        most = std::max(most, 0.225f * f0 / fourth);
+        CHECK(ks >= 0.0f);
+        CHECK(ks <= 1.0f);
+      }
+      CHECK(diffuse.at(x, y, 0) <= base.at(x, y, 0) * (1.0f - m) + 1e-5f);
+      // The short form generated/short: fitted to other pictures, and without a limit of Ks. Where it stays
+      // clear of the limit, the exponent is nearly the same; elsewhere the lobe is wider.
+      if (most < 0.5f && fourth < 0.1f) {
+        CHECK(n == Approx(1.52f / fourth).epsilon(0.15));
+        ++compared;
+      }
+      if (most > 2.0f) CHECK(n < 1.3f * 1.52f / fourth);
+    }
+  CHECK(compared > 20);
+
+  const std::string whole = command + "--to mtl --format png --type uint16 ";
+  CHECK_THAT(session.texremap(whole + "-o none").last_error(),
+             Contains("would hold whole numbers, and its roughness is an exponent"));
+  CHECK_FALSE(std::filesystem::exists(session.path("none")));
+  REQUIRE(session.texremap(whole + "--output-roughness-factor 1000 -o whole").exit_code == 0);
+  const TestImage stored = session.image("whole/exponent.png");
+  for (int i = 0; i < kSize; ++i)
+    CHECK(stored.at(i, i, 0) * 1000.0f ==
+          Approx(exponents.at(i, i, 0)).margin(0.5 * 1000.0 / 65535.0 + 1e-3));
+  const std::string back =
+      "convert --from mtl --to gltf --roughness whole/exponent.png --specular whole/specular.png "
+      "--diffuse whole/diffuse.png ";
+  CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--roughness-factor says"));
+  CHECK(session.texremap(back + "--roughness-factor 1000 -o back").exit_code == 0);
+  CHECK_THAT(session.texremap(command + "--to unity --output-roughness-factor 128 -o none").last_error(),
+             Contains("applies to exponents alone"));
 }
 
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {

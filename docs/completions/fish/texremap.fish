@@ -58,6 +58,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l help-all -d 'Sh
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l prior -x -d 'How strongly 0 and 1 are preferred: clean'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l metal-mask -r -F -d 'Map of the metals, which decides between metallic values that look alike'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l output-encoding -x -a 'alpha roughness exponent glossiness squared' -d 'What the roughness results hold'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l output-roughness-factor -x -d 'Exponent that 1, or white, stands for in the result: 1000 as in MTL files, 128 as in OpenGL, 100 for percent'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l roughness-factor -l glossiness-factor -x -d 'Multiply the roughness or glossiness map before it is decoded'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l specular-factor -x -d 'Multiply linear specular by one number, or by three'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l diffuse-factor -x -d 'The same for diffuse'

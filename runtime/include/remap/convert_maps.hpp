@@ -117,6 +117,7 @@ inline constexpr NamedValues<BadTexels, 3> kBadTexels = {
 
 struct MapTreatment {
   std::optional<RoughnessConvention> target_convention;  // of the results; by default that of the model
+  float target_roughness_factor = 1.0f;                  // stored roughness times this is the roughness
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;               // add noise of half a step to 8-bit integers, equal in every run
   bool value_statistics = false;     // fill in ranges and histograms
