@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <mutex>
 #include <set>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
@@ -48,25 +49,25 @@ void remove_abandoned_once(const fs::path& folder) {
   if (done.insert(folder).second) remove_abandoned(folder);
 }
 
-// Waits until the disk has the content of a file or the names of a folder. Some file systems cannot; what
-// cannot be opened was read-only when it was made.
+// Waits until the disk has the content of a file or the names of a folder. Some file systems cannot.
+bool is_on_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS; }
+
+// What cannot be opened was read-only when it was made.
 bool is_on_disk(const fs::path& path) {
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  return !file.is_open() || ::fsync(file.get()) == 0 || errno == EINVAL || errno == EROFS;
+  return !file.is_open() || is_on_disk(file.get());
 }
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
 
-void replace(const fs::path& unfinished, const fs::path& path, Flush flush) {
+void replace(const fs::path& unfinished, const fs::path& path) {
   std::error_code failure;
   const fs::file_status found = fs::status(path, failure);
   if (fs::exists(found) && fs::is_other(found))
     throw output_error(path.string() +
                        ": cannot be written: is a device or a pipe, which a file must not replace");
-  if (flush == Flush::kYes && !is_on_disk(unfinished)) fail_to_write(path, errno);
   fs::rename(unfinished, path, failure);
   if (failure) fail_to_write(path, failure.value());
-  if (flush == Flush::kYes) is_on_disk(folder_of(path));  // the file is there, whatever the answer
 }
 
 }  // namespace
@@ -88,7 +89,9 @@ std::string with_final_name(std::string message, const fs::path& unfinished, con
 
 void commit_file(const fs::path& unfinished, const fs::path& path, Flush flush) {
   try {
-    replace(unfinished, path, flush);
+    if (flush == Flush::kYes) flush_to_disk(unfinished, path);
+    replace(unfinished, path);
+    if (flush == Flush::kYes) is_on_disk(folder_of(path));  // the file is there, whatever the answer
   } catch (const Error&) {
     std::error_code ignored;
     fs::remove(unfinished, ignored);
@@ -122,7 +125,7 @@ void create_parent(const fs::path& path) {
 NewFile::NewFile(const fs::path& path) : path_(path) {
   create_parent(path);
   unfinished_ = unfinished_name(path);
-  file_ = std::fopen(unfinished_.c_str(), "wb");
+  file_ = std::fopen(unfinished_.c_str(), "w+be");
   if (file_ == nullptr) fail_to_write(path, errno);
 }
 
@@ -137,13 +140,25 @@ void NewFile::add(std::string_view text) {
 }
 
 const fs::path& NewFile::finish() {
-  if (file_ != nullptr && std::fclose(std::exchange(file_, nullptr)) != 0) fail_to_write(path_, errno);
+  if (std::fflush(file_) != 0) fail_to_write(path_, errno);
   return unfinished_;
+}
+
+std::shared_ptr<const InputFile> NewFile::content() const {
+  return std::make_shared<const InputFile>(unfinished_, ::fileno(file_));
+}
+
+void NewFile::flush_to_disk() const {
+  if (!is_on_disk(::fileno(file_))) fail_to_write(path_, errno);
 }
 
 void NewFile::commit(Flush flush) {
   finish();
-  commit_file(std::exchange(unfinished_, {}), path_, flush);
+  if (flush == Flush::kYes) flush_to_disk();
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail_to_write(path_, errno);
+  replace(unfinished_, path_);
+  unfinished_.clear();
+  if (flush == Flush::kYes) is_on_disk(folder_of(path_));  // the file is there, whatever the answer
 }
 
 void write_file(const fs::path& path, std::string_view content, Flush flush) {
@@ -156,24 +171,18 @@ void flush_to_disk(const fs::path& path, const fs::path& shown) {
   if (!is_on_disk(path)) fail_to_write(shown, errno);
 }
 
-fs::path copy_unfinished(const fs::path& from, const fs::path& to) {
-  std::error_code failure;
-  const std::string refused = from.string() + ": cannot be copied";
-  const bool is_file = fs::is_regular_file(from, failure);
-  if (failure) throw system_error(ErrorKind::kInput, refused, failure.value());
-  if (!is_file) throw input_error(refused + ": not a file");
-  const fs::path unfinished = unfinished_name(to);
-  fs::copy_file(from, unfinished, fs::copy_options::overwrite_existing, failure);
-  if (failure) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    throw system_error(ErrorKind::kOutput, to.string() + ": cannot be copied from " + from.string(),
-                       failure.value());
-  }
-  return unfinished;
+void add_copy(const InputFile& from, NewFile& to) {
+  for_pieces(from, [&](std::string_view piece) { to.add(piece); });
+  struct stat found {};
+  if (::fstat(from.descriptor(), &found) == 0) ::fchmod(::fileno(to.stream()), found.st_mode & 07777);
 }
 
-void copy_whole_file(const fs::path& from, const fs::path& to) { commit_file(copy_unfinished(from, to), to); }
+void copy_whole_file(const fs::path& from, const fs::path& to) {
+  const InputFile source(from);
+  NewFile copy(to);
+  add_copy(source, copy);
+  copy.commit();
+}
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;

@@ -3,9 +3,11 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "core/input_file.hpp"
 #include "core/read_file.hpp"
 
 namespace remap {
@@ -30,7 +32,8 @@ void commit_file(const std::filesystem::path& unfinished, const std::filesystem:
                  Flush flush = Flush::kYes);
 
 // A file that is written piece by piece under an unfinished name, and removed unless it is committed. Creates
-// missing parent folders. Throws kOutput, and then leaves an existing file unchanged.
+// missing parent folders. Throws kOutput, and then leaves an existing file unchanged. It is opened once: what
+// was written is read, and waits for the disk, through the same descriptor.
 class NewFile {
  public:
   explicit NewFile(const std::filesystem::path& path);
@@ -42,6 +45,12 @@ class NewFile {
   // Ends the content. Returns the name that the file has until commit().
   const std::filesystem::path& finish();
   const std::filesystem::path& path() const noexcept { return path_; }
+  const std::filesystem::path& unfinished() const noexcept { return unfinished_; }  // the name until commit()
+  std::FILE* stream() const noexcept { return file_; }
+  // The finished content, to be read until commit().
+  std::shared_ptr<const InputFile> content() const;
+  // Waits until the disk has the finished content.
+  void flush_to_disk() const;
   void commit(Flush flush = Flush::kYes);
 
  private:
@@ -56,9 +65,8 @@ void write_file(const std::filesystem::path& path, std::string_view content, Flu
 // that do not flush, for several files at once. Throws kOutput, naming `shown`, if the system refuses.
 void flush_to_disk(const std::filesystem::path& path, const std::filesystem::path& shown);
 
-// Copies a file byte for byte to an unfinished name beside `to`, for commit_file(). Throws as
-// copy_whole_file().
-std::filesystem::path copy_unfinished(const std::filesystem::path& from, const std::filesystem::path& to);
+// Adds the bytes of a file, and gives the new file its permissions.
+void add_copy(const InputFile& from, NewFile& to);
 
 // Copies a file byte for byte and replaces `to`, which is complete or unchanged. Throws kInput if `from` is
 // not a readable file, kOutput if the copy cannot be written.

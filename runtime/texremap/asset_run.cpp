@@ -170,8 +170,7 @@ class AssetRunner {
     journal_.claim(options_.force);
     std::vector<FinishedFile> finished;
     std::vector<fs::path> paths;
-    for (const std::unique_ptr<NewFile>& file : files)
-      finished.push_back(finished_file(file->path(), file->finish()));
+    for (const std::unique_ptr<NewFile>& file : files) finished.push_back(finished_file(*file));
     for (const FinishedFile& file : finished) paths.push_back(file.path);
     journal_.begin(paths);
     journal_.commit(job.name(), inputs, finished, options_.force, rename);

@@ -85,9 +85,9 @@ ConversionNote conversion_note(const std::string& source, const std::string& tar
                      converter);
 }
 
-std::string inputs_hash(const std::vector<std::filesystem::path>& files, const ConversionJob& job) {
+std::string inputs_hash(const OpenFiles& files, const ConversionJob& job, const OpenFiles& copied) {
   ContentHash hash;
-  for (const std::filesystem::path& file : files) hash.add_file(file);
+  for (const auto& file : files) hash.add_file(*file);
   const auto add = [&](const std::string& name, const ParameterRequest& asked) {
     hash.add(name);
     if (const auto* map = std::get_if<MapName>(&asked.source)) {
@@ -98,7 +98,7 @@ std::string inputs_hash(const std::vector<std::filesystem::path>& files, const C
   for (const auto& [parameter, asked] : job.request.parameters) add(plain_name(parameter), asked);
   for (const CarriedRequest& carried : job.request.carried) add(carried.name, carried.parameter);
   hash.add(job.request.convention ? convention_name(*job.request.convention) : "");
-  for (const CopiedFile& copy : job.copies) hash.add_file(copy.source);
+  for (const auto& file : copied) hash.add_file(*file);
   return hash.hex();
 }
 

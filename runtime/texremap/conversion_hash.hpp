@@ -1,10 +1,11 @@
 // What a resumed run compares: hashes of a conversion and of the inputs of a set.
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/input_file.hpp"
 #include "texremap/conversion_jobs.hpp"
 #include "texremap/convert_report.hpp"
 #include "texremap/journal.hpp"
@@ -18,7 +19,10 @@ ConversionNote conversion_note(const ChosenConverter& chosen, const ConvertOptio
 ConversionNote conversion_note(const std::string& source, const std::string& target,
                                const Converter& converter, const ConvertOptions& options);
 
-// A hash of the files of a set, and of what is taken from where.
-std::string inputs_hash(const std::vector<std::filesystem::path>& files, const ConversionJob& job);
+// Files that are open, each once.
+using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
+
+// A hash of the files of a set, of what is taken from where, and of the files that are copied beside it.
+std::string inputs_hash(const OpenFiles& files, const ConversionJob& job, const OpenFiles& copied);
 
 }  // namespace remap

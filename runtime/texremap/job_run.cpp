@@ -31,11 +31,17 @@ namespace {
 constexpr std::size_t kSetProgress = 1000;
 
 // Each file once: a file of several parts is several maps.
-std::vector<std::filesystem::path> files_of(const TextureSet& set) {
-  std::vector<std::filesystem::path> files;
+OpenFiles files_of(const TextureSet& set) {
+  OpenFiles files;
   for (const ImageReader& map : set.maps)
-    if (std::find(files.begin(), files.end(), map.path()) == files.end()) files.push_back(map.path());
+    if (std::ranges::find(files, map.file()) == files.end()) files.push_back(map.file());
   return files;
+}
+
+// The open file of that name; opens it where it is none of `files`.
+std::shared_ptr<const InputFile> file_among(const OpenFiles& files, const std::filesystem::path& path) {
+  const auto found = std::ranges::find(files, path, [](const auto& file) { return file->path(); });
+  return found != files.end() ? *found : std::make_shared<const InputFile>(path);
 }
 
 std::uintmax_t size_of(const std::vector<std::filesystem::path>& files) {
@@ -67,7 +73,7 @@ void require_not_converted(const TextureSet& set, const ChosenConverter& chosen,
   const std::string& brdf = workflow.is_material() ? workflow.source_brdf : source;
   for (const ImageReader& map : set.maps) {
     std::optional<std::string> model = map.noted_metadata("remap:target");
-    if (!model) model = journals.target_of(map.path());
+    if (!model) model = journals.target_of(*map.file());
     if (model && *model != source && !holds_materials_of(*model, end, brdf))
       throw Error(ErrorKind::kUsage, map.path().string() + ": already converted to " + *model +
                                          ", but the source is " + source + " (--force converts it anyway)");
@@ -173,8 +179,8 @@ class JobRunner {
   void run(const ConversionJob& job, const std::function<void(double)>& progress, JobReport& report);
 
  private:
-  void commit(const ConversionJob& job, const TargetPlan& plan, const std::string& inputs,
-              std::vector<TargetMap>& finished);
+  void commit(const ConversionJob& job, const TargetPlan& plan, const OpenFiles& files,
+              const std::string& inputs, std::vector<TargetMap>& finished);
   std::unique_ptr<Converter> survey(TextureSet& set, JobReport& report) const;
   void note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
   // What the roughness results hold where neither a name nor an option says it: what the target model of a
@@ -247,44 +253,37 @@ void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>&
 class FinishedCopies {
  public:
   FinishedCopies() = default;
-  void add(const PlannedCopy& copy) {
-    if (copy.turns_green) {
-      turned_.push_back(turned_copy(copy.source, copy.path));
-      files_.emplace_back(turned_.back()->finished_file(), copy.path);
-    } else {
-      files_.emplace_back(copy_unfinished(copy.source, copy.path), copy.path);
-    }
+  FinishedFile add(const PlannedCopy& copy, const std::shared_ptr<const InputFile>& source) {
+    if (copy.turns_green) return finished_file(*turned_.emplace_back(turned_copy(source, copy.path)));
+    NewFile& whole = *whole_.emplace_back(std::make_unique<NewFile>(copy.path));
+    add_copy(*source, whole);
+    whole.finish();
+    return finished_file(whole);
   }
-  ~FinishedCopies() {
-    std::error_code ignored;
-    for (const auto& [unfinished, path] : files_) std::filesystem::remove(unfinished, ignored);
+  void commit() {
+    for (const auto& image : turned_) image->commit(Flush::kNo);
+    for (const auto& file : whole_) file->commit(Flush::kNo);
   }
-  FinishedCopies(const FinishedCopies&) = delete;
-  FinishedCopies& operator=(const FinishedCopies&) = delete;
-
-  // Under temporary and final names.
-  const std::vector<std::pair<std::filesystem::path, std::filesystem::path>>& files() const { return files_; }
 
  private:
-  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_;
-  std::vector<std::unique_ptr<NewImage>> turned_;  // which remove their files unless these were renamed
+  std::vector<std::unique_ptr<NewImage>> turned_;
+  std::vector<std::unique_ptr<NewFile>> whole_;
 };
 
 // Gives the finished files of a set, and its copies, their names. They are on the disk before; the lock of
 // the folder is held for the renames alone.
-void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const std::string& inputs,
-                       std::vector<TargetMap>& finished) {
+void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const OpenFiles& files,
+                       const std::string& inputs, std::vector<TargetMap>& finished) {
   if (is_tree_) journal_.claim(options_.force);
   journal_.begin(results_of(plan));
+  std::vector<FinishedFile> results;
+  for (const TargetMap& target : finished) results.push_back(finished_file(*target.writer));
   FinishedCopies copies;
-  for (const PlannedCopy& copy : plan.copies) copies.add(copy);
-  std::vector<FinishedFile> files;
-  for (const TargetMap& target : finished)
-    files.push_back(finished_file(target.writer->path(), target.writer->finished_file()));
-  for (const auto& [unfinished, path] : copies.files()) files.push_back(finished_file(path, unfinished));
-  journal_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, files, options_.force, [&] {
+  for (const PlannedCopy& copy : plan.copies)
+    results.push_back(copies.add(copy, file_among(files, copy.source)));
+  journal_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, results, options_.force, [&] {
     for (TargetMap& target : finished) target.writer->commit(Flush::kNo);
-    for (const auto& [unfinished, path] : copies.files()) commit_file(unfinished, path, Flush::kNo);
+    copies.commit();
   });
   std::error_code ignored;
   for (const std::filesystem::path& folder : {job.folder, job.diagnosis_folder})
@@ -297,7 +296,8 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   require_as_listed(job.listed);
   TextureSet set = open_texture_set(job.request);
   require_scale(set, set.convention.value_or(chosen_.info().source.roughness));
-  report.inputs = files_of(set);
+  const OpenFiles files = files_of(set);
+  for (const auto& file : files) report.inputs.push_back(file->path());
   report.left_behind = job.left_behind;
   if (const SetParameter* specular = set.map_of(Parameter::kSpecular))
     report.specular_transfer = specular->transfer;
@@ -329,14 +329,20 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   report.warnings = job.notes;
   report.warnings.insert(report.warnings.end(), plan.left_out.begin(), plan.left_out.end());
   const bool needs_hash = options_.resume || !options_.dry_run;
-  const std::string inputs = needs_hash ? inputs_hash(report.inputs, job) : "";
+  OpenFiles all = files, copied;
+  if (needs_hash)
+    for (const CopiedFile& copy : job.copies) {
+      copied.push_back(file_among(all, copy.source));
+      all.push_back(copied.back());
+    }
+  const std::string inputs = needs_hash ? inputs_hash(files, job, copied) : "";
   if (options_.resume) {
-    const std::vector<std::filesystem::path> files = results_of(plan);
-    if (journal_.is_done(inputs, files)) {
+    const std::vector<std::filesystem::path> results = results_of(plan);
+    if (journal_.is_done(inputs, results)) {
       report.was_done = true;
       return;
     }
-    if (!options_.force) require_replaceable(files, journal_);
+    if (!options_.force) require_replaceable(results, journal_);
   } else if (is_tree_ && !options_.force) {
     require_free(results_of(plan), journal_);
   }
@@ -358,7 +364,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   PassOptions pass = pass_;
   pass.target_convention = width;
   pass.progress = progress;
-  pass.commit = [&](std::vector<TargetMap>& finished) { commit(job, plan, inputs, finished); };
+  pass.commit = [&](std::vector<TargetMap>& finished) { commit(job, plan, all, inputs, finished); };
   report.statistics = run_texture_pass(set, targets, own ? *own : chosen_.converter(), pass);
   report.bytes_read = size_of(report.inputs);
   for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});

@@ -149,13 +149,13 @@ fs::path other_part(const fs::path& own) {
   return {};
 }
 
+bool is_as_written(const InputFile& file, const Entry& entry) {
+  return entry.is_finished && file.size() == entry.bytes && hash_of_file(file) == entry.hash;
+}
+
 bool is_as_written(const fs::path& path, const Entry& entry) {
-  std::error_code failure;
-  if (!entry.is_finished || !fs::is_regular_file(path, failure) ||
-      fs::file_size(path, failure) != entry.bytes)
-    return false;
   try {
-    return hash_of_file(path) == entry.hash;
+    return is_as_written(InputFile(path), entry);
   } catch (const Error&) {
     return false;
   }
@@ -212,11 +212,6 @@ std::string difference(const ConversionNote& owner, const ConversionNote& own) {
 }
 
 }  // namespace
-
-FinishedFile finished_file(const fs::path& path, const fs::path& unfinished) {
-  flush_to_disk(unfinished, path);
-  return {path, fs::file_size(unfinished), hash_of_file(unfinished)};
-}
 
 struct Journal::State {
   fs::path folder, file;  // the journal that this run writes
@@ -385,9 +380,9 @@ struct JournalLookup::State {
 JournalLookup::JournalLookup() : state_(std::make_unique<State>()) {}
 JournalLookup::~JournalLookup() = default;
 
-std::optional<std::string> JournalLookup::target_of(const fs::path& file) {
+std::optional<std::string> JournalLookup::target_of(const InputFile& file) {
   std::error_code failure;
-  const fs::path whole = fs::weakly_canonical(file, failure);
+  const fs::path whole = fs::weakly_canonical(file.path(), failure);
   if (failure) return std::nullopt;
   for (fs::path folder = whole.parent_path(); !folder.empty(); folder = folder.parent_path()) {
     std::optional<Entry> entry;
@@ -398,7 +393,7 @@ std::optional<std::string> JournalLookup::target_of(const fs::path& file) {
         if (found != content->files.end()) entry = found->second;
       }
     }
-    if (entry && is_as_written(whole, *entry)) return entry->target;
+    if (entry && is_as_written(file, *entry)) return entry->target;
     if (folder == folder.parent_path()) break;
   }
   return std::nullopt;

@@ -27,7 +27,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/input_file.hpp"
 #include "texremap/part.hpp"
+#include "texture/content_hash.hpp"
 
 namespace remap {
 
@@ -46,8 +48,13 @@ struct FinishedFile {
   std::string hash;
 };
 
-// `unfinished` holds the content of `path`, which is on the disk when this returns.
-FinishedFile finished_file(const std::filesystem::path& path, const std::filesystem::path& unfinished);
+// `file`: a NewFile or a NewImage that is finished, and on the disk when this returns.
+template <typename File>
+FinishedFile finished_file(const File& file) {
+  file.flush_to_disk();
+  const auto content = file.content();
+  return {file.path(), content->size(), hash_of_file(*content)};
+}
 
 // Runs of several processes and threads may share a folder: a set is renamed and noted under a lock of the
 // folder itself (flock), which ends with its process and leaves no file. Parts need none: two runs of one
@@ -89,7 +96,7 @@ class JournalLookup {
   JournalLookup();
   ~JournalLookup();
   // The target model of the conversion that wrote the file, if the file still is what it wrote.
-  std::optional<std::string> target_of(const std::filesystem::path& file);
+  std::optional<std::string> target_of(const InputFile& file);
 
  private:
   struct State;

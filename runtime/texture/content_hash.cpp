@@ -1,18 +1,13 @@
 #include "texture/content_hash.hpp"
 
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <new>
-#include <vector>
 
 #define XXH_STATIC_LINKING_ONLY
 #define XXH_IMPLEMENTATION
 #include <xxhash.h>
-
-#include "core/errors.hpp"
-#include "core/files.hpp"
 
 namespace remap {
 
@@ -27,18 +22,12 @@ void ContentHash::add(std::string_view text) {
   XXH3_128bits_update(state_.get(), text.data(), text.size());
 }
 
-void ContentHash::add_file(const std::filesystem::path& path) {
-  const auto fail = [&] { throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno); };
-  require_regular_file(path);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) fail();
-  std::vector<char> buffer(std::size_t{1} << 20);
+void ContentHash::add_file(const InputFile& file) {
   std::uint64_t total = 0;
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
-    XXH3_128bits_update(state_.get(), buffer.data(), count);
-    total += count;
-  }
-  if (std::ferror(file.get()) != 0) fail();
+  for_pieces(file, [&](std::string_view piece) {
+    XXH3_128bits_update(state_.get(), piece.data(), piece.size());
+    total += piece.size();
+  });
   XXH3_128bits_update(state_.get(), &total, sizeof total);
 }
 
@@ -54,9 +43,9 @@ std::string ContentHash::hex() const {
   return text;
 }
 
-std::string hash_of_file(const std::filesystem::path& path) {
+std::string hash_of_file(const InputFile& file) {
   ContentHash hash;
-  hash.add_file(path);
+  hash.add_file(file);
   return hash.hex();
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/input_file.hpp"
+
 struct XXH3_state_s;
 
 namespace remap {
@@ -18,7 +20,8 @@ class ContentHash {
   // Adds a text and its length, so `ab`, `c` and `a`, `bc` differ.
   void add(std::string_view text);
   // Adds the bytes of a file. Throws kInput if it cannot be read.
-  void add_file(const std::filesystem::path& path);
+  void add_file(const InputFile& file);
+  void add_file(const std::filesystem::path& path) { add_file(InputFile(path)); }
 
   // The hash as 32 hexadecimal digits.
   std::string hex() const;
@@ -28,6 +31,7 @@ class ContentHash {
 };
 
 // The hash of one file.
-std::string hash_of_file(const std::filesystem::path& path);
+std::string hash_of_file(const InputFile& file);
+inline std::string hash_of_file(const std::filesystem::path& path) { return hash_of_file(InputFile(path)); }
 
 }  // namespace remap

@@ -60,10 +60,16 @@ class NewImage {
   virtual void select(int part, int level) = 0;
   // Writes the next rows from the top, with the rules of StoredImage::read_rows.
   virtual void write_rows(int first_row, int row_count, const std::byte* texels) = 0;
-  // Closes and checks the file. Afterwards the system has accepted every byte.
+  // Ends and checks the file. Afterwards the system has accepted every byte.
   virtual void finish() = 0;
   // The finished file, under its temporary name.
   virtual const std::filesystem::path& finished_file() const noexcept = 0;
+  // What the finished file holds, to be read; of a host that keeps its file open, without opening it again.
+  virtual std::shared_ptr<const InputFile> content() const {
+    return std::make_shared<const InputFile>(finished_file());
+  }
+  // Waits until the disk has the finished file; in the same way.
+  virtual void flush_to_disk() const { remap::flush_to_disk(finished_file(), path()); }
   // Renames the finished file to its final name and replaces an existing file.
   virtual void commit(Flush flush) = 0;
 };
@@ -83,6 +89,11 @@ class ImageLibrary {
   virtual void set_thread_count(int count) const = 0;
   // `path` leads to a regular file.
   virtual std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const = 0;
+  // The same of a file that is open; a host that only knows names opens it by its own.
+  virtual std::unique_ptr<StoredImage> open_part(const std::shared_ptr<const InputFile>& file,
+                                                 int part) const {
+    return open(file->path(), part);
+  }
   // The new image follows the models of `parts` in pixel types, compression, tiling, channel names, metadata,
   // windows and mip levels, as far as the format (chosen by the extension of `path`) can hold them.
   virtual std::unique_ptr<NewImage> create(const std::filesystem::path& path,

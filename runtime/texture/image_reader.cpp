@@ -1,15 +1,25 @@
 #include "texture/image_reader.hpp"
 
+#include <utility>
+
 #include "remap/error.hpp"
 
 namespace remap {
 
-ImageReader::ImageReader(const std::filesystem::path& path, int part) : path_(path), part_(part) {
+namespace {
+
+std::shared_ptr<const InputFile> opened(const std::filesystem::path& path) {
   if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
     throw Error(ErrorKind::kInput, path.string() + ": is a folder, not an image file");
-  require_regular_file(path);
-  image_ = image_library().open(path, part);
+  return std::make_shared<const InputFile>(path);
 }
+
+}  // namespace
+
+ImageReader::ImageReader(const std::filesystem::path& path, int part) : ImageReader(opened(path), part) {}
+
+ImageReader::ImageReader(std::shared_ptr<const InputFile> file, int part)
+    : file_(std::move(file)), part_(part), image_(image_library().open_part(file_, part)) {}
 
 void ImageReader::resample(int width, int height, const std::vector<Transfer>& transfers) {
   image_->set_followed_size(width, height);

@@ -19,8 +19,11 @@ class ImageReader {
  public:
   // Loads the module of images, but not for what cannot be an image file.
   explicit ImageReader(const std::filesystem::path& path, int part = 0);
+  // A part of a file that is open, for example for another part.
+  ImageReader(std::shared_ptr<const InputFile> file, int part);
 
-  const std::filesystem::path& path() const noexcept { return path_; }
+  const std::shared_ptr<const InputFile>& file() const noexcept { return file_; }
+  const std::filesystem::path& path() const noexcept { return file_->path(); }
   const ImageLayout& layout() const noexcept { return resampled_ ? resampled_->layout() : image_->layout(); }
   int part() const noexcept { return part_; }
   std::string part_name() const { return image_->part_name(); }
@@ -43,7 +46,7 @@ class ImageReader {
   void read_rows(int first_row, int row_count, std::byte* texels);
 
  private:
-  std::filesystem::path path_;
+  std::shared_ptr<const InputFile> file_;
   int part_ = 0;
   std::unique_ptr<StoredImage> image_;
   std::unique_ptr<ResampledRows> resampled_;

@@ -85,9 +85,10 @@ std::optional<StatedGreen> stated_green(const std::string& name) {
   return std::nullopt;
 }
 
-std::unique_ptr<NewImage> turned_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
+std::unique_ptr<NewImage> turned_copy(const std::shared_ptr<const InputFile>& from,
+                                      const std::filesystem::path& to) {
   std::vector<ImageReader> images;
-  images.emplace_back(from);
+  images.emplace_back(from, 0);
   for (int part = 1; part < images.front().part_count(); ++part) images.emplace_back(from, part);
   std::vector<NewPart> parts;
   for (const ImageReader& image : images) parts.push_back({&image.stored(), {}});

@@ -25,6 +25,7 @@ std::optional<StatedGreen> stated_green(const std::string& name);
 // A finished copy, not yet under its name `to`, whose green is 1 - green; -green where values have a sign.
 // All else is that of `from`. Throws kInput if `from` cannot be read or has no green, kOutput if the copy
 // cannot be written.
-std::unique_ptr<NewImage> turned_copy(const std::filesystem::path& from, const std::filesystem::path& to);
+std::unique_ptr<NewImage> turned_copy(const std::shared_ptr<const InputFile>& from,
+                                      const std::filesystem::path& to);
 
 }  // namespace remap

@@ -199,11 +199,13 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
   for (std::size_t i = 0; i < set.maps.size(); ++i)
     if (same_file(set.maps[i].path(), file)) parts.push_back(i);
   if (!parts.empty()) return parts;
-  int count = 1;
-  for (int part = 0; part < count; ++part) {
+  parts.push_back(set.maps.size());
+  set.maps.emplace_back(file);
+  const std::shared_ptr<const InputFile> opened = set.maps.back().file();
+  const int count = set.maps.back().part_count();
+  for (int part = 1; part < count; ++part) {
     parts.push_back(set.maps.size());
-    set.maps.emplace_back(file, part);
-    count = set.maps.back().part_count();
+    set.maps.emplace_back(opened, part);
   }
   return parts;
 }

@@ -3,7 +3,7 @@
 #
 #   farm.bash TEXREMAP [short | long]
 #
-# short: 120 sets in 6 parts, below a minute on two cores. long, with REMAP_CAMPAIGN=full the default: 2,000 sets in 40 parts,
+# short: 120 sets in 6 parts, below half a minute on two cores. long, with REMAP_CAMPAIGN=full the default: 2,000 sets in 40 parts,
 # and over 20 kills in five minutes.
 set -uo pipefail
 readonly texremap=$1 form=${2:-$([[ ${REMAP_CAMPAIGN-} == full ]] && echo long || echo short)}
@@ -21,8 +21,6 @@ if [[ $form == short ]]; then
   sets=120 parts=6 least_kills=6
   troubles=([slurm]="task batch node" [openjd]="task task" [commands]="task task task")
 fi
-declare -A happened=()
-kills=0
 
 find_openjd() {
   local program
@@ -32,28 +30,31 @@ find_openjd() {
   return 1
 }
 
-# texremap that converts, not the one that merges.
+# conversions WAY: texremap that converts for it, not the one that merges.
 conversions() {
   local pid
   for pid in $(pgrep -x texremap); do
-    ! grep -qsz '^convert$' "/proc/$pid/cmdline" || echo "$pid"
+    ! grep -qsz '^convert$' "/proc/$pid/cmdline" || ! grep -qsz "out_$1\$" "/proc/$pid/cmdline" || echo "$pid"
   done
 }
+
+# running FORMAT: the jobs of the plan. Others have names of their own.
+running() { squeue --noheader --states=RUNNING --name=texremap --format="$1"; }
 
 # trouble WAY KIND: fails where nothing runs that it could meet.
 trouble() {
   local victim
   case $2 in
     task)
-      victim=$(conversions | shuf -n 1) && [[ -n $victim ]] || return
+      victim=$(conversions "$1" | shuf -n 1) && [[ -n $victim ]] || return
       kill -9 "$victim"
       ;;
     batch | job)
-      victim=$(squeue --noheader --states=RUNNING --format=%i | shuf -n 1) && [[ -n $victim ]] || return
+      victim=$(running %i | shuf -n 1) && [[ -n $victim ]] || return
       if [[ $2 == batch ]]; then scancel --signal=KILL --batch "$victim"; else scancel --signal=KILL "$victim"; fi
       ;;
     daemon | node | lost | frozen)
-      victim=$(squeue --noheader --states=RUNNING --format=%N | shuf -n 1) && [[ -n $victim ]] || return
+      victim=$(running %N | shuf -n 1) && [[ -n $victim ]] || return
       case $2 in
         daemon) kill_daemon "$victim" && start_node "$victim" ;;
         node) lose_node "$victim" && give_up_node "$victim" ;;
@@ -62,7 +63,7 @@ trouble() {
       esac
       ;;
   esac 2>>"$farm/troubles.txt" || return
-  ((happened[$1 $2] += 1, kills += 1))
+  echo "$1 $2" >>"$farm/happened.txt"
 }
 
 report_of() { printf '%s/.texremap-parts/part-%04d-of-%04d.jsonl' "$1" "$2" "$3"; }
@@ -162,33 +163,33 @@ try_way() {
   echo "$way: $rounds rounds, $(seconds_since "$start") s"
 }
 
-# A disk that is full until an administrator comes: the tasks end with 75, and their scripts queue them again.
-try_full_disk() {
+# A disk that is full until an administrator comes: the tasks end with 75, and their scripts queue them again, seconds later.
+fill_disk() {
   mkdir full
   mount -t tmpfs -o "size=$(($(du -sk one | cut -f1) / 2))k" tmpfs full
   local -r half=$(df --output=size full | tail -n 1)
   check "full disk: plan" "$texremap" plan slurm --manifest sets.jsonl --parts 2 -o plan_full -- "${convert[@]}" -o full/out
-  sh plan_full/submit.sh >full.txt
+  SBATCH_JOB_NAME=full sh plan_full/submit.sh >full.txt
   check "full disk: tasks are queued again" wait_until 60 grep -rqs "DUE TO JOB REQUEUE" plan_full/log
   mount -o "remount,size=$((10 * half))k" full
+}
+
+judge_full_disk() {
   check "full disk: they end" wait_until 120 no_jobs
   judge "full disk, with more room" full/out
 }
 
 # Names that mean something to a scheduler or to a shell.
+readonly odd="odd %a {{n}} 'o' \$x"
 try_odd_names() {
-  local -r odd="odd %a {{n}} 'o' \$x"
   local way
-  mkdir "$odd"
-  "$texremap" index in/region0 --quiet -o "$odd/sets.jsonl"
-  for way in slurm openjd commands; do
+  for way in "$@"; do
     check "odd names: plan $way" "$texremap" plan "$way" --manifest "$odd/sets.jsonl" --parts 2 -o "$odd/plan_$way" -- \
       "${convert[@]}" -o "$odd/$way"
     check "odd names: $way" "run_$way" "$PWD/$odd/plan_$way"
     check "odd names: $way: the report is whole" "$texremap" merge-reports "$odd/$way"
     check "odd names: $way: the plan's own merge" test -s "$odd/plan_$way/report.jsonl"
   done
-  check "odd names: a log of each part" test -e "$odd/plan_slurm/log/2.txt"
 }
 
 two_at_once() {
@@ -223,7 +224,7 @@ sets_per_second() {
 milliseconds_since() { awk "BEGIN { printf \"%.0f\", 1000 * ($EPOCHREALTIME - $1) / $2 }"; }
 
 print_figures() {
-  local n kind start=$EPOCHREALTIME
+  local n start=$EPOCHREALTIME
   local -ra empty=("$texremap" convert --manifest sets.jsonl --part 2/1000000 "${convert[@]}" --quiet --resume -o empty)
   for n in 1 2 3 4 5 6 7 8 9 10; do "${empty[@]}"; done
   echo "a part without sets, from start to end: $(milliseconds_since "$start" 10) ms"
@@ -235,7 +236,23 @@ print_figures() {
     for n in 1 2 4; do echo "  $n: $(sets_per_second "$n")"; done
   fi
   echo "troubles:"
-  for kind in "${!happened[@]}"; do echo "  $kind: ${happened[$kind]}"; done | sort
+  sort "$farm/happened.txt" | uniq -c
+}
+
+# What waits for Slurm, and what needs none.
+lane_of_slurm() {
+  fill_disk
+  try_way slurm
+  judge_full_disk
+  try_odd_names slurm
+  check "odd names: a log of each part" test -e "$odd/plan_slurm/log/2.txt"
+}
+
+lane_of_others() {
+  try_way openjd
+  try_way commands
+  try_odd_names openjd commands
+  try_two_at_once
 }
 
 main() {
@@ -250,14 +267,15 @@ main() {
   /usr/bin/python3 "$here/make_sets.py" in "$sets"
   check "index" "$texremap" index in -o sets.jsonl
   check "one process" "$texremap" convert --manifest sets.jsonl "${convert[@]}" -o one
+  mkdir "$odd"
+  "$texremap" index in/region0 --quiet -o "$odd/sets.jsonl"
   start_slurm
-  try_way slurm
-  try_full_disk
-  try_way openjd
-  try_way commands
-  try_odd_names
-  try_two_at_once
+  begin_lane slurm lane_of_slurm
+  begin_lane others lane_of_others
+  end_lane slurm
+  end_lane others
   print_figures
+  kills=$(wc -l <"$farm/happened.txt")
   check "at least $least_kills kills: $kills" test "$kills" -ge "$least_kills"
   end_farm
 }

@@ -3,6 +3,7 @@
 #
 #   enter_farm "$0" "$@"    runs the script again inside: its ports clash with nobody's, and no process outlives it
 #   check TITLE COMMAND...  a line PASS or FAIL; end_farm ends the script by them
+#   begin_lane NAME COMMAND...; end_lane NAME   checks beside those of other lanes
 #   start_slurm             munged, slurmctld and two slurmd, whose files are in $farm/slurm
 #   lose_node node1         kills its daemon and its tasks, as a machine that fails
 #   start_node node1        starts its daemon, as after a reboot
@@ -60,13 +61,27 @@ failed=0
 check() {
   local -r title=$1
   shift
-  if "$@" >"$farm/said.txt" 2>&1; then
+  local -r said=$farm/said-$BASHPID.txt
+  if "$@" >"$said" 2>&1; then
     echo "PASS: $title"
   else
     echo "FAIL: $title"
-    head -n 20 "$farm/said.txt"
+    head -n 20 "$said"
     ((failed += 1))
   fi
+}
+
+# What a lane leaves in variables is lost. Its lines appear together when it has ended.
+declare -A lanes
+begin_lane() {
+  "${@:2}" >"$farm/lane-$1.txt" 2>&1 &
+  lanes[$1]=$!
+}
+
+end_lane() {
+  wait "${lanes[$1]}"
+  cat "$farm/lane-$1.txt"
+  ((failed += $(grep -c '^FAIL: ' "$farm/lane-$1.txt")))
 }
 
 seconds_since() { awk "BEGIN { printf \"%.2f\", $EPOCHREALTIME - $1 }"; }

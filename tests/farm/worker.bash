@@ -9,22 +9,27 @@ need_slurm
 enter_farm "$0" "$@"
 readonly remapc=$1 worker="python3 $2/examples/lambert_worker.py"
 readonly by_srun="example=srun -N1 -n1 $worker"
-readonly sweep=(sweep --source example/blinn-phong --target mitsuba/ggx --roughness-range 0.1,0.6 --roughness-samples 12
-  --specular-range 0,0.1 --specular-samples 3 --resolution 128)
+readonly least_kept=6
+# Sweeps that something meets are long enough for it, the others short.
+readonly pair=(sweep --source example/blinn-phong --target mitsuba/ggx --roughness-range 0.1,0.6 --specular-range 0,0.1
+  --specular-samples 3)
+readonly sweep=("${pair[@]}" --roughness-samples 8 --resolution 96) short=("${pair[@]}" --roughness-samples 3 --resolution 48)
 cd "$farm"
 mkdir pictures
 
 kept_pictures() { find cache -type f 2>/dev/null | wc -l; }
 
-has_begun() { [[ $(kept_pictures) -ge 10 ]]; }
+has_begun() { [[ $(kept_pictures) -ge $least_kept ]]; }
 
 no_steps() { no_jobs && [[ -z $(squeue --noheader --steps) ]]; }
 
 is_the_table() { cmp local.csv "$1"; }
 
+is_the_short_table() { cmp short.csv "$1"; }
+
 # A sweep that keeps its pictures.
-readonly cached=("$remapc" "${sweep[@]}" --worker "$by_srun" --worker-folder pictures --worker-timeout 8 --cache cache --force
-  -o table.csv)
+readonly cached=("$remapc" "${sweep[@]}" --worker "$by_srun" --worker-folder pictures --cache cache --force -o table.csv)
+patience=8
 
 # met TITLE COMMAND...: the command meets a sweep that has begun. Its exit code is then $code.
 met() {
@@ -32,7 +37,7 @@ met() {
   code=0
   shift
   rm -rf cache table.csv*
-  "${cached[@]}" >met.txt 2>&1 &
+  "${cached[@]}" --worker-timeout "$patience" >met.txt 2>&1 &
   sweep_pid=$!
   wait_until 20 has_begun || echo "no pictures" >&2
   "$@"
@@ -57,7 +62,7 @@ survived() {
 # ended TITLE COMMAND...: another sweep finishes what is left, and clears up.
 ended() {
   met "$@"
-  check "$1: pictures are kept" test "$(kept_pictures)" -ge 10
+  check "$1: pictures are kept" has_begun
   check "$1: another sweep ends well" "${cached[@]}"
   check "$1: its table" is_the_table table.csv
   check "$1: the folder of pictures is empty" test -z "$(ls -A pictures)"
@@ -84,20 +89,28 @@ lose_a_node() {
 }
 
 check "a local worker" "$remapc" "${sweep[@]}" --worker "example=$worker" --no-cache -o local.csv
+check "a local worker, a short sweep" "$remapc" "${short[@]}" --worker "example=$worker" --no-cache -o short.csv
 start_slurm
-check "steps of srun" "$remapc" "${sweep[@]}" --worker "$by_srun" --no-cache -o srun.csv
-check "steps of srun: the same table" is_the_table srun.csv
+check "steps of srun" "$remapc" "${short[@]}" --worker "$by_srun" --no-cache -o srun.csv
+check "steps of srun: the same table" is_the_short_table srun.csv
 cat >allocation.sbatch <<SBATCH
 #!/bin/bash
 #SBATCH --nodes=2 --ntasks=4 --output=allocation.txt
-$(printf '%q ' "$remapc" "${sweep[@]}" --worker "example=srun --exact -N1 -n1 $worker" --worker-processes 4 --no-cache \
+$(printf '%q ' "$remapc" "${short[@]}" --worker "example=srun --exact -N1 -n1 $worker" --worker-processes 4 --no-cache \
   -o allocation.csv)
 SBATCH
-check "steps in an allocation" sbatch --wait allocation.sbatch
-check "steps in an allocation: the same table" is_the_table allocation.csv
+# sbatch --wait would look every few seconds.
+ends_well() {
+  local job
+  job=$(sbatch --parsable "$1") && wait_until 60 no_jobs && scontrol show job "$job" | grep "JobState=COMPLETED"
+}
+check "steps in an allocation" ends_well allocation.sbatch
+check "steps in an allocation: the same table" is_the_short_table allocation.csv
 survived "a step is killed" kill_step
 survived "a job is cancelled" cancel_job
+patience=3
 survived "a step hangs" stop_step
+patience=8
 survived "a node is lost" lose_a_node
 ended "remapc is killed" kill_remapc
 ended "remapc is interrupted" interrupt_remapc
@@ -105,12 +118,12 @@ ended "remapc is interrupted" interrupt_remapc
 # Another machine does not share /dev/shm.
 readonly elsewhere="example=srun -N1 -n1 unshare --mount sh -c 'mount -t tmpfs none /dev/shm; exec $worker'"
 is_refused() {
-  ! "$remapc" "${sweep[@]}" --no-cache -o other.csv --worker "$elsewhere" 2>other.txt &&
+  ! "$remapc" "${short[@]}" --no-cache -o other.csv --worker "$elsewhere" 2>other.txt &&
     grep "No such file or directory.*--worker-folder FOLDER" other.txt
 }
 check "a worker elsewhere needs a folder" is_refused
-check "a worker elsewhere" "$remapc" "${sweep[@]}" --no-cache -o other.csv --worker "$elsewhere" --worker-folder pictures
-check "a worker elsewhere: the same table" is_the_table other.csv
+check "a worker elsewhere" "$remapc" "${short[@]}" --no-cache -o other.csv --worker "$elsewhere" --worker-folder pictures
+check "a worker elsewhere: the same table" is_the_short_table other.csv
 
 # A licence for each process of a sweep.
 most_steps() {
@@ -122,6 +135,6 @@ most_steps() {
   done
   wait $! && echo "at most $most steps at once" && ((most == 1))
 }
-check "one process at once" most_steps "$remapc" "${sweep[@]}" --worker "$by_srun" --worker-processes 1 --jobs 4 --no-cache -o one.csv
-check "one process at once: the same table" is_the_table one.csv
+check "one process at once" most_steps "$remapc" "${short[@]}" --worker "$by_srun" --worker-processes 1 --jobs 4 --no-cache -o one.csv
+check "one process at once: the same table" is_the_short_table one.csv
 end_farm

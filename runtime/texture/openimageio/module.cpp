@@ -13,7 +13,11 @@ class OpenImageIo : public ImageLibrary {
     OIIO::attribute("exr_threads", count == 1 ? -1 : count);
   }
   std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const override {
-    return open_image(path, part);
+    return open_image(std::make_shared<const InputFile>(path), part);
+  }
+  std::unique_ptr<StoredImage> open_part(const std::shared_ptr<const InputFile>& file,
+                                         int part) const override {
+    return open_image(file, part);
   }
   std::unique_ptr<NewImage> create(const std::filesystem::path& path,
                                    const std::vector<NewPart>& parts) const override {

@@ -17,16 +17,10 @@ namespace {
 // process (libjpeg). It reports success to the encoder; the writer checks for a failure after every band.
 class CheckedFile : public OIIO::Filesystem::IOProxy {
  public:
-  explicit CheckedFile(const fs::path& path)
-      : IOProxy(path.string(), Write), file_(std::fopen(path.c_str(), "wb")) {
-    if (file_ == nullptr) note_failure();
-  }
-  ~CheckedFile() override { close_file(); }
-  CheckedFile(const CheckedFile&) = delete;
-  CheckedFile& operator=(const CheckedFile&) = delete;
+  explicit CheckedFile(const NewFile& file)
+      : IOProxy(file.unfinished().string(), Write), file_(file.stream()) {}
 
   const char* proxytype() const override { return "checked"; }
-  bool opened() const override { return file_ != nullptr; }
   std::int64_t tell() override { return static_cast<std::int64_t>(::ftello(file_)); }
   bool seek(std::int64_t offset) override {
     if (::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0) note_failure();
@@ -40,10 +34,6 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
   std::size_t size() const override { return static_cast<std::size_t>(end_); }  // footers are written here
   void flush() const override { std::fflush(file_); }
 
-  void close_file() {
-    if (file_ != nullptr && std::fclose(file_) != 0) note_failure();
-    file_ = nullptr;
-  }
   // The errno of the first failure; 0 without a failure.
   int failure() const noexcept { return failure_; }
 
@@ -63,14 +53,6 @@ bool same_storage(const ImageLayout& a, const ImageLayout& b) {
 class OpenedNewImage : public NewImage {
  public:
   OpenedNewImage(const fs::path& path, const std::vector<NewPart>& parts) : path_(path) { plan(parts); }
-  ~OpenedNewImage() override {
-    output_.reset();
-    file_.reset();
-    std::error_code ignored;
-    if (!is_committed_ && !unfinished_.empty()) fs::remove(unfinished_, ignored);
-  }
-  OpenedNewImage(const OpenedNewImage&) = delete;
-  OpenedNewImage& operator=(const OpenedNewImage&) = delete;
 
   const fs::path& path() const noexcept override { return path_; }
   const ImageLayout& layout() const noexcept override { return layout_; }
@@ -83,11 +65,10 @@ class OpenedNewImage : public NewImage {
   void select(int part, int level) override;
   void write_rows(int first_row, int row_count, const std::byte* texels) override;
   void finish() override;
-  const fs::path& finished_file() const noexcept override { return unfinished_; }
-  void commit(Flush flush) override {
-    commit_file(unfinished_, path_, flush);
-    is_committed_ = true;
-  }
+  const fs::path& finished_file() const noexcept override { return file_->unfinished(); }
+  std::shared_ptr<const InputFile> content() const override { return file_->content(); }
+  void flush_to_disk() const override { file_->flush_to_disk(); }
+  void commit(Flush flush) override { file_->commit(flush); }
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
@@ -104,9 +85,9 @@ class OpenedNewImage : public NewImage {
   void check_finished() const;
 
   fs::path path_;
-  fs::path unfinished_;
-  std::unique_ptr<CheckedFile> file_;
-  std::unique_ptr<OIIO::ImageOutput> output_;  // declared after `file_`, which it uses until its destructor
+  std::unique_ptr<NewFile> file_;
+  std::unique_ptr<CheckedFile> proxy_;
+  std::unique_ptr<OIIO::ImageOutput> output_;  // declared after `proxy_`, which it uses until its destructor
   std::vector<std::vector<OIIO::ImageSpec>> specs_;  // of every level of every part
   int part_ = 0;
   int level_ = 0;
@@ -114,7 +95,6 @@ class OpenedNewImage : public NewImage {
   ImageLayout layout_;  // of the selected plane
   bool is_open_ = false;
   bool plane_is_open_ = false;
-  bool is_committed_ = false;
 };
 
 // Prepares everything without opening the encoder: libpng prints errors if it is opened and gets no texels.
@@ -141,24 +121,21 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
   }
   format_ = output_->format_name();
   layout_ = layout_of(spec(), format_, path_);
-  unfinished_ = unfinished_name(path_);
-  file_ = std::make_unique<CheckedFile>(unfinished_);
-  check_file();
+  file_ = std::make_unique<NewFile>(path_);
+  proxy_ = std::make_unique<CheckedFile>(*file_);
 }
 
 void OpenedNewImage::open() {
   // With a proxy, the TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data. Without
-  // one it reports write failures itself, except for the last bytes, which `check_finished` checks.
-  if (layout_.format == "tiff")
-    file_->close_file();
-  else
-    output_->set_ioproxy(file_.get());
+  // one it opens the file by its name, and reports write failures itself, except for the last bytes, which
+  // `check_finished` checks.
+  if (layout_.format != "tiff") output_->set_ioproxy(proxy_.get());
   if (specs_.size() > 1 && layout_.format == "openexr") {  // needs all parts at once
     std::vector<OIIO::ImageSpec> firsts;
     for (const auto& levels : specs_) firsts.push_back(levels.front());
-    check(output_->open(unfinished_.string(), static_cast<int>(firsts.size()), firsts.data()));
+    check(output_->open(finished_file().string(), static_cast<int>(firsts.size()), firsts.data()));
   } else {
-    check(output_->open(unfinished_.string(), spec()));
+    check(output_->open(finished_file().string(), spec()));
   }
   is_open_ = true;
 }
@@ -167,7 +144,7 @@ void OpenedNewImage::open_plane() {
   if (!is_open_)
     open();
   else
-    check(output_->open(unfinished_.string(), spec(),
+    check(output_->open(finished_file().string(), spec(),
                         level_ > 0 && output_->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel
                                                                   : OIIO::ImageOutput::AppendSubimage));
   if (!same_storage(layout_of(output_->spec(), output_->format_name(), path_), layout_))
@@ -177,8 +154,8 @@ void OpenedNewImage::open_plane() {
 
 // Throws if the system refused bytes.
 void OpenedNewImage::check_file() const {
-  if (file_->failure() != 0)
-    throw system_error(ErrorKind::kOutput, path_.string() + ": cannot be written", file_->failure());
+  if (proxy_->failure() != 0)
+    throw system_error(ErrorKind::kOutput, path_.string() + ": cannot be written", proxy_->failure());
 }
 
 // Throws if the system refused bytes or OpenImageIO failed.
@@ -186,13 +163,14 @@ void OpenedNewImage::check(bool done) const {
   const std::string message = output_ ? output_->geterror() : "";
   check_file();
   if (!done)
-    fail("cannot be written: " + with_final_name(first_line(message, "unknown reason"), unfinished_, path_));
+    fail("cannot be written: " +
+         with_final_name(first_line(message, "unknown reason"), finished_file(), path_));
 }
 
-// Reads the header of the closed file and, for TIFF, its last rows.
+// Reads the header of the finished file and, for TIFF, its last rows.
 void OpenedNewImage::check_finished() const {
   try {
-    const auto image = open_image(unfinished_, part_);
+    const auto image = open_image(content(), part_);
     image->select_level(level_);
     if (!same_storage(image->layout(), layout_)) fail("was written, but reads back as a different image");
     if (layout_.format != "tiff") return;
@@ -202,8 +180,8 @@ void OpenedNewImage::check_finished() const {
     image->read_rows(first, row_count, rows.data());
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kOutput) throw;
-    const std::string reason = std::string(error.what()).substr(unfinished_.string().size());
-    fail("cannot be written completely" + with_final_name(reason, unfinished_, path_));
+    const std::string reason = std::string(error.what()).substr(finished_file().string().size());
+    fail("cannot be written completely" + with_final_name(reason, finished_file(), path_));
   }
 }
 
@@ -227,8 +205,8 @@ void OpenedNewImage::finish() {
   const bool closed = output_->close();
   check(closed);
   output_.reset();  // the EXR writer keeps files with mip levels open until it is destroyed
-  file_->close_file();
   check(true);
+  file_->finish();
   check_finished();
 }
 

@@ -45,7 +45,7 @@ bool has_compression_level(const OIIO::ImageSpec& spec, const std::string& forma
 ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
                       const std::filesystem::path& path);
 
-std::unique_ptr<StoredImage> open_image(const std::filesystem::path& path, int part);
+std::unique_ptr<StoredImage> open_image(const std::shared_ptr<const InputFile>& file, int part);
 std::unique_ptr<NewImage> create_image(const std::filesystem::path& path, const std::vector<NewPart>& parts);
 
 // The levels of a stored image, as new images follow them.

@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <string_view>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 #include "core/errors.hpp"
@@ -148,9 +151,73 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
 
 namespace {
 
+// An open file as a stream with a place of its own: several images may read one file, in several threads.
+struct FileStream {
+  explicit FileStream(const InputFile& source) : file(source), stream(opened(this), std::fclose) {}
+  static std::FILE* opened(FileStream* cookie);
+
+  const InputFile& file;
+  std::uintmax_t place = 0;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream;
+};
+
+::ssize_t read_from(void* cookie, char* bytes, std::size_t size) try {
+  auto& stream = *static_cast<FileStream*>(cookie);
+  const std::size_t count = stream.file.read(stream.place, bytes, size);
+  stream.place += count;
+  return static_cast<::ssize_t>(count);
+} catch (const Error& error) {  // which must not pass through code of C
+  errno = error.system_code();
+  return -1;
+}
+
+int seek_in(void* cookie, ::off64_t* offset, int whence) {
+  auto& stream = *static_cast<FileStream*>(cookie);
+  const std::uintmax_t from = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? stream.place : stream.file.size();
+  const ::off64_t place = static_cast<::off64_t>(from) + *offset;
+  if (place < 0) {
+    errno = EINVAL;
+    return -1;
+  }
+  stream.place = static_cast<std::uintmax_t>(place);
+  *offset = place;
+  return 0;
+}
+
+std::FILE* FileStream::opened(FileStream* cookie) {
+  std::FILE* const stream = ::fopencookie(cookie, "rb", {read_from, nullptr, seek_in, nullptr});
+  if (stream == nullptr) throw std::bad_alloc();
+  return stream;
+}
+
+// Some readers of OpenImageIO take streams of C alone.
+class StreamProxy : public OIIO::Filesystem::IOFile {
+ public:
+  explicit StreamProxy(const FileStream& source) : IOFile(source.stream.get(), Read), source_(source) {}
+
+  std::size_t pread(void* bytes, std::size_t size, std::int64_t place) override try {
+    return source_.file.read(static_cast<std::uintmax_t>(place), static_cast<char*>(bytes), size);
+  } catch (const Error& error) {
+    errno = error.system_code();
+    return 0;
+  }
+
+ private:
+  const FileStream& source_;
+};
+
+// Whether the reader of the format opens the file again, by its name, to go back to an earlier row.
+bool starts_again(const ImageLayout& layout) {
+  constexpr std::array<std::string_view, 4> kFormats = {"hdr", "jpeg", "png", "tiff"};
+  return layout.tile_height == 0 && std::ranges::find(kFormats, layout.format) != kFormats.end();
+}
+
 class OpenedImage : public StoredImage {
  public:
-  OpenedImage(const fs::path& path, int part) : path_(path), part_(part) { open(); }
+  OpenedImage(const std::shared_ptr<const InputFile>& file, int part)
+      : file_(file), stream_(*file), proxy_(stream_), part_(part) {
+    open();
+  }
 
   const ImageLayout& layout() const noexcept override { return layout_; }
   std::string part_name() const override { return levels_.front().get_string_attribute("oiio:subimagename"); }
@@ -167,56 +234,79 @@ class OpenedImage : public StoredImage {
  private:
   const OIIO::ImageSpec& spec() const { return levels_[static_cast<std::size_t>(level_)]; }
   void open();
+  void open_input();
+  std::unique_ptr<OIIO::ImageInput> input_by_extension(const OIIO::ImageSpec& hints);
   void find_planes();
   void refuse_spoiled_webp();
   [[noreturn]] void fail(const std::string& what, int system_code = 0) const;
-  [[noreturn]] void fail_to_open() const;
 
-  fs::path path_;
-  std::unique_ptr<OIIO::ImageInput> input_;
+  const fs::path& path() const noexcept { return file_->path(); }
+
+  std::shared_ptr<const InputFile> file_;
+  FileStream stream_;
+  StreamProxy proxy_;
+  std::unique_ptr<OIIO::ImageInput> input_;  // declared after `proxy_`, which it uses until its destructor
   int part_ = 0;
   int part_count_ = 0;
   int level_ = 0;
+  int next_row_ = 0;                     // after the last one that was read
   std::vector<OIIO::ImageSpec> levels_;  // of the levels of the part, at the size that new images follow
   ImageLayout layout_;                   // of `level_`, as stored
 };
 
 void OpenedImage::fail(const std::string& what, int system_code) const {
-  throw Error(ErrorKind::kInput, path_.string() + ": " + what, system_code);
+  throw Error(ErrorKind::kInput, path().string() + ": " + what, system_code);
 }
 
-void OpenedImage::fail_to_open() const {
-  throw system_error(ErrorKind::kInput, path_.string() + ": cannot be read", errno);
+// The reader of the extension, which gets the open file. Null where it takes none, or not this content.
+std::unique_ptr<OIIO::ImageInput> OpenedImage::input_by_extension(const OIIO::ImageSpec& hints) {
+  const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(path().string(), false));
+  std::unique_ptr<OIIO::ImageInput> input;
+  if (!extension.empty()) input = OIIO::ImageInput::create(extension, false);
+  OIIO::ImageSpec ignored;
+  if (input && input->supports("ioproxy") && input->set_ioproxy(&proxy_) &&
+      input->open(path().string(), ignored, hints))
+    return input;
+  (void)OIIO::geterror();
+  return nullptr;
 }
 
 void OpenedImage::open() {
-  // OpenImageIO gives no reason if a file cannot be opened.
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path_.c_str(), "rb"), std::fclose);
-  if (!file) fail_to_open();
   // libpng allocates and fills as much as a chunk claims.
-  const std::vector<PngChunk> chunks = leading_png_chunks(file.get());
+  const std::vector<PngChunk> chunks = leading_png_chunks(stream_.stream.get());
   for (const PngChunk& chunk : chunks)
-    if (chunk.end > fs::file_size(path_))
+    if (chunk.end > file_->size())
       fail("is damaged: chunk " + plain(chunk.name) + " claims to be longer than the file");
-  if (const std::string fault = fault_of_bmp(file.get()); !fault.empty()) fail(fault);
-  OIIO::ImageSpec hints;
-  hints.attribute(kUnassociatedAlpha, 1);
-  input_ = OIIO::ImageInput::open(path_.string(), &hints);
-  if (!input_) {
-    const std::string reason = first_line(OIIO::geterror(), "unknown format");
-    // Of a file that cannot be opened a second time OpenImageIO says that it is no image.
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> second(std::fopen(path_.c_str(), "rb"),
-                                                                 std::fclose);
-    if (!second) fail_to_open();
-    fail("cannot be read as an image: " + reason);
-  }
+  if (const std::string fault = fault_of_bmp(stream_.stream.get()); !fault.empty()) fail(fault);
+  open_input();
   (void)input_->geterror();  // discards remarks on unusual headers
   find_planes();
   // A color space that OpenImageIO assumed is neither read nor written.
   if (!tells_color_space(spec(), input_->format_name(), chunks))
     for (OIIO::ImageSpec& level_spec : levels_) level_spec.erase_attribute("oiio:ColorSpace");
-  layout_ = layout_of(spec(), input_->format_name(), path_);
+  layout_ = layout_of(spec(), input_->format_name(), path());
   refuse_spoiled_webp();
+}
+
+// From the start of the file.
+void OpenedImage::open_input() {
+  input_.reset();
+  OIIO::ImageSpec hints;
+  hints.attribute(kUnassociatedAlpha, 1);
+  proxy_.seek(0);
+  errno = 0;
+  input_ = input_by_extension(hints);
+  if (!input_ && passes_soon(errno))
+    throw system_error(ErrorKind::kInput, path().string() + ": cannot be read", errno);
+  // Tries all readers, by the name of the file.
+  if (!input_) input_ = OIIO::ImageInput::open(path().string(), &hints);
+  if (!input_) {
+    const std::string reason = first_line(OIIO::geterror(), "unknown format");
+    (void)InputFile(
+        path());  // of a file that cannot be opened by its name OpenImageIO says that it is no image
+    fail("cannot be read as an image: " + reason);
+  }
+  next_row_ = 0;
 }
 
 void OpenedImage::refuse_spoiled_webp() {
@@ -252,7 +342,7 @@ void OpenedImage::find_planes() {
 void OpenedImage::select_level(int level) {
   if (level == level_) return;
   level_ = level;
-  layout_ = layout_of(spec(), input_->format_name(), path_);
+  layout_ = layout_of(spec(), input_->format_name(), path());
 }
 
 void OpenedImage::set_followed_size(int width, int height) {
@@ -268,6 +358,8 @@ void OpenedImage::set_followed_size(int width, int height) {
 void OpenedImage::read_rows(int first_row, int row_count, std::byte* texels) {
   const OIIO::ImageSpec& plane = spec();
   const int width = layout_.width;  // as stored
+  if (first_row < next_row_ && starts_again(layout_)) open_input();
+  next_row_ = first_row + row_count;
   const int begin = plane.y + first_row, end = begin + row_count;
   errno = 0;
   const bool read = plane.tile_width > 0
@@ -286,8 +378,8 @@ void OpenedImage::read_rows(int first_row, int row_count, std::byte* texels) {
 
 }  // namespace
 
-std::unique_ptr<StoredImage> open_image(const fs::path& path, int part) {
-  return std::make_unique<OpenedImage>(path, part);
+std::unique_ptr<StoredImage> open_image(const std::shared_ptr<const InputFile>& file, int part) {
+  return std::make_unique<OpenedImage>(file, part);
 }
 
 const std::vector<OIIO::ImageSpec>& followed_levels(const StoredImage& image) {

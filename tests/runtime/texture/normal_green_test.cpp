@@ -37,7 +37,7 @@ TEST_CASE("normal green: a turned copy differs in green alone, whatever the pixe
   write_image(from, test_spec(70, 130, {"R", "G", "B"}, type), noise);
   const TestImage before = read_image(from);
   {
-    const auto copy = turned_copy(from, to);
+    const auto copy = turned_copy(std::make_shared<const InputFile>(from), to);
     CHECK_FALSE(std::filesystem::exists(to));
     copy->commit(Flush::kNo);
   }
@@ -56,7 +56,7 @@ TEST_CASE("normal green: values with a sign change it") {
   const auto from = folder.path() / "n.exr", to = folder.path() / "m.exr";
   const auto texel = [](int x, int y, int channel) { return 2.0f * noise(x, y, channel) - 1.0f; };
   write_image(from, test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeFloat), texel);
-  turned_copy(from, to)->commit(Flush::kNo);
+  turned_copy(std::make_shared<const InputFile>(from), to)->commit(Flush::kNo);
   CHECK(read_image(to).at(3, 5, 1) == -texel(3, 5, 1));
   CHECK(read_image(to).at(3, 5, 2) == texel(3, 5, 2));
 }
@@ -64,7 +64,8 @@ TEST_CASE("normal green: values with a sign change it") {
 TEST_CASE("normal green: a map without green cannot be turned, and leaves nothing behind") {
   const TemporaryFolder folder;
   write_image(folder.path() / "n.png", test_spec(8, 8, {"Y"}, OIIO::TypeUInt8), noise);
-  CHECK_THROWS_WITH(turned_copy(folder.path() / "n.png", folder.path() / "m.png"),
-                    Catch::Contains("has no green channel to turn"));
+  CHECK_THROWS_WITH(
+      turned_copy(std::make_shared<const InputFile>(folder.path() / "n.png"), folder.path() / "m.png"),
+      Catch::Contains("has no green channel to turn"));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "m.png"));
 }
