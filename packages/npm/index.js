@@ -1,5 +1,6 @@
 // The library of the package: arrays in, arrays out. index.d.ts says what everything means.
 import makeCore from './texremap.mjs';
+import { bytesOf } from './wasm_bytes.js';
 
 // Texels that are converted at a time, so that the memory of the core stays small whatever the size of a map.
 const BAND = 262144;
@@ -58,23 +59,11 @@ export class RemapError extends Error {
 let core = null;
 let loading = null;
 
-async function bytesOf(source) {
-  if (source instanceof Response) return source.arrayBuffer();
-  if (source instanceof URL || typeof source === 'string') {
-    const url = new URL(source, import.meta.url);
-    if (url.protocol === 'file:') return (await import('node:fs/promises')).readFile(url);
-    const response = await fetch(url);
-    if (!response.ok) throw new RemapError(`${url}: cannot be read: status ${response.status}`, 'input');
-    return response.arrayBuffer();
-  }
-  return source;
-}
-
 /** Makes the library ready. Needed once; later calls return at once. */
 export async function load(source = new URL('./texremap.wasm', import.meta.url)) {
   if (core !== null) return;
   loading ??= (async () => {
-    const bytes = await bytesOf(source);
+    const bytes = await bytesOf(source, (text) => new RemapError(text, 'input'));
     if (!(bytes instanceof ArrayBuffer) && !ArrayBuffer.isView(bytes))
       throw new RemapError('load: expected bytes, a URL or a Response of texremap.wasm');
     // The glue would print the reason and wait for ever.
