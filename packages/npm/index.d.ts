@@ -52,7 +52,7 @@ export interface SourceMaps {
 }
 
 export interface MapOptions {
-  /** Texels a row, for positions in messages and for dithering. */
+  /** Texels a row, for positions in messages and for dithering. Without it rows are of any length. */
   width?: number;
   /** The row of the whole map that the arrays begin with. */
   firstRow?: number;

@@ -118,7 +118,7 @@ function convertBand(width, height, firstRow) {
 }
 
 function allocated(bytes) {
-  const place = core._malloc(Math.max(bytes, 1));
+  const place = bytes < 2 ** 32 ? core._malloc(Math.max(bytes, 1)) : 0;
   if (place === 0) throw new RemapError('not enough memory (convert fewer texels at a time)', 'numeric');
   return place;
 }
