@@ -132,6 +132,17 @@ for (const seed of [1, 2, 3])
     assert.equal((await io.readBinary(await io.writeBinary(own))).getRoot().listMaterials().length, 4);
   });
 
+test('JPEG by sharp', async () => {
+  const sharp = (await needPackage('sharp')).default;
+  const document = generated(10, 1);
+  const pixels = Uint8Array.from({ length: 64 * 3 }, (_, i) => (i * 29) % 256);
+  const jpeg = await sharp(pixels, { raw: { width: 8, height: 8, channels: 3 } }).jpeg({ quality: 95 }).toBuffer();
+  document.getRoot().listMaterials()[0].getExtension(GLOSS).getDiffuseTexture().setImage(new Uint8Array(jpeg)).setMimeType('image/jpeg');
+  const file = join(mkdtempSync(join(folder, 'jpeg-')), 'generated.gltf');
+  await io.write(file, document);
+  await requireSameAsCommand(file, TO_CORE, ['--to', 'gltf']);
+});
+
 test('a codec that takes its time gives the same', async () => {
   const own = await import(pathToFileURL(join(packageFolder, 'images.js')).href);
   const calls = [];
