@@ -1,8 +1,9 @@
 // The library of the package: arrays in, arrays out. index.d.ts says what everything means.
 import makeCore from './texremap.mjs';
+import { bytesOf } from './wasm_bytes.js';
 
-// Texels that are converted at a time, so that the memory of the core stays small whatever the size of a map.
-const BAND = 262144;
+// Texels that are copied to the core and converted at a time: they stay in the cache of a processor.
+const BAND = 8192;
 
 // What arrays hold: the names that the core has for them, and the largest of whole numbers.
 const ARRAYS = {
@@ -58,23 +59,11 @@ export class RemapError extends Error {
 let core = null;
 let loading = null;
 
-async function bytesOf(source) {
-  if (source instanceof Response) return source.arrayBuffer();
-  if (source instanceof URL || typeof source === 'string') {
-    const url = new URL(source, import.meta.url);
-    if (url.protocol === 'file:') return (await import('node:fs/promises')).readFile(url);
-    const response = await fetch(url);
-    if (!response.ok) throw new RemapError(`${url}: cannot be read: status ${response.status}`, 'input');
-    return response.arrayBuffer();
-  }
-  return source;
-}
-
 /** Makes the library ready. Needed once; later calls return at once. */
 export async function load(source = new URL('./texremap.wasm', import.meta.url)) {
   if (core !== null) return;
   loading ??= (async () => {
-    const bytes = await bytesOf(source);
+    const bytes = await bytesOf(source, (text) => new RemapError(text, 'input'));
     if (!(bytes instanceof ArrayBuffer) && !ArrayBuffer.isView(bytes))
       throw new RemapError('load: expected bytes, a URL or a Response of texremap.wasm');
     // The glue would print the reason and wait for ever.
@@ -92,19 +81,44 @@ function call(request) {
   if (core === null) throw new RemapError('the library is not loaded (first: await load())');
   const text = JSON.stringify(request);
   const place = allocated(core.lengthBytesUTF8(text) + 1);
-  let answer;
   try {
     core.stringToUTF8(text, place, core.lengthBytesUTF8(text) + 1);
-    answer = JSON.parse(core.UTF8ToString(core._texremap_call(place)));
+    return answerAt(core._texremap_call(place));
   } finally {
     core._free(place);
   }
-  if (answer.failure !== undefined) throw new RemapError(answer.failure, answer.kind);
-  return answer.answer;
+}
+
+function answerAt(place) {
+  const { answer, failure, kind } = JSON.parse(core.UTF8ToString(place));
+  if (failure !== undefined) throw new RemapError(failure, kind);
+  return answer;
+}
+
+// Maps that the core has begun, as text: it keeps them for the next call, which often is of the same.
+let begunMaps = null;
+
+function beginMaps(request) {
+  const text = JSON.stringify(request);
+  if (text === begunMaps) return;
+  begunMaps = null;
+  call(request);
+  begunMaps = text;
+}
+
+function closeConverter(number) {
+  begunMaps = null;
+  call({ call: 'close', converter: number });
+}
+
+// Converts rows of the maps that were begun.
+function convertBand(width, height, firstRow) {
+  const failure = core._texremap_convert_band(width, height, firstRow);
+  if (failure !== 0) answerAt(failure);
 }
 
 function allocated(bytes) {
-  const place = core._malloc(Math.max(bytes, 1));
+  const place = bytes < 2 ** 32 ? core._malloc(Math.max(bytes, 1)) : 0;
   if (place === 0) throw new RemapError('not enough memory (convert fewer texels at a time)', 'numeric');
   return place;
 }
@@ -156,11 +170,13 @@ function checked(names) {
 
 // `{ constants }`, or `{ arrays, type }`: one array, or one each for red, green and blue.
 function valuesOf(name, value, isColor = COLORS.has(name)) {
+  if (value instanceof HeldArray) value = value.array;
+  else if (Array.isArray(value)) value = value.map((entry) => (entry instanceof HeldArray ? entry.array : entry));
   if (typeof value === 'number') return { name, isColor, constants: [value] };
   if (ArrayBuffer.isView(value)) value = [value];
   if (!Array.isArray(value) || value.length === 0)
     fail(`${name}: expected a number, a typed array${isColor ? ', or a list of three of either' : ''}`);
-  const list = [...value];
+  const list = value;
   if (list.length !== 1 && !(isColor && list.length === 3))
     fail(`${name} has ${list.length} channels (give ${isColor ? '1 or 3' : '1'})`);
   if (list.every((entry) => typeof entry === 'number')) return { name, isColor, constants: list };
@@ -209,12 +225,41 @@ function transferOf(options, name, kind) {
   return asked ?? (isWhole(kind) ? 'srgb' : 'linear');
 }
 
-// A block of memory of the core with one array of a band in it.
-class BandArray {
-  constructor(kind, valuesATexel, texels) {
+// What allocate() gives.
+class HeldArray {
+  #memory;
+  #length;
+  constructor(kind, length) {
+    this.#memory = new CoreArray(kind, 1, length);
+    this.#length = length;
+  }
+  get array() {
+    return this.#memory?.view(this.#length) ?? fail('allocate: the array was freed');
+  }
+  free() {
+    this.#memory?.free();
+    this.#memory = null;
+  }
+}
+
+const isInCore = (array) => array.buffer === core?.HEAPU8.buffer;
+
+// Whether all arrays are in memory of the core, where they are converted without copies.
+function areHeld(sources, targets) {
+  const arrays = [...sources, ...targets].flatMap((map) => map.arrays);
+  const held = arrays.filter(isInCore).length;
+  if (held === 0) return false;
+  if (held < arrays.length)
+    fail('arrays of allocate() are given for some maps alone (give them for all sources and results, or for none)');
+  return true;
+}
+
+// Memory of the core with an array in it: its own, or that of an array of allocate().
+class CoreArray {
+  constructor(kind, valuesATexel, texels, place = allocated(texels * valuesATexel * kind.Type.BYTES_PER_ELEMENT)) {
     this.kind = kind;
     this.values = valuesATexel;
-    this.place = allocated(texels * valuesATexel * kind.Type.BYTES_PER_ELEMENT);
+    this.place = place;
   }
   // Memory moves when it grows: a view is made for each use.
   view(length) {
@@ -234,6 +279,20 @@ class BandArray {
   }
 }
 
+function copyIn(inputs, first, texels) {
+  for (const { arrays, bands, values } of inputs)
+    arrays.forEach((array, i) => bands[i].view(texels * values).set(array.subarray(first * values, (first + texels) * values)));
+}
+
+function copyOut(targets, first, texels) {
+  for (const { arrays, bands, values, alphaOf } of targets)
+    arrays.forEach((array, i) => {
+      const band = bands[i].view(texels * values);
+      if (alphaOf) keepOpacity(array, band, first);
+      array.set(band, first * values);
+    });
+}
+
 function convertMaps(held, maps, options) {
   const sources = SOURCES.filter((name) => name in maps).map((name) => valuesOf(name, maps[name]));
   const used = new Set(held.sources);
@@ -247,7 +306,8 @@ function convertMaps(held, maps, options) {
   for (const source of sources) layOut(source, count);
   const isPlain = sources.every((source) => !source.arrays);
 
-  const { width = Math.min(count, BAND), firstRow = 0 } = options;
+  let { width = Math.min(count, BAND) } = options;
+  const { firstRow = 0 } = options;
   if (!Number.isInteger(width) || width < 1) fail('width: expected a whole number of 1 or more');
   if ('width' in options && count % width !== 0) fail(`width: ${count} texels are no whole rows of ${width}`);
   if (!Number.isSafeInteger(firstRow) || firstRow < 0) fail('firstRow: expected a whole number of 0 or more');
@@ -295,24 +355,27 @@ function convertMaps(held, maps, options) {
       return { name, arrays, kind, values, alphaOf: values === 4 ? model : undefined };
     });
 
+  const isHeld = areHeld(inputs, targets);
+  if (isHeld) width = options.width ?? count;
   const rows = Math.max(1, Math.floor(BAND / width));
-  const bandTexels = Math.min(count, rows * width);
+  const bandTexels = isHeld ? count : Math.min(count, rows * width);
   const buffers = [];
-  const buffer = (kind, values) => {
-    const made = new BandArray(kind, values, bandTexels);
+  const buffer = ({ kind, values }, array) => {
+    if (isHeld) return new CoreArray(kind, values, count, array.byteOffset);
+    const made = new CoreArray(kind, values, bandTexels);
     buffers.push(made);
     return made;
   };
-  const total = {};
+  let statistics;
   try {
-    for (const source of inputs) source.bands = source.arrays.map(() => buffer(source.kind, source.values));
-    for (const target of targets) target.bands = target.arrays.map(() => buffer(target.kind, target.values));
+    for (const source of inputs) source.bands = source.arrays.map((array) => buffer(source, array));
+    for (const target of targets) target.bands = target.arrays.map((array) => buffer(target, array));
     const channelsOf = (map, channels) =>
       map.bands.length === 3
         ? map.bands.map((band) => band.channel(0, width))
         : Array.from({ length: channels }, (_, c) => map.bands[0].channel(c, width));
-    const request = {
-      call: 'convert',
+    beginMaps({
+      call: 'begin',
       converter: held.number,
       width,
       ...picked(options, ['sourceEncoding', 'targetEncoding', 'badTexels', 'dither']),
@@ -327,30 +390,23 @@ function convertMaps(held, maps, options) {
         transfer: transferOf(options, target.name, target.kind),
         channels: channelsOf(target, Math.min(target.values, 3)),
       })),
-    };
+    });
     for (let first = 0; first < count; first += bandTexels) {
       const texels = Math.min(bandTexels, count - first);
-      for (const source of inputs)
-        source.arrays.forEach((array, i) =>
-          source.bands[i].view(texels * source.values)
-            .set(array.subarray(first * source.values, (first + texels) * source.values)));
+      if (!isHeld) copyIn(inputs, first, texels);
       const whole = Math.floor(texels / width);
       // Rows without a width of their own end where the maps end.
-      const size = whole > 0 ? { width, height: whole } : { width: texels, height: 1 };
-      const counts = call({ ...request, ...size, firstRow: firstRow + Math.floor(first / width) });
-      for (const [name, number] of Object.entries(counts)) total[name] = (total[name] ?? 0) + number;
-      for (const target of targets)
-        target.arrays.forEach((array, i) => {
-          const band = target.bands[i].view(texels * target.values);
-          if (target.alphaOf) keepOpacity(array, band, first);
-          array.set(band, first * target.values);
-        });
+      const size = whole > 0 ? [width, whole] : [texels, 1];
+      convertBand(...size, firstRow + Math.floor(first / width));
+      if (!isHeld) copyOut(targets, first, texels);
     }
+    statistics = call({ call: 'end' });
   } finally {
-    for (const made of buffers) made.free();
+    for (const made of buffers.reverse()) made.free();  // the next call finds the same places
   }
-  const result = { statistics: total };
+  const result = { statistics };
   for (const target of targets) {
+    if (isHeld) target.arrays = target.bands.map((band) => band.view(count * target.values));  // memory may have moved
     const name = shown(target.name);
     if (!isPlain) result[name] = target.arrays.length === 1 ? target.arrays[0] : target.arrays;
     else result[name] = target.arrays[0].length === 1 ? target.arrays[0][0] : Array.from(target.arrays[0]);
@@ -376,7 +432,7 @@ function keepOpacity(array, band, first) {
 }
 
 const registry = typeof FinalizationRegistry === 'undefined' ? null
-  : new FinalizationRegistry((number) => call({ call: 'close', converter: number }));
+  : new FinalizationRegistry(closeConverter);
 
 // `roughness` is roughness even where a model takes glossiness, as for the program; glossiness has a name of its own.
 function widthNamed(options, info) {
@@ -405,7 +461,7 @@ class MapConverter {
   close() {
     if (this.number === 0) return;
     registry?.unregister(this);
-    call({ call: 'close', converter: this.number });
+    closeConverter(this.number);
     this.number = 0;
   }
 }
@@ -475,4 +531,12 @@ export function path(source, target, options) {
 /** The version of the library. */
 export function version() {
   return call({ call: 'version' });
+}
+
+/** An array in memory of the library. Where all maps of a call are such arrays, nothing is copied. */
+export function allocate(type, length) {
+  if (core === null) fail('the library is not loaded (first: await load())');
+  if (!Object.hasOwn(OUTPUTS, type)) fail(`type: expected one of ${Object.keys(OUTPUTS).join(', ')}`);
+  if (!Number.isSafeInteger(length) || length < 0) fail('length: expected a whole number of 0 or more');
+  return new HeldArray(OUTPUTS[type], length);
 }

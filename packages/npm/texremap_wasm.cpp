@@ -1,5 +1,6 @@
-// What JavaScript calls of the library: one function that takes a request as JSON and gives an answer as
-// JSON. Maps stay in memory, and requests name their places; index.js alone writes requests.
+// What JavaScript calls of the library: a function that takes a request as JSON and gives an answer as JSON,
+// and one for the bands of maps. Maps stay in memory, and requests name their places; index.js alone writes
+// requests.
 #include <cstdint>
 #include <emscripten.h>
 #include <map>
@@ -147,11 +148,6 @@ Json open_converter(const Field& request) {
   return answer;
 }
 
-Json close_converter(const Field& request) {
-  held_converters().erase(request["converter"].count());
-  return {};
-}
-
 Json list_models() {
   Json models = Json::list();
   for (const std::string& name : graph().models()) {
@@ -203,13 +199,19 @@ Json counts_json(const MapStatistics& counts) {
           {"aboveOne", counts.above_one_count}};
 }
 
-Json convert(const Field& request) {
+// Maps that are converted a band of rows at a time, all at the same places. They stay for further calls.
+struct BegunMaps {
+  const Converter& converter;
+  MapConversion maps;
+  MapStatistics counts;
+};
+std::optional<BegunMaps> begun_maps;
+
+Json begin_maps(const Field& request) {
+  begun_maps.reset();
   const auto held = held_converters().find(request["converter"].count());
   if (held == held_converters().end()) throw usage_error("converter: is closed (make another one)");
   MapConversion maps;
-  maps.width = static_cast<std::size_t>(request["width"].count());
-  maps.height = static_cast<std::size_t>(request["height"].count());
-  maps.first_row = static_cast<std::size_t>(request["firstRow"].count());
   maps.dither = request.flag("dither");
   maps.bad_texels = named_if(request, "badTexels", kBadTexels).value_or(BadTexels::kKeep);
   maps.source_convention = named_if(request, "sourceEncoding", kConventions).value_or(held->second.source);
@@ -219,14 +221,31 @@ Json convert(const Field& request) {
   for (const Field& target : request["targets"].list(0, [](const Field& field) { return field; }))
     maps.targets[parameter_named(target["parameter"])] = {views_of<ChannelView>(target),
                                                           named(target["transfer"], kTransfers)};
-  return counts_json(convert_maps(held->second.converter(), maps));
+  begun_maps.emplace(BegunMaps{held->second.converter(), std::move(maps), {}});
+  return {};
+}
+
+Json close_converter(const Field& request) {
+  begun_maps.reset();
+  held_converters().erase(request["converter"].count());
+  return {};
+}
+
+Json end_maps() { return counts_json(std::exchange(begun_maps->counts, {})); }
+
+void convert_band(std::size_t width, std::size_t height, std::size_t first_row) {
+  begun_maps->maps.width = width;
+  begun_maps->maps.height = height;
+  begun_maps->maps.first_row = first_row;
+  begun_maps->counts += convert_maps(begun_maps->converter, begun_maps->maps);
 }
 
 Json answer_to(const Field& request) {
   const std::string call = request["call"].text();
   if (call == "open") return open_converter(request);
   if (call == "close") return close_converter(request);
-  if (call == "convert") return convert(request);
+  if (call == "begin") return begin_maps(request);
+  if (call == "end") return end_maps();
   if (call == "models") return list_models();
   if (call == "version") return kVersion;
   request["call"].fail("unknown call");
@@ -236,21 +255,39 @@ std::string failure(std::string_view kind, const std::string& message) {
   return Json{{"failure", message}, {"kind", kind}}.dump();
 }
 
+// Answers what `answer` gives; null for an empty answer. The text lives until the next call.
+template <typename Answer>
+const char* answered(const Answer& answer) {
+  static std::string text;
+  try {
+    text = answer();
+    return text.empty() ? nullptr : text.c_str();
+  } catch (const Error& error) {
+    text = failure(name_of(kErrorKinds, error.kind()), error.what());
+  } catch (const std::bad_alloc&) {
+    text = failure("numeric", "not enough memory (convert fewer texels at a time)");
+  } catch (const std::exception& error) {
+    text = failure("numeric", error.what());
+  }
+  return text.c_str();
+}
+
 }  // namespace
 }  // namespace remap
 
-// The answer lives until the next call.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* texremap_call(const char* request) {
-  static std::string answer;
-  try {
+  return remap::answered([request] {
     const remap::Json json = remap::parse_json(request, "request");
-    answer = remap::Json{{"answer", remap::answer_to(remap::Field(json, "options"))}}.dump();
-  } catch (const remap::Error& error) {
-    answer = remap::failure(remap::name_of(remap::kErrorKinds, error.kind()), error.what());
-  } catch (const std::bad_alloc&) {
-    answer = remap::failure("numeric", "not enough memory (convert fewer texels at a time)");
-  } catch (const std::exception& error) {
-    answer = remap::failure("numeric", error.what());
-  }
-  return answer.c_str();
+    return remap::Json{{"answer", remap::answer_to(remap::Field(json, "options"))}}.dump();
+  });
+}
+
+// A band of the maps that were begun: null, or a failure. Without JSON, which would take as long as thousands
+// of texels.
+extern "C" EMSCRIPTEN_KEEPALIVE const char* texremap_convert_band(std::size_t width, std::size_t height,
+                                                                  double first_row) {
+  return remap::answered([&] {
+    remap::convert_band(width, height, static_cast<std::size_t>(first_row));
+    return std::string();
+  });
 }

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::int64_t kFormatVersion = 1;
 constexpr std::int64_t kMostCells = 4096;
-constexpr std::int64_t kMostDegree = 64;
 
 // The shortest decimal that reads back as this float.
 double decimal(float value) { return decimal_value(value); }
@@ -117,7 +116,8 @@ LoweredFunction read_function(const Field& field) {
   polynomial.cell_count = read_whole(field["cell_count"], 1, kMostCells);
   field["scale"].require(polynomial.cell_count > 1 || polynomial.scale == 1.0f, "1 for one cell");
   const Field degrees = field["degrees"];
-  polynomial.degrees = degrees.list(1, [](const Field& entry) { return read_whole(entry, -1, kMostDegree); });
+  polynomial.degrees =
+      degrees.list(1, [](const Field& entry) { return read_whole(entry, -1, kHighestDegree); });
   degrees.require(polynomial.degrees.size() <= kMostPowers && polynomial.degrees.back() >= 0,
                   "up to " + std::to_string(kMostPowers) + " degrees, the last of them from 0");
   const std::size_t powers = polynomial.degrees.size();

@@ -32,6 +32,7 @@ struct PiecewisePolynomial {
 
 // The number of powers of specular that the texture pass can evaluate, including power 0.
 inline constexpr std::size_t kMostPowers = 16;
+inline constexpr int kHighestDegree = 64;  // of a polynomial in alpha
 
 struct LoweredFunction {
   PiecewisePolynomial polynomial;

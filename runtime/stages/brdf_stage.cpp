@@ -27,6 +27,11 @@ void require_evaluable(const ConverterData& data) {
     if (polynomial->degrees.size() > kMostPowers)
       refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + " (at most " +
              std::to_string(kMostPowers - 1) + " is supported)");
+  for (const PiecewisePolynomial* polynomial : polynomials)
+    for (const int degree : polynomial->degrees)
+      if (degree > kHighestDegree)
+        refuse("a degree in alpha is " + std::to_string(degree) + " (at most " +
+               std::to_string(kHighestDegree) + " is supported)");
   if (!(data.info.specular.min >= 0.0 && data.info.specular.max > 0.0 && data.info.roughness.min >= 0.0))
     refuse("the domain is empty or negative (specular must reach above 0, roughness must not be negative)");
 }

@@ -9,7 +9,7 @@ extern const Kernels avx2_kernels, avx512_kernels;
 
 OwnedPolynomialRows::OwnedPolynomialRows(const PiecewisePolynomial& polynomial)
     : shape_(polynomial), numbers_(polynomial.coefficients.size()) {
-  shape_.coefficients.clear();
+  shape_.coefficients.resize(polynomial.coefficients.size() + kPaddedNumbers);
   const std::size_t width = polynomial.coefficients_a_cell();
   const std::size_t cells = static_cast<std::size_t>(polynomial.cell_count);
   for (std::size_t cell = 0; cell < cells; ++cell)
@@ -18,9 +18,16 @@ OwnedPolynomialRows::OwnedPolynomialRows(const PiecewisePolynomial& polynomial)
 }
 
 PolynomialRows OwnedPolynomialRows::rows() const {
-  return {shape_.pole,           shape_.scale,      shape_.start,
-          shape_.middle,         shape_.cell_count, static_cast<int>(shape_.degrees.size()),
-          shape_.degrees.data(), numbers_.data()};
+  return {shape_.pole,
+          shape_.scale,
+          shape_.start,
+          shape_.middle,
+          shape_.cell_count,
+          static_cast<int>(shape_.degrees.size()),
+          shape_.degrees.data(),
+          numbers_.data(),
+          shape_.coefficients.data(),
+          static_cast<int>(shape_.coefficients_a_cell())};
 }
 
 const Kernels& kernels(InstructionSet set) {

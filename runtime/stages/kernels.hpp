@@ -21,6 +21,9 @@
 
 namespace remap {
 
+// What may be read behind the numbers of a polynomial, which are taken four at a time.
+inline constexpr std::size_t kPaddedNumbers = 3;
+
 // A piecewise polynomial as rows of texels read it.
 struct PolynomialRows {
   float pole = 0.0f, scale = 1.0f, start = 0.0f, middle = 0.0f;  // as in PiecewisePolynomial
@@ -28,6 +31,8 @@ struct PolynomialRows {
   int power_count = 1;
   const int* degrees = nullptr;    // one a power
   const float* numbers = nullptr;  // for each coefficient of a cell, those of all cells
+  const float* by_cell = nullptr;  // the same, cell by cell, with kPaddedNumbers behind them
+  int cell_stride = 1;
 };
 
 // The polynomial of a regime, and where its domain begins.
@@ -67,7 +72,7 @@ class OwnedPolynomialRows {
   PolynomialRows rows() const;
 
  private:
-  PiecewisePolynomial shape_;  // without coefficients
+  PiecewisePolynomial shape_;  // with padded coefficients
   std::vector<float> numbers_;
 };
 

@@ -47,7 +47,8 @@ void require_asset_options(const ConvertOptions& options) {
                            : shown(options.more_assets.front()) + " (name one folder)"));
   for (const std::filesystem::path& path : options.more_assets)
     if (!is_asset(path)) throw usage_error(shown(path) + ": is no asset (.gltf, .glb, .mtl or .obj)");
-  if (!options.from.empty() && options.from.name != "gltf-specgloss")
+  const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
+  if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
     throw usage_error("--from " + options.from.name +
                       ": the file tells what its materials are (remove this option)");
   if (options.to.empty()) throw usage_error("--to is required (gltf, or gltf-specgloss)");

@@ -1,5 +1,6 @@
-// Prints the speed of five converters over maps of floats in memory on one thread, and a checksum of what
-// they made: `SOURCE TARGET MTEXEL/S CHECKSUM`. packages/npm/bench.mjs compares the package for node with it.
+// map_speed [INSTRUCTIONS]: prints the speed of five converters over maps of floats in memory on one thread,
+// and a checksum of what they made: `SOURCE TARGET MTEXEL/S CHECKSUM`. packages/npm/bench.mjs compares the
+// package for node with it.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -65,8 +66,9 @@ void print(const ConverterGraph& graph, const std::string& source, const std::st
 
 }  // namespace
 
-int main() try {
-  const ConverterGraph graph = shipped_graph();
+int main(int argc, char** argv) try {
+  const ConverterGraph graph =
+      shipped_graph(argc > 1 ? instruction_set_from_name("INSTRUCTIONS", argv[1]) : best_instruction_set());
   for (const char* target : {"mitsuba/as", "mitsuba/ggx", "cycles-5/ggx", "threejs-r187/standard-metal"})
     print(graph, "mitsuba/ward", target);
   print(graph, "mitsuba/phong", "mitsuba/ggx");

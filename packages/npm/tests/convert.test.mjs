@@ -173,3 +173,31 @@ test('a fit of one\'s own', () => {
   assert.deepEqual(converterOfFit(text).convert(maps), shipped);
   assert.throws(() => converterOfFit('{"kind": 1}'), /fit/);
 });
+
+test('arrays in memory of the library give the same, also after memory has grown, and over their sources', () => {
+  const count = 8192 * 2 + 777;  // bands, and a part of one
+  const random = randomNumbers(11);
+  for (const [type, Type] of [['float32', Float32Array], ['uint16', Uint16Array]]) {
+    const values = { roughness: randomArray(Type, count, random), specular: randomArray(Type, 3 * count, random) };
+    const names = { source: 'mitsuba/ward', target: 'cycles-5/ggx' };
+    const expected = convert({ ...names, ...values });
+    const held = Object.fromEntries(Object.entries(values).map(([name, array]) => [name, texremap.allocate(type, array.length)]));
+    texremap.allocate('float64', 5e6).free();
+    for (const [name, array] of Object.entries(values)) held[name].array.set(array);
+    const found = convert({ ...names, ...held, into: held });
+    assert.deepEqual(found.statistics, expected.statistics);
+    for (const name of Object.keys(values)) {
+      assert.deepEqual(found[name], expected[name]);
+      assert.deepEqual(held[name].array, expected[name]);
+    }
+    assert.throws(() => convert({ ...names, ...held }), /arrays of allocate\(\) are given for some maps alone/);
+    for (const array of Object.values(held)) array.free();
+    assert.throws(() => held.roughness.array, /the array was freed/);
+  }
+});
+
+test('arrays in memory of the library that cannot be had', () => {
+  assert.throws(() => texremap.allocate('float16', 1), /type: expected one of float32, /);
+  for (const length of [-1, 0.5, NaN, '1', undefined]) assert.throws(() => texremap.allocate('uint8', length), /length: expected a whole number/);
+  assert.throws(() => texremap.allocate('float64', 2 ** 33), /not enough memory/);
+});

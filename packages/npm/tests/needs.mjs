@@ -18,13 +18,15 @@ export function needFile(file, remedy) {
   return file;
 }
 
-/** The default of a package of npm, as the package under test finds it. */
+/** The exports of a package of npm, as the package under test finds it. */
 export async function needPackage(name) {
   let file;
   try {
     file = createRequire(join(packageFolder, 'cli.js')).resolve(name);
   } catch {
-    skipAll(`${name} is not installed (cd ${packageFolder} && npm install --no-save sharp)`);
+    skipAll(`${name} is not installed (packages/npm/tests/install.bash ${packageFolder})`);
   }
-  return import(pathToFileURL(file).href);
+  // Of packages in two forms the one that `import` takes.
+  const other = file.replace(/\.cjs$/, '.js');
+  return import(pathToFileURL(existsSync(other) ? other : file).href);
 }
