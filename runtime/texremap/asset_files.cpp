@@ -1,8 +1,6 @@
 #include "texremap/asset_files.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <fcntl.h>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -30,24 +28,10 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
 
 }  // namespace
 
-FileSource::FileSource(const fs::path& path)
-    : path_((require_regular_file(path), path)), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (!file_.is_open()) throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
-  std::error_code failure;
-  size_ = fs::file_size(path, failure);
-  if (failure) throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", failure.value());
-}
-
 std::string FileSource::read(std::uint64_t begin, std::size_t count) const {
   std::string bytes(count, '\0');
-  for (std::size_t done = 0; done < count;) {
-    const ::ssize_t got =
-        ::pread(file_.get(), bytes.data() + done, count - done, static_cast<::off_t>(begin + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw system_error(ErrorKind::kInput, path_.string() + ": cannot be read", errno);
-    if (got == 0) throw input_error(path_.string() + ": became shorter while it was read (try again)");
-    done += static_cast<std::size_t>(got);
-  }
+  if (file_.read(begin, bytes.data(), count) < count)
+    throw input_error(file_.path().string() + ": became shorter while it was read (try again)");
   return bytes;
 }
 

@@ -9,7 +9,7 @@
 
 #include "assets/asset.hpp"
 #include "core/files.hpp"
-#include "core/open_file.hpp"
+#include "core/input_file.hpp"
 #include "texremap/manifest.hpp"
 
 namespace remap {
@@ -31,15 +31,14 @@ struct AssetJob {
 class FileSource final : public ByteSource {
  public:
   // Throws kInput unless `path` leads to a regular file that can be read.
-  explicit FileSource(const std::filesystem::path& path);
+  explicit FileSource(const std::filesystem::path& path) : file_(path) {}
 
-  std::uint64_t size() const override { return size_; }
+  std::uint64_t size() const override { return file_.size(); }
   std::string read(std::uint64_t begin, std::size_t count) const override;
+  const InputFile& file() const { return file_; }
 
  private:
-  std::filesystem::path path_;
-  OpenFile file_;
-  std::uint64_t size_ = 0;
+  InputFile file_;
 };
 
 // The folder that the files of an asset are relative to.

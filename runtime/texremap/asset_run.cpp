@@ -59,9 +59,10 @@ class SharedCopies {
   std::map<fs::path, std::shared_ptr<std::mutex>> locks_;
 };
 
-std::string inputs_hash_of(const AssetJob& job, const std::vector<AssetResource>& resources) {
+std::string inputs_hash_of(const FileSource& source, const AssetJob& job,
+                           const std::vector<AssetResource>& resources) {
   ContentHash hash;
-  hash.add_file(job.input);
+  hash.add_file(source.file());
   hash.add(job.image_prefix);
   const FolderResources files(job);
   for (const AssetResource& resource : resources) {
@@ -92,7 +93,7 @@ class AssetRunner {
     const FolderResources files(job);
     std::vector<AssetResource> named;
     if (list_.is_tree) named = resources_of_asset(source, job.input, files);
-    const std::string inputs = list_.is_tree ? inputs_hash_of(job, named) : "";
+    const std::string inputs = list_.is_tree ? inputs_hash_of(source, job, named) : "";
     if (options_.resume && is_done(job, inputs, named)) {
       report.was_done = true;
       return;
