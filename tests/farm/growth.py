@@ -2,7 +2,7 @@
 """How a conversion in parts grows: the figures of docs/farm.md.
 
 Prints time and memory of the index of a tree of sets and of one of assets, what a part costs beside its sets, how many
-files a set opens and renames (where strace is installed), and sets a second against the number of parts at once.
+files a set opens and renames (where strace is installed), sets a second against the number of parts at once, and what one large set takes.
 
 Usage: tests/farm/growth.py TEXREMAP [--sets 100000] [--small 512]
 """
@@ -70,6 +70,18 @@ def make_assets(root, assets):
             folder.mkdir(parents=True)
             (folder / "b.bin").write_bytes(bytes(16))
         (folder / f"asset{i:06}.gltf").write_text(text)
+
+
+def make_large_set(root):
+    """A set of 4096 x 4096 halfs, of smooth noise, in EXR with ZIP."""
+    root.mkdir()
+    for word, channels, seed in (("Roughness", 1, 1), ("Specular", 3, 2)):
+        subprocess.run(["oiiotool", "--pattern", f"noise:type=uniform:min=0.1:max=0.9:seed={seed}", "1024x1024", str(channels),
+                        "--resize", "4096x4096", "-d", "half", "--compression", "zip", "-o", root / f"rock_{word}.exr"], check=True)
+
+
+def bytes_in(folder):
+    return sum(path.stat().st_size for path in folder.rglob("*.exr"))
 
 
 def measured(*words):
@@ -156,6 +168,14 @@ def report(texremap, scratch, options):
         merged = measured(texremap, "merge-reports", output, "--json", "--quiet")[2].splitlines()[-1]
         assert json.loads(merged)["summary"]["converted"] == sets
         print(f"{count} parts at once, a thread each: {sets / seconds:.0f} sets a second")
+    if shutil.which("oiiotool") is None:
+        return
+    make_large_set(scratch / "rock")
+    seconds, memory, output = measured(texremap, "convert", scratch / "rock", *CONVERSION, "-o", scratch / "rock2", "--threads", "1",
+                                       "--json", "--quiet")
+    processor = json.loads(output.splitlines()[-1])["summary"]["processor_seconds"]
+    print(f"a set of 4096 x 4096 halfs, {bytes_in(scratch / 'rock') / 1e6:.0f} MB in, {bytes_in(scratch / 'rock2') / 1e6:.0f} MB out, "
+          f"one thread: {seconds:.1f} s, {processor:.1f} s of processor, {memory:.0f} MB")
 
 
 if __name__ == "__main__":
