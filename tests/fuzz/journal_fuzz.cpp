@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                  std::nullopt);
     (void)journal.is_own(map);
     (void)journal.is_done("2e", {map});
-    (void)remap::JournalLookup().target_of(map);
+    (void)remap::JournalLookup().target_of(remap::InputFile(map));
     journal.require_own();
   });
 }
