@@ -55,8 +55,8 @@ TEST_CASE("worker: the error for one that dies has its request and the end of it
 
 TEST_CASE("worker: one that hangs is killed after the timeout, with its children") {
   const FakeSession session;
-  CHECK_THAT(render_error(session, "hang", 0.5), Contains(kPlace + "no answer within 0.5 s"));
-  CHECK_THAT(render_error(session, "launcher", 0.5), Contains("no answer within 0.5 s"));
+  CHECK_THAT(render_error(session, "hang", 1.5), Contains(kPlace + "no answer within 1.5 s"));
+  CHECK_THAT(render_error(session, "launcher", 1.5), Contains("no answer within 1.5 s"));
   CHECK(session.log_lines("told").size() == 3);
   CHECK(session.nobody_is_left());
 }
@@ -110,7 +110,7 @@ TEST_CASE("worker: those that are lost cost nothing but their processes") {
     INFO(fault);
     const FakeSession session;
     WorkerSettings settings = session.settings();
-    settings.limits.seconds = fault == "hang" || fault == "deaf" ? 1.0 : 60.0;
+    settings.limits.seconds = fault == "hang" || fault == "deaf" ? 2.0 : 60.0;
     std::mutex mutex;
     std::vector<std::string> warnings;
     settings.on_warning = [&](const std::string& message) {
