@@ -156,7 +156,7 @@ Listing listing_of_assets(const fs::path& folder, const std::string& format) {
   listing.kind = ListedKind::kAssets;
   for (const AssetJob& job : list.jobs) {
     ListedAsset& asset = listing.assets.emplace_back();
-    asset.path = job.input.lexically_relative(folder);
+    asset.path = job.name();
     asset.image_prefix = job.image_prefix;
     for (const fs::path& file : job.files)
       asset.files.push_back(file.lexically_relative(folder.lexically_normal()));

@@ -43,7 +43,6 @@ class SharedCopies {
     const std::lock_guard lock(*own);
     std::error_code ignored;
     if (fs::is_regular_file(copy.to, ignored) && are_same_files(copy.from, copy.to)) return;
-    create_parent(copy.to);
     copy_whole_file(copy.from, copy.to);
   }
 

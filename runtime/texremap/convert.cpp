@@ -256,8 +256,7 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
 
 void convert(ConvertOptions options) {
   std::optional<TreeManifest> manifest = listed_entries(options);
-  const TreeManifest* const listed = manifest ? &*manifest : nullptr;
-  if (are_assets(options, listed)) return convert_assets(options, listed);
+  if (are_assets(options, manifest)) return convert_assets(options, manifest);
   CheckedConversion conversion = checked(options, std::move(manifest));
   if (options.folder.empty() && are_constants(conversion.request)) {
     refuse(options, kNeedsFiles,
@@ -271,8 +270,7 @@ void convert(ConvertOptions options) {
 
 void check_conversion(ConvertOptions options) {
   std::optional<TreeManifest> manifest = listed_entries(options);
-  const TreeManifest* const listed = manifest ? &*manifest : nullptr;
-  if (are_assets(options, listed)) return check_assets(options, listed);
+  if (are_assets(options, manifest)) return check_assets(options, manifest);
   CheckedConversion conversion = checked(options, std::move(manifest));
   const JobList list =
       conversion_jobs(options, conversion.chosen.workflow, conversion.request, std::move(conversion.sets));

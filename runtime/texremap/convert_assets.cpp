@@ -92,29 +92,28 @@ void require_success(const std::vector<AssetReport>& reports, const AssetSummary
                     " materials failed");
 }
 
-AssetList checked_list(const ConvertOptions& options, const TreeManifest* manifest) {
+AssetList checked_list(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   require_asset_options(options);
-  AssetList list = asset_list(options, manifest == nullptr ? nullptr : &manifest->listing);
+  AssetList list = asset_list(options, manifest ? &manifest->listing : nullptr);
   require_gltf(options, list);
   return list;
 }
 
 }  // namespace
 
-bool are_assets(const ConvertOptions& options, const TreeManifest* manifest) {
-  if (manifest != nullptr ? manifest->head.kind == ListedKind::kAssets
-                          : options.assets || is_asset(options.folder))
+bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
+  if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
     return true;
   refuse(options, kNeedsAsset,
          ": applies to assets alone (remove it, name a glTF, MTL or OBJ file, or --assets)");
   return false;
 }
 
-void check_assets(const ConvertOptions& options, const TreeManifest* manifest) {
+void check_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   (void)checked_list(options, manifest);
 }
 
-void convert_assets(const ConvertOptions& options, const TreeManifest* manifest) {
+void convert_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   const Stopwatch stopwatch;
   const AssetList list = checked_list(options, manifest);
   const bool is_one = list.jobs.size() == 1 && !list.is_tree;

@@ -1,19 +1,21 @@
 // `texremap convert` of assets: a file in, the same file with converted materials out.
 #pragma once
 
+#include <optional>
+
 #include "texremap/convert_options.hpp"
 #include "texremap/manifest.hpp"
 
 namespace remap {
 
-// Whether the options name assets: as a manifest of them, a folder or files. `manifest`: null for none. Where
-// they do not, throws kUsage for options that only assets have.
-bool are_assets(const ConvertOptions& options, const TreeManifest* manifest);
+// Whether the options name assets: as a manifest of them, a folder or files. Where they do not, throws kUsage for
+// options that only assets have.
+bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest);
 
 // Converts them. Throws as the conversion of sets does: after the last file, where one failed.
-void convert_assets(const ConvertOptions& options, const TreeManifest* manifest);
+void convert_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest);
 
 // All that convert_assets() checks before it opens the first asset.
-void check_assets(const ConvertOptions& options, const TreeManifest* manifest);
+void check_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest);
 
 }  // namespace remap
