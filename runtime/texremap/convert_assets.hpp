@@ -8,8 +8,8 @@
 
 namespace remap {
 
-// Whether the options name assets: as a manifest of them, a folder or files. Where they do not, throws kUsage for
-// options that only assets have.
+// Whether the options name assets: as a manifest of them, a folder or files. Where they do not, throws kUsage
+// for options that only assets have.
 bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest);
 
 // Converts them. Throws as the conversion of sets does: after the last file, where one failed.
