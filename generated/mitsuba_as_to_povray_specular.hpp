@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to povray/specular: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_povray_specular.csv, sha256 71c1af9c8d48e0fc2903cb380acb55645e89019f2fde6e3bf72d5c04e8dcfb92;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; POV-Ray 3.7.0.10.unofficial.
-// Fit: parametric, seed 1, 112 rows trained, 28 held out.
-// Error on the rows held out: alpha rms 0.00036, 99 % 0.00086, max 0.00086;
-// specular rms 0.00021, 99 % 0.00074, max 0.00074.
-// Lowered from the fit. Target alpha: degree 5, proven within 8.9e-06 (sampled 8.1e-06), rising with alpha, rising with specular.
-// Target specular: degree 7, proven within 8.2e-05 (sampled 7.5e-05), rising with specular.
-// Covers alpha 0.347931034 to 0.99, f0 0 to 0.35.
+// Table mitsuba_as_to_povray_specular.csv, sha256 357dbcf0485693f75245e398960ef40282e6abc9ec4e0eb90cc7c8b9a111326a;
+// objective natural-1 (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; POV-Ray 3.7.0.10.unofficial.
+// Fit: series, seed 1, 527 rows trained, 132 held out.
+// Error on the rows held out: alpha rms 9e-05, 99 % 0.00035, max 4e-04;
+// specular rms 4.3e-06, 99 % 1.5e-05, max 3.4e-05.
+// Lowered from the fit. Target alpha: degree 8, 4 in specular, proven within 9.3e-06 (sampled 8.1e-06), rising with alpha.
+// Target specular: degree 13 in alpha / (alpha + 1), proven within 1e-04 (sampled 5.8e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 7, 8 in specular, proven within 1e-04 (sampled 8.9e-05).
+// All together within 0.00012 in alpha, 1e-04 in specular.
+// Covers alpha 0.16 to 0.99, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_POVRAY_SPECULAR_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_POVRAY_SPECULAR_HPP
 
@@ -46,20 +48,52 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.6689662f;
+  const float u = alpha - 0.5750009f;
   const float u_2 = u * u;
-  float c0 = -2.32479f;
-  float c0_next = -0.43295425f;
-  c0 = c0 * u_2 + 0.87240696f;
-  c0_next = c0_next * u_2 + -0.53788304f;
-  c0 = c0 * u_2 + 0.40645495f;
-  c0_next = c0_next * u_2 + 0.55065215f;
-  c0 = c0 * u + c0_next;
-  float c1 = 0.005481948f;
-  c1 = c1 * u + 0.008148104f;
-  c1 = c1 * u + 0.004204172f;
-  float sum = c1;
-  sum = sum * specular + c0;
+  float c0 = 2.643132f;
+  float c0_next = 16.654942f;
+  c0 = c0 * u_2 + -3.494233f;
+  c0_next = c0_next * u_2 + -7.4067826f;
+  c0 = c0 * u_2 + 1.7676039f;
+  c0_next = c0_next * u_2 + 1.099222f;
+  c0 = c0 * u_2 + -0.8333805f;
+  c0_next = c0_next * u_2 + 0.53023285f;
+  c0 = c0 * u_2 + 0.50826156f;
+  c0 = c0_next * u + c0;
+  float c1 = 0.14422685f;
+  float c1_next = -0.06120424f;
+  c1 = c1 * u_2 + -0.014913958f;
+  c1_next = c1_next * u_2 + 0.014783915f;
+  c1 = c1 * u_2 + -0.0013485589f;
+  c1_next = c1_next * u_2 + -0.0011174423f;
+  c1 = c1 * u_2 + -0.00017798941f;
+  c1 = c1_next * u + c1;
+  float c2 = 0.012649908f;
+  float c2_next = -0.16255727f;
+  c2 = c2 * u_2 + -0.025036296f;
+  c2_next = c2_next * u_2 + 0.02481662f;
+  c2 = c2 * u_2 + 0.003838726f;
+  c2_next = c2_next * u_2 + 0.0004302077f;
+  c2 = c2 * u + c2_next;
+  float c3 = 0.38238382f;
+  float c3_next = -0.1386928f;
+  c3 = c3 * u_2 + -0.098481216f;
+  c3_next = c3_next * u_2 + 0.025986925f;
+  c3 = c3 * u_2 + 0.024401614f;
+  c3_next = c3_next * u_2 + 0.007299219f;
+  c3 = c3 * u + c3_next;
+  float c4 = 0.7291491f;
+  float c4_next = 0.099922605f;
+  c4 = c4 * u_2 + -0.11554166f;
+  c4_next = c4_next * u_2 + -0.04932373f;
+  c4 = c4 * u_2 + -0.014810001f;
+  c4 = c4_next * u + c4;
+  const float w = specular - 0.500001f;
+  float sum = c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -67,6 +101,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -81,26 +117,38 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.6689662f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.31770936f;
     const float u_2 = u * u;
-    float c0 = -0.003045196f;
-    float c0_next = -0.0071753147f;
-    c0 = c0 * u_2 + 0.016458353f;
-    c0_next = c0_next * u_2 + 0.0127745f;
-    c0 = c0 * u_2 + -0.051319025f;
-    c0_next = c0_next * u_2 + 0.0077317525f;
-    c0 = c0 * u_2 + -0.0010935116f;
-    c0_next = c0_next * u_2 + 0.0009970234f;
+    float c0 = 719009088.0f;
+    float c0_next = 6767050.0f;
+    c0 = c0 * u_2 + -76528496.0f;
+    c0_next = c0_next * u_2 + -554904.75f;
+    c0 = c0 * u_2 + 3129001.0f;
+    c0_next = c0_next * u_2 + 17250.152f;
+    c0 = c0 * u_2 + -61551.008f;
+    c0_next = c0_next * u_2 + -187.3417f;
+    c0 = c0 * u_2 + 577.2113f;
+    c0_next = c0_next * u_2 + 3.1564276f;
+    c0 = c0 * u_2 + -2.9265935f;
+    c0_next = c0_next * u_2 + 0.11876579f;
+    c0 = c0 * u_2 + -0.017442344f;
+    c0_next = c0_next * u_2 + 0.002085521f;
     c0 = c0 * u + c0_next;
-    float c1 = -162.62703f;
-    float c1_next = 117.32885f;
-    c1 = c1 * u_2 + -41.808895f;
-    c1_next = c1_next * u_2 + 17.224293f;
-    c1 = c1 * u_2 + -7.942293f;
-    c1_next = c1_next * u_2 + 4.3358116f;
-    c1 = c1 * u_2 + -2.247492f;
-    c1_next = c1_next * u_2 + 0.7670336f;
-    c1 = c1 * u + c1_next;
+    float c1 = -98740040.0f;
+    float c1_next = -24192650.0f;
+    c1 = c1 * u_2 + 19191012.0f;
+    c1_next = c1_next * u_2 + -920532.5f;
+    c1 = c1 * u_2 + -212229.3f;
+    c1_next = c1_next * u_2 + -85443.516f;
+    c1 = c1 * u_2 + 24176.727f;
+    c1_next = c1_next * u_2 + -4179.7256f;
+    c1 = c1 * u_2 + 1544.8379f;
+    c1_next = c1_next * u_2 + -410.9222f;
+    c1 = c1 * u_2 + 77.11123f;
+    c1_next = c1_next * u_2 + -13.441869f;
+    c1 = c1 * u_2 + 1.5246142f;
+    c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -109,6 +157,71 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.5750009f;
+  const float u_2 = u * u;
+  float c0 = 16.339315f;
+  float c0_next = 8.515038f;
+  c0 = c0 * u_2 + 2.7656178f;
+  c0_next = c0_next * u_2 + 2.4673202f;
+  c0 = c0 * u_2 + 0.0063203312f;
+  c0_next = c0_next * u_2 + -1.5705893f;
+  c0 = c0 * u_2 + -0.12437766f;
+  c0_next = c0_next * u_2 + 0.42109597f;
+  c0 = c0 * u + c0_next;
+  float c1 = -17.89263f;
+  float c1_next = -13.154303f;
+  c1 = c1 * u_2 + 4.8553934f;
+  c1_next = c1_next * u_2 + 7.1298842f;
+  c1 = c1 * u_2 + 3.1056588f;
+  c1_next = c1_next * u_2 + 1.2914152f;
+  c1 = c1 * u_2 + 0.7436688f;
+  c1_next = c1_next * u_2 + 0.28872326f;
+  c1 = c1 * u + c1_next;
+  float c2 = -60.17213f;
+  float c2_next = -69.8166f;
+  c2 = c2 * u_2 + -18.476952f;
+  c2_next = c2_next * u_2 + 6.401508f;
+  c2 = c2 * u_2 + 3.107828f;
+  c2_next = c2_next * u_2 + -0.33828107f;
+  c2 = c2 * u_2 + -0.29207322f;
+  c2 = c2_next * u + c2;
+  float c3 = -26.931414f;
+  float c3_next = -55.995766f;
+  c3 = c3 * u_2 + -44.119247f;
+  c3_next = c3_next * u_2 + -14.639441f;
+  c3 = c3 * u_2 + -1.209078f;
+  c3_next = c3_next * u_2 + 0.32991913f;
+  c3 = c3 * u + c3_next;
+  float c4 = 14.512779f;
+  float c4_next = 21.34254f;
+  c4 = c4 * u_2 + 8.063537f;
+  c4_next = c4_next * u_2 + -0.32925937f;
+  c4 = c4 * u_2 + -0.6789558f;
+  c4 = c4_next * u + c4;
+  float c5 = 5.3614054f;
+  c5 = c5 * u + 6.648802f;
+  c5 = c5 * u + 1.2442846f;
+  float c6 = -4.1650834f;
+  c6 = c6 * u + -10.481092f;
+  c6 = c6 * u + -2.12779f;
+  float c7 = 6.0553603f;
+  c7 = c7 * u + 5.991739f;
+  const float c8 = -7.129666f;
+  const float w = specular - 0.5370896f;
+  float sum = c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -178,9 +291,25 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{0.34793103f, 0.99f, 0.0f, 0.35f, 2.857143f};
+  static constexpr Domain domain{0.16f, 0.99f, 0.0f, 1.0f, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -194,6 +323,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.16f), clamped_above(specular, 0.0741773f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -301,8 +444,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -312,13 +460,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -330,15 +567,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -346,16 +590,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 // Rows of any length; one function for all buffers. In a caller's function clang would warn of loops that stay scalar.
@@ -485,11 +732,11 @@ struct mitsuba_as_to_povray_specular {
   static constexpr const char* kTargetSpecular = "specular";
 
   // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-  static constexpr float kAlphaRmsError = 0.00036f;
-  static constexpr float kSpecularRmsError = 0.00021f;
+  static constexpr float kAlphaRmsError = 9e-05f;
+  static constexpr float kSpecularRmsError = 4.3e-06f;
   // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
   // to the source's. Negative where no pictures were compared.
-  static constexpr float kImageRmsError = 0.31f;
+  static constexpr float kImageRmsError = 0.36f;
 
   struct Input {
     float width;  // microfacet width, (0, 1]
@@ -537,8 +784,8 @@ struct mitsuba_as_to_povray_specular {
   // What the measured table covers. Beyond it the width is clamped to the edge, and specular is extrapolated in
   // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
   // of domain. Target specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
-  static constexpr Input kDomainMin{0.34793103f, 0.0f};
-  static constexpr Input kDomainMax{0.99f, 0.35f};
+  static constexpr Input kDomainMin{0.16f, 0.0f};
+  static constexpr Input kDomainMax{0.99f, 1.0f};
 
   // `count` texels of `Channels` channels (1 for a grey map, 3 for RGB). An output row may be exactly its own input row; no
   // other rows may overlap. Texels do not see each other: any split into rows gives the same bits (which NaN aside). Returns
@@ -599,19 +846,19 @@ struct mitsuba_as_to_povray_specular {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.34793103f, 0.35f}, {15.307277f, 0.9522586f}, {0.00092f, 8.3e-05f}},
-        {{0.42818964f, 0.328125f}, {9.857337f, 0.5907159f}, {0.00052f, 8.3e-05f}},
-        {{0.50844824f, 0.30625f}, {7.0988693f, 0.39683232f}, {0.00035f, 8.3e-05f}},
-        {{0.5887069f, 0.28437498f}, {5.537049f, 0.27993184f}, {0.00027f, 8.3e-05f}},
-        {{0.6689655f, 0.2625f}, {4.569542f, 0.2023883f}, {0.00022f, 8.3e-05f}},
-        {{0.7492241f, 0.240625f}, {3.9165075f, 0.14795133f}, {0.00019f, 8.2e-05f}},
-        {{0.8294828f, 0.21875f}, {3.4399316f, 0.10879821f}, {0.00017f, 8.2e-05f}},
-        {{0.9097414f, 0.19687499f}, {3.0800722f, 0.08041283f}, {0.00015f, 8.2e-05f}},
-        {{0.99f, 0.175f}, {2.8323605f, 0.059675023f}, {0.00014f, 8.2e-05f}},
-        {{0.17396551f, 0.175f}, {15.344991f, 0.47808716f}, {0.00092f, 8.3e-05f}},
-        {{1.485f, 0.0875f}, {2.842136f, 0.029801382f}, {0.00014f, 8.2e-05f}},
-        {{0.6689655f, 0.0f}, {4.5959015f, 0.0009970261f}, {0.00022f, 8.2e-05f}},
-        {{0.6689655f, 0.7f}, {4.560791f, 0.53903747f}, {0.00022f, 0.00017f}},
+        {{0.16f, 1.0f}, {22.20607f, 1.0f}, {0.02f, 0.00011f}},
+        {{0.26375f, 0.9375f}, {12.748495f, 1.0f}, {0.0091f, 0.00011f}},
+        {{0.3675f, 0.875f}, {8.865018f, 1.0f}, {0.0058f, 0.00011f}},
+        {{0.47125f, 0.8125f}, {7.219705f, 1.0f}, {0.0045f, 0.00011f}},
+        {{0.575f, 0.75f}, {5.740876f, 0.7695037f}, {0.0035f, 0.00011f}},
+        {{0.67875f, 0.6875f}, {4.477512f, 0.513164f}, {0.0027f, 0.00011f}},
+        {{0.7825f, 0.625f}, {3.6940966f, 0.35015595f}, {0.0022f, 0.00011f}},
+        {{0.88625f, 0.5625f}, {3.162641f, 0.24229817f}, {0.0019f, 0.00011f}},
+        {{0.99f, 0.5f}, {2.816604f, 0.16936673f}, {0.0017f, 0.00011f}},
+        {{0.08f, 0.5f}, {31.071169f, 1.0f}, {0.031f, 0.00011f}},
+        {{1.485f, 0.25f}, {2.8209307f, 0.08490334f}, {0.0017f, 1e-04f}},
+        {{0.575f, 0.0f}, {5.7923145f, 0.0013488776f}, {0.0035f, 1e-04f}},
+        {{0.575f, 2.0f}, {5.6428256f, 2.0f}, {0.0034f, 0.00021f}},
     }};
     std::array<float, kGolden.size()> width{}, specular{};
     for (std::size_t i = 0; i < kGolden.size(); ++i) {

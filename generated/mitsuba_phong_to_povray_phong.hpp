@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to povray/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_povray_phong.csv, sha256 0ba7aefdd9f79def135a6cfcd1e827f8e1cc84cdc5ee91fb363b0250e3583618;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; POV-Ray 3.7.0.10.unofficial.
-// Fit: parametric, seed 1, 61 rows trained, 15 held out.
-// Error on the rows held out: alpha rms 7.3e-05, 99 % 0.00021, max 0.00021;
-// specular rms 7e-05, 99 % 0.00013, max 0.00013.
-// Lowered from the fit. Target alpha: degree 4, proven within 2.5e-07 (sampled 2.3e-08), rising with alpha.
-// Target specular: degree 4 in alpha / (alpha + 0.2), proven within 9.9e-05 (sampled 9.5e-05), rising with specular.
-// Covers alpha 0.381724138 to 0.99, specular 0 to 0.2.
+// Table mitsuba_phong_to_povray_phong.csv, sha256 aa44112e67c5d1502baa530d4a276bb0afb62648ea716784d13e41a9ec2a9415;
+// objective natural-1 (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; POV-Ray 3.7.0.10.unofficial.
+// Fit: parametric, seed 1, 535 rows trained, 134 held out.
+// Error on the rows held out: alpha rms 0.0029, 99 % 0.013, max 0.014;
+// specular rms 0.00012, 99 % 0.00041, max 0.00082.
+// Lowered from the fit. Target alpha: degree 4, proven within 2.9e-07 (sampled 1.7e-08), rising with alpha.
+// Target specular: degree 6 on 8 pieces in alpha / (alpha + 0.3), proven within 8.7e-05 (sampled 4.3e-06), rising with specular.
+// Where specular is at its limit, target alpha: degree 6, 6 in specular, proven within 6.8e-06 (sampled 4.7e-08).
+// All together within 0.00014 in alpha, 8.7e-05 in specular.
+// Covers alpha 0.01 to 0.99, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_POVRAY_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_POVRAY_PHONG_HPP
 
@@ -46,30 +48,125 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.6858627f;
+// x rounded down, clamped to [0, last]. Masks in place of comparisons: compilers would branch on them.
+inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
+  const std::int32_t cell = static_cast<std::int32_t>(x);
+  const std::int32_t below = (cell & ~(cell >> 31)) - last;
+  return last + (below & (below >> 31));
+}
+
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.5000011f;
   const float u_2 = u * u;
-  float c0 = 0.24931589f;
-  float c0_next = 0.27225158f;
-  c0 = c0 * u_2 + -0.09277242f;
-  c0_next = c0_next * u_2 + 0.80456334f;
-  c0 = c0 * u_2 + 0.6281293f;
+  float c0 = 0.24914315f;
+  float c0_next = 0.08704369f;
+  c0 = c0 * u_2 + -0.19293393f;
+  c0_next = c0_next * u_2 + 0.8607994f;
+  c0 = c0 * u_2 + 0.47394323f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float t = alpha / (alpha + 0.2f);
-  const float u = t - 0.7440635f;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+inline constexpr float kSpecularTable[8][7] = {
+    {97.740776f, -17.978922f, -3.4524593f, -0.2122007f, 0.14872678f, 0.04121603f, 0.002482622f},
+    {76.28877f, -24.71182f, -2.7733507f, 0.7934189f, 0.3312653f, 0.010127264f, -0.016347088f},
+    {49.919888f, -26.618393f, 1.3909096f, 1.7861676f, 0.030877385f, -0.13879661f, -0.021660306f},
+    {26.354263f, -19.133505f, 5.383003f, 0.4035406f, -0.6219688f, -0.014519484f, 0.06643967f},
+    {12.437039f, -9.324904f, 3.67121f, -1.032867f, 0.06822962f, 0.14247228f, -0.0511754f},
+    {5.906115f, -4.4287925f, 1.5785941f, -0.3981982f, 0.079078205f, -0.03218372f, 0.020179609f},
+    {2.7221937f, -2.2128477f, 0.7535908f, -0.17002435f, 0.033091504f, -0.015531208f, 0.0014458868f},
+    {1.1138499f, -1.1376483f, 0.35324377f, -0.0954316f, 0.02961682f, 0.0071010576f, -0.0014868291f},
+};
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float t = alpha / (alpha + 0.3f);
+    const float x = t * 10.881625f - 0.35101897f;
+    const std::int32_t cell = cell_of(x, 7);
+    const float u = x - (static_cast<float>(cell) + 0.5f);
+    const float* row = kSpecularTable[cell];
+    const float u_2 = u * u;
+    const float c0 = 0.0f;
+    float c1 = row[6];
+    float c1_next = row[5];
+    c1 = c1 * u_2 + row[4];
+    c1_next = c1_next * u_2 + row[3];
+    c1 = c1 * u_2 + row[2];
+    c1_next = c1_next * u_2 + row[1];
+    c1 = c1 * u_2 + row[0];
+    c1 = c1_next * u + c1;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.5000011f;
   const float u_2 = u * u;
-  float c1 = 269.88095f;
-  float c1_next = -227.74306f;
-  c1 = c1 * u_2 + 88.39558f;
-  c1_next = c1_next * u_2 + -22.699036f;
-  c1 = c1 * u_2 + 2.0738153f;
-  c1 = c1_next * u + c1;
-  return c1;
+  float c0 = -67.6412f;
+  float c0_next = -43.57791f;
+  c0 = c0 * u_2 + -2.3898916f;
+  c0_next = c0_next * u_2 + 3.151347f;
+  c0 = c0 * u_2 + 0.046078045f;
+  c0_next = c0_next * u_2 + 0.4762256f;
+  c0 = c0 * u_2 + 0.5111724f;
+  c0 = c0_next * u + c0;
+  float c1 = 29.659317f;
+  float c1_next = 12.426165f;
+  c1 = c1 * u_2 + -4.991438f;
+  c1_next = c1_next * u_2 + -2.6299715f;
+  c1 = c1 * u_2 + 0.00347148f;
+  c1_next = c1_next * u_2 + 0.21837541f;
+  c1 = c1 * u + c1_next;
+  float c2 = 19.416826f;
+  float c2_next = 12.129002f;
+  c2 = c2 * u_2 + 1.6536186f;
+  c2_next = c2_next * u_2 + 0.021735786f;
+  c2 = c2 * u_2 + -0.26230544f;
+  c2 = c2_next * u + c2;
+  float c3 = 7.8589435f;
+  c3 = c3 * u + 8.519562f;
+  c3 = c3 * u + 3.1278079f;
+  c3 = c3 * u + 0.07802458f;
+  float c4 = -11.910758f;
+  c4 = c4 * u + -10.347549f;
+  c4 = c4 * u + 0.23902747f;
+  float c5 = 5.9777513f;
+  c5 = c5 * u + 4.5423207f;
+  const float c6 = -9.137029f;
+  const float w = specular - 0.50472236f;
+  float sum = c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -138,13 +235,52 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{0.0406081f, 11.725581f, 0.0f, 0.2f, 5.0f};
+  static constexpr Domain domain{0.0406081f, 19998.0f, 0.0f, 1.0f, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.009442721f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -155,20 +291,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, clamped to 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float clamped, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(clamped) & 0x7fffffffu));
+  return float_from_bits((bits(clamped) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -177,16 +340,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const ClampedWidth clamped = clamped_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(clamped.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), clamped.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), clamped.nan));
-    store(block.outside + i, clamped.outside);
+    const ClampedWidth clamped = clamped_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(clamped.own));
+    store(block.scale + i, with_nan(1.0f, clamped.nan));
+    store(block.outside + i, clamped.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -196,18 +380,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, clamped_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 // Rows of any length; one function for all buffers. In a caller's function clang would warn of loops that stay scalar.
@@ -337,11 +676,11 @@ struct mitsuba_phong_to_povray_phong {
   static constexpr const char* kTargetSpecular = "specular";
 
   // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-  static constexpr float kAlphaRmsError = 7.3e-05f;
-  static constexpr float kSpecularRmsError = 7e-05f;
+  static constexpr float kAlphaRmsError = 0.0029f;
+  static constexpr float kSpecularRmsError = 0.00012f;
   // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
   // to the source's. Negative where no pictures were compared.
-  static constexpr float kImageRmsError = 0.19f;
+  static constexpr float kImageRmsError = 0.49f;
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0
@@ -390,7 +729,7 @@ struct mitsuba_phong_to_povray_phong {
   // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
   // of domain. Target specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
   static constexpr Input kDomainMin{0.0406081f, 0.0f};
-  static constexpr Input kDomainMax{11.725581f, 0.2f};
+  static constexpr Input kDomainMax{19998.0f, 1.0f};
 
   // `count` texels of `Channels` channels (1 for a grey map, 3 for RGB). An output row may be exactly its own input row; no
   // other rows may overlap. Texels do not see each other: any split into rows gives the same bits (which NaN aside). Returns
@@ -451,19 +790,19 @@ struct mitsuba_phong_to_povray_phong {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.0406081f, 0.2f}, {0.61799896f, 0.12457849f}, {2.3e-06f, 9.9e-05f}},
-        {{1.5012298f, 0.1875f}, {2.274313f, 0.22207764f}, {4.7e-06f, 9.9e-05f}},
-        {{2.9618514f, 0.175f}, {3.8075836f, 0.30184582f}, {7.2e-06f, 9.9e-05f}},
-        {{4.422473f, 0.16250001f}, {5.3043394f, 0.3671268f}, {9.9e-06f, 9.9e-05f}},
-        {{5.883095f, 0.15f}, {6.7859297f, 0.4187376f}, {1.3e-05f, 9.9e-05f}},
-        {{7.343716f, 0.1375f}, {8.2599535f, 0.45706776f}, {1.6e-05f, 9.9e-05f}},
-        {{8.8043375f, 0.125f}, {9.729767f, 0.48216307f}, {2e-05f, 9.9e-05f}},
-        {{10.264959f, 0.112500004f}, {11.197069f, 0.49389368f}, {2.3e-05f, 9.9e-05f}},
-        {{11.725581f, 0.1f}, {12.662807f, 0.4921124f}, {2.6e-05f, 9.9e-05f}},
-        {{0.02030405f, 0.1f}, {0.61799896f, 0.062289245f}, {2.3e-06f, 9.9e-05f}},
-        {{17.588371f, 0.05f}, {12.662807f, 0.2460562f}, {2.6e-05f, 9.9e-05f}},
-        {{5.883095f, 0.0f}, {6.7859297f, 0.0f}, {1.3e-05f, 9.9e-05f}},
-        {{5.883095f, 0.4f}, {6.7859297f, 1.1166335f}, {1.3e-05f, 2e-04f}},
+        {{0.0406081f, 1.0f}, {0.6181433f, 0.62346107f}, {8e-04f, 8.7e-05f}},
+        {{2499.7856f, 0.9375f}, {100.42184f, 1.0f}, {0.2f, 8.7e-05f}},
+        {{4999.5303f, 0.875f}, {147.97458f, 1.0f}, {0.35f, 8.7e-05f}},
+        {{7499.2754f, 0.8125f}, {193.1114f, 1.0f}, {0.51f, 8.7e-05f}},
+        {{9999.0205f, 0.75f}, {233.15448f, 1.0f}, {0.68f, 8.7e-05f}},
+        {{12498.766f, 0.6875f}, {263.9377f, 1.0f}, {0.82f, 8.7e-05f}},
+        {{14998.51f, 0.625f}, {288.5983f, 1.0f}, {0.93f, 8.7e-05f}},
+        {{17498.256f, 0.5625f}, {315.8783f, 1.0f}, {1.1f, 8.7e-05f}},
+        {{19998.0f, 0.5f}, {355.08746f, 1.0f}, {1.3f, 8.7e-05f}},
+        {{0.02030405f, 0.5f}, {0.6181433f, 0.31173053f}, {8e-04f, 8.7e-05f}},
+        {{29997.0f, 0.25f}, {521.8998f, 1.0f}, {2.3f, 8.7e-05f}},
+        {{9999.0205f, 0.0f}, {10098.304f, 0.0f}, {200.0f, 8.7e-05f}},
+        {{9999.0205f, 2.0f}, {250.04823f, 2.0f}, {0.75f, 0.00018f}},
     }};
     std::array<float, kGolden.size()> width{}, specular{};
     for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // povray/phong to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table povray_phong_to_mitsuba_phong.csv, sha256 e9ebc86a672865473f6d5e764a282604fd61b76598ff83199d415609e4d73a07;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by POV-Ray 3.7.0.10.unofficial; remapc 0.1.0.
-// Fit: parametric, seed 1, 269 rows trained, 67 held out.
-// Error on the rows held out: alpha rms 0.00026, 99 % 0.00071, max 0.00071;
-// specular rms 0.00017, 99 % 0.00061, max 0.00061.
-// Lowered from the fit. Target alpha: degree 6, proven within 3.6e-07 (sampled 1.9e-08), rising with alpha.
-// Target specular: degree 4, proven within 7.3e-05 (sampled 6.7e-05), rising with alpha, rising with specular.
-// Covers alpha 0.01 to 0.922413793, specular 0 to 0.6.
+// Table povray_phong_to_mitsuba_phong.csv, sha256 1fde6804a02f62f21acd38a3b29b87e1cf81129ad132f56b7f9da24f3af7702b;
+// objective natural-1 (lights 60, weighting relative), 512 pixels squared, by POV-Ray 3.7.0.10.unofficial; remapc 0.1.0.
+// Fit: series, seed 1, 505 rows trained, 126 held out.
+// Error on the rows held out: alpha rms 0.00013, 99 % 0.00033, max 0.00051;
+// specular rms 8e-04, 99 % 0.004, max 0.0064.
+// Lowered from the fit. Target alpha: degree 8, proven within 4.1e-07 (sampled 2.9e-08), rising with alpha.
+// Target specular: degree 8, proven within 1e-04 (sampled 9.6e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, 2 in specular, proven within 8.8e-07 (sampled 3.2e-08), rising with specular.
+// Where specular is at its limit, target alpha: degree 2, 2 in specular, proven within 3.2e-07 (sampled 3.2e-08), rising with alpha, rising with specular.
+// All together within 1.2e-05 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 0.99, specular 0 to 1.
 #ifndef REMAP_GENERATED_POVRAY_PHONG_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_POVRAY_PHONG_TO_MITSUBA_PHONG_HPP
 
@@ -46,31 +49,104 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.46620786f;
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.47002324f;
   const float u_2 = u * u;
-  float c0 = -0.69473594f;
-  float c0_next = -1.154531f;
-  c0 = c0 * u_2 + -0.5632334f;
-  c0_next = c0_next * u_2 + 0.10792411f;
-  c0 = c0 * u_2 + 0.24760394f;
-  c0_next = c0_next * u_2 + 1.109741f;
-  c0 = c0 * u_2 + 0.48280287f;
+  float c0 = 9.083651f;
+  float c0_next = 4.2741604f;
+  c0 = c0 * u_2 + -3.8394449f;
+  c0_next = c0_next * u_2 + -2.617819f;
+  c0 = c0 * u_2 + -0.2716764f;
+  c0_next = c0_next * u_2 + 0.23478732f;
+  c0 = c0 * u_2 + 0.24013747f;
+  c0_next = c0_next * u_2 + 1.1086175f;
+  c0 = c0 * u_2 + 0.48706973f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float u = alpha - 0.46620786f;
-  const float u_2 = u * u;
-  float c1 = 0.87298375f;
-  float c1_next = 1.2792727f;
-  c1 = c1 * u_2 + 2.1354363f;
-  c1_next = c1_next * u_2 + 1.4974593f;
-  c1 = c1 * u_2 + 0.32274184f;
-  c1 = c1_next * u + c1;
-  return c1;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.47002324f;
+    const float u_2 = u * u;
+    float c0 = -3.9630935f;
+    float c0_next = 0.010105024f;
+    c0 = c0 * u_2 + 1.6794444f;
+    c0_next = c0_next * u_2 + -0.003285155f;
+    c0 = c0 * u_2 + -0.22240964f;
+    c0_next = c0_next * u_2 + 0.00030891187f;
+    c0 = c0 * u_2 + 0.009429713f;
+    c0_next = c0_next * u_2 + -6.8579557e-06f;
+    c0 = c0 * u_2 + -6.261063e-05f;
+    c0 = c0_next * u + c0;
+    float c1 = -3.9842045f;
+    float c1_next = -1.4657978f;
+    c1 = c1 * u_2 + 1.2917279f;
+    c1_next = c1_next * u_2 + 1.2924747f;
+    c1 = c1 * u_2 + 1.1777942f;
+    c1_next = c1_next * u_2 + 2.1206675f;
+    c1 = c1 * u_2 + 1.5160635f;
+    c1_next = c1_next * u_2 + 0.32878542f;
+    c1 = c1 * u + c1_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9572389f;
+  float c0 = -5.1555953f;
+  c0 = c0 * u + 2.3313835f;
+  c0 = c0 * u + 0.89192367f;
+  float c1 = 4.6800385f;
+  c1 = c1 * u + 1.7806387f;
+  const float c2 = 0.015055894f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.87172437f;
+  float c0 = -1.8951008f;
+  c0 = c0 * u + 1.1729239f;
+  c0 = c0 * u + 0.9573729f;
+  float c1 = -0.3725667f;
+  c1 = c1 * u + 0.08335508f;
+  const float c2 = -0.05603896f;
+  const float w = specular - 0.8108904f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -139,13 +215,52 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{0.3505983f, 19998.0f, 0.0f, 0.6f, 1.6666666f};
+  static constexpr Domain domain{0.0406081f, 19998.0f, 0.0f, 1.0f, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.93004453f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.92447776f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.75344825f), clamped_above(specular, 0.62178f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -156,20 +271,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, clamped to 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float clamped, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(clamped) & 0x7fffffffu));
+  return float_from_bits((bits(clamped) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -178,16 +320,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const ClampedWidth clamped = clamped_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(clamped.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), clamped.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), clamped.nan));
-    store(block.outside + i, clamped.outside);
+    const ClampedWidth clamped = clamped_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(clamped.own));
+    store(block.scale + i, with_nan(1.0f, clamped.nan));
+    store(block.outside + i, clamped.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -197,18 +360,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, clamped_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 // Rows of any length; one function for all buffers. In a caller's function clang would warn of loops that stay scalar.
@@ -338,11 +656,11 @@ struct povray_phong_to_mitsuba_phong {
   static constexpr const char* kTargetSpecular = "specular";
 
   // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-  static constexpr float kAlphaRmsError = 0.00026f;
-  static constexpr float kSpecularRmsError = 0.00017f;
+  static constexpr float kAlphaRmsError = 0.00013f;
+  static constexpr float kSpecularRmsError = 8e-04f;
   // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
   // to the source's. Negative where no pictures were compared.
-  static constexpr float kImageRmsError = 0.19f;
+  static constexpr float kImageRmsError = 0.23f;
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0
@@ -390,8 +708,8 @@ struct povray_phong_to_mitsuba_phong {
   // What the measured table covers. Beyond it the width is clamped to the edge, and specular is extrapolated in
   // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
   // of domain. Target specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
-  static constexpr Input kDomainMin{0.3505983f, 0.0f};
-  static constexpr Input kDomainMax{19998.0f, 0.6f};
+  static constexpr Input kDomainMin{0.0406081f, 0.0f};
+  static constexpr Input kDomainMax{19998.0f, 1.0f};
 
   // `count` texels of `Channels` channels (1 for a grey map, 3 for RGB). An output row may be exactly its own input row; no
   // other rows may overlap. Texels do not see each other: any split into rows gives the same bits (which NaN aside). Returns
@@ -452,19 +770,19 @@ struct povray_phong_to_mitsuba_phong {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.3505983f, 0.6f}, {0.010527805f, 0.96569586f}, {2e-06f, 7.3e-05f}},
-        {{2500.057f, 0.5625f}, {2511.1052f, 0.00066464685f}, {0.064f, 7.3e-05f}},
-        {{4999.763f, 0.52500004f}, {5025.3755f, 0.0003869966f}, {0.18f, 7.3e-05f}},
-        {{7499.469f, 0.4875f}, {7540.1934f, 0.00029544337f}, {0.33f, 7.3e-05f}},
-        {{9999.176f, 0.45000002f}, {10055.296f, 0.0002462419f}, {0.51f, 7.3e-05f}},
-        {{12498.882f, 0.41250002f}, {12570.579f, 0.00021258529f}, {0.71f, 7.3e-05f}},
-        {{14998.588f, 0.375f}, {15085.99f, 0.00018606722f}, {0.93f, 7.3e-05f}},
-        {{17498.293f, 0.3375f}, {17601.498f, 0.0001632877f}, {1.2f, 7.3e-05f}},
-        {{19998.0f, 0.3f}, {20117.086f, 0.00014264071f}, {1.5f, 7.3e-05f}},
-        {{0.17529915f, 0.3f}, {0.010527805f, 0.48284793f}, {2e-06f, 7.3e-05f}},
-        {{29997.0f, 0.15f}, {20117.086f, 7.1320355e-05f}, {1.5f, 7.3e-05f}},
-        {{9999.176f, 0.0f}, {10055.296f, 0.0f}, {0.51f, 7.3e-05f}},
-        {{9999.176f, 1.2f}, {10055.296f, 0.00065664505f}, {0.51f, 0.00015f}},
+        {{0.0406081f, 1.0f}, {0.0f, 1.0f}, {4.5e-05f, 0.00011f}},
+        {{2499.7856f, 0.9375f}, {2501.9187f, 0.0010256735f}, {2.0f, 0.00011f}},
+        {{4999.5303f, 0.875f}, {5005.3677f, 0.00047788743f}, {5.6f, 0.00011f}},
+        {{7499.2754f, 0.8125f}, {7507.0493f, 0.00029571372f}, {11.0f, 0.00011f}},
+        {{9999.0205f, 0.75f}, {10006.811f, 0.00020481202f}, {16.0f, 0.00011f}},
+        {{12498.766f, 0.6875f}, {12504.713f, 0.00015035264f}, {22.0f, 0.00011f}},
+        {{14998.51f, 0.625f}, {15000.845f, 0.00011407947f}, {29.0f, 0.00011f}},
+        {{17498.256f, 0.5625f}, {17495.303f, 8.8178065e-05f}, {37.0f, 0.00011f}},
+        {{19998.0f, 0.5f}, {19988.164f, 6.874629e-05f}, {45.0f, 0.00011f}},
+        {{0.02030405f, 0.5f}, {0.0f, 0.96276695f}, {4.5e-05f, 0.00011f}},
+        {{29997.0f, 0.25f}, {19988.164f, 3.440615e-05f}, {45.0f, 0.00011f}},
+        {{9999.0205f, 0.0f}, {10006.811f, 0.0f}, {16.0f, 0.00011f}},
+        {{9999.0205f, 2.0f}, {10006.811f, 0.0005462321f}, {16.0f, 0.00021f}},
     }};
     std::array<float, kGolden.size()> width{}, specular{};
     for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // povray/specular to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table povray_specular_to_mitsuba_as.csv, sha256 d6088de9ebc0c7a0651192bfc9062de27df45d1362e8849af76d30d7c660f64c;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by POV-Ray 3.7.0.10.unofficial; remapc 0.1.0.
-// Fit: parametric, seed 1, 115 rows trained, 29 held out.
-// Error on the rows held out: alpha rms 0.0017, 99 % 0.0028, max 0.0028;
-// f0 rms 0.0069, 99 % 0.022, max 0.022.
-// Lowered from the fit. Target alpha: degree 4, proven within 3.2e-07 (sampled 2.8e-08), rising with alpha.
-// Target specular: degree 2, proven within 5.1e-07 (sampled 9.4e-09), rising with specular.
-// Covers alpha 0.11137931 to 0.88862069, specular 0 to 0.3.
+// Table povray_specular_to_mitsuba_as.csv, sha256 950b367e17be277574f2a7f61be8bbfed1ec42f57b2695d548a23dce6ddf2871;
+// objective natural-1 (lights 60, weighting relative), 512 pixels squared, by POV-Ray 3.7.0.10.unofficial; remapc 0.1.0.
+// Fit: series, seed 1, 530 rows trained, 133 held out.
+// Error on the rows held out: alpha rms 0.00012, 99 % 0.00036, max 0.00063;
+// f0 rms 0.00013, 99 % 0.00035, max 0.00038.
+// Lowered from the fit. Target alpha: degree 10, 4 in specular, proven within 9.8e-06 (sampled 8.2e-06), rising with alpha.
+// Target specular: degree 9, 2 in specular, proven within 7.8e-05 (sampled 6.8e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 3, 2 in specular, proven within 1.2e-06 (sampled 5.3e-08), rising with specular.
+// Where specular is at its limit, target alpha: degree 6, 6 in specular, proven within 1e-06 (sampled 2e-08).
+// All together within 5.2e-05 in alpha, 9.2e-05 in specular.
+// Covers alpha 0.11 to 0.99, specular 0 to 1.
 #ifndef REMAP_GENERATED_POVRAY_SPECULAR_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_POVRAY_SPECULAR_TO_MITSUBA_AS_HPP
 
@@ -46,25 +49,194 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.50000083f;
+inline float target_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.52171177f;
   const float u_2 = u * u;
-  float c0 = 0.4669569f;
-  float c0_next = 0.2994476f;
-  c0 = c0 * u_2 + 0.056088034f;
-  c0_next = c0_next * u_2 + 1.0215831f;
-  c0 = c0 * u_2 + 0.5050165f;
+  float c0 = -420.1446f;
+  float c0_next = 57.270947f;
+  c0 = c0 * u_2 + 241.82776f;
+  c0_next = c0_next * u_2 + -28.11763f;
+  c0 = c0 * u_2 + -52.471825f;
+  c0_next = c0_next * u_2 + 6.2202153f;
+  c0 = c0 * u_2 + 6.0254397f;
+  c0_next = c0_next * u_2 + -0.2589121f;
+  c0 = c0 * u_2 + -0.17472549f;
+  c0_next = c0_next * u_2 + 1.041955f;
+  c0 = c0 * u_2 + 0.52879053f;
   c0 = c0_next * u + c0;
-  return c0;
+  float c1 = -1.0382698f;
+  float c1_next = -0.5173394f;
+  c1 = c1 * u_2 + 0.21720243f;
+  c1_next = c1_next * u_2 + 0.11643791f;
+  c1 = c1 * u_2 + -0.0046623773f;
+  c1_next = c1_next * u_2 + -0.0043867584f;
+  c1 = c1 * u_2 + 0.0002825385f;
+  c1_next = c1_next * u_2 + 0.00030491082f;
+  c1 = c1 * u + c1_next;
+  float c2 = 0.39784378f;
+  float c2_next = 2.1546354f;
+  c2 = c2 * u_2 + 0.42515984f;
+  c2_next = c2_next * u_2 + -0.43531206f;
+  c2 = c2 * u_2 + -0.10048418f;
+  c2_next = c2_next * u_2 + 0.01640602f;
+  c2 = c2 * u_2 + 0.00284833f;
+  c2_next = c2_next * u_2 + -0.0010422595f;
+  c2 = c2 * u + c2_next;
+  float c3 = 9.234649f;
+  float c3_next = 3.7154567f;
+  c3 = c3 * u_2 + -2.1352768f;
+  c3_next = c3_next * u_2 + -0.8854519f;
+  c3 = c3 * u_2 + 0.03006156f;
+  c3_next = c3_next * u_2 + 0.048832115f;
+  c3 = c3 * u_2 + -0.00091432896f;
+  c3_next = c3_next * u_2 + -0.0104683945f;
+  c3 = c3 * u + c3_next;
+  float c4 = -10.973328f;
+  float c4_next = -3.1209683f;
+  c4 = c4 * u_2 + 2.2253313f;
+  c4_next = c4_next * u_2 + 0.766364f;
+  c4 = c4 * u_2 + -0.08724038f;
+  c4_next = c4_next * u_2 + -0.020143328f;
+  c4 = c4 * u_2 + 0.021249935f;
+  c4 = c4_next * u + c4;
+  const float w = specular - 0.500001f;
+  float sum = c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float u = alpha - 0.50000083f;
-  float c1 = 5.109058f;
-  c1 = c1 * u + 3.6783874f;
-  c1 = c1 * u + 0.7503082f;
-  return c1;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.52171177f;
+    const float u_2 = u * u;
+    float c0 = 48.915096f;
+    float c0_next = -42.766487f;
+    c0 = c0 * u_2 + -26.381012f;
+    c0_next = c0_next * u_2 + 26.032503f;
+    c0 = c0 * u_2 + 11.520248f;
+    c0_next = c0_next * u_2 + -1.0471609f;
+    c0 = c0 * u_2 + 0.644882f;
+    c0_next = c0_next * u_2 + 2.4718938f;
+    c0 = c0 * u_2 + 1.7918235f;
+    c0_next = c0_next * u_2 + 0.4185339f;
+    c0 = c0 * u + c0_next;
+    float c1 = -84.890724f;
+    float c1_next = -20.50277f;
+    c1 = c1 * u_2 + 50.399593f;
+    c1_next = c1_next * u_2 + 19.529432f;
+    c1 = c1 * u_2 + -1.7682313f;
+    c1_next = c1_next * u_2 + 1.4239185f;
+    c1 = c1 * u_2 + 4.92478f;
+    c1_next = c1_next * u_2 + 3.5799754f;
+    c1 = c1 * u_2 + 0.8393081f;
+    c1 = c1_next * u + c1;
+    float c2 = -17.264507f;
+    float c2_next = -4.449777f;
+    c2 = c2 * u_2 + 4.4141955f;
+    c2_next = c2_next * u_2 + 1.0053685f;
+    c2 = c2 * u_2 + -0.31698707f;
+    c2_next = c2_next * u_2 + -0.05771051f;
+    c2 = c2 * u_2 + 0.005721101f;
+    c2_next = c2_next * u_2 + 0.00058698043f;
+    c2 = c2 * u + c2_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+    terms.c2[i] = c2;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  const float w = specular - 0.500001f;
+  float sum = terms.c2[i];
+  sum = sum * w + terms.c1[i];
+  sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.959029f;
+  float c0 = -131.83398f;
+  c0 = c0 * u + -3.3560152f;
+  c0 = c0 * u + 1.8671535f;
+  c0 = c0 * u + 1.8160379f;
+  float c1 = -6.944824f;
+  c1 = c1 * u + 3.451627f;
+  c1 = c1 * u + 3.6346982f;
+  float c2 = -0.070216656f;
+  c2 = c2 * u + 0.0013455543f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.7624143f;
+  const float u_2 = u * u;
+  float c0 = 62.09036f;
+  float c0_next = -17.872843f;
+  c0 = c0 * u_2 + -11.027588f;
+  c0_next = c0_next * u_2 + 6.9761167f;
+  c0 = c0 * u_2 + -1.5419008f;
+  c0_next = c0_next * u_2 + 0.068242654f;
+  c0 = c0 * u_2 + 0.7162599f;
+  c0 = c0_next * u + c0;
+  float c1 = 12.023755f;
+  float c1_next = 12.308884f;
+  c1 = c1 * u_2 + -10.936153f;
+  c1_next = c1_next * u_2 + 3.093508f;
+  c1 = c1 * u_2 + -0.4051934f;
+  c1_next = c1_next * u_2 + -0.33905807f;
+  c1 = c1 * u + c1_next;
+  float c2 = -23.26859f;
+  float c2_next = 16.580029f;
+  c2 = c2 * u_2 + -2.9063685f;
+  c2_next = c2_next * u_2 + -0.14013909f;
+  c2 = c2 * u_2 + 0.6002604f;
+  c2 = c2_next * u + c2;
+  float c3 = -8.122079f;
+  c3 = c3 * u + -5.1697607f;
+  c3 = c3 * u + 3.6597543f;
+  c3 = c3 * u + -1.2620236f;
+  float c4 = 13.071811f;
+  c4 = c4 * u + -11.195381f;
+  c4 = c4 * u + 3.123756f;
+  float c5 = 10.979682f;
+  c5 = c5 * u + -6.15661f;
+  const float c6 = 5.46836f;
+  const float w = specular - 0.63698804f;
+  float sum = c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -133,13 +305,52 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{0.53277814f, 159.22075f, 0.0f, 0.3f, 3.3333333f};
+  static constexpr Domain domain{0.0406081f, 163.28926f, 0.0f, 1.0f, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return alpha; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.93342173f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.9280579f), clamped_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.5348276f), clamped_above(specular, 0.2739746f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -150,20 +361,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, clamped to 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float clamped, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(clamped) & 0x7fffffffu));
+  return float_from_bits((bits(clamped) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -172,16 +410,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const ClampedWidth clamped = clamped_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(clamped.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), clamped.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), clamped.nan));
-    store(block.outside + i, clamped.outside);
+    const ClampedWidth clamped = clamped_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(clamped.own));
+    store(block.scale + i, with_nan(1.0f, clamped.nan));
+    store(block.outside + i, clamped.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -191,18 +450,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, clamped_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 // Rows of any length; one function for all buffers. In a caller's function clang would warn of loops that stay scalar.
@@ -332,11 +746,11 @@ struct povray_specular_to_mitsuba_as {
   static constexpr const char* kTargetSpecular = "f0";
 
   // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-  static constexpr float kAlphaRmsError = 0.0017f;
-  static constexpr float kSpecularRmsError = 0.0069f;
+  static constexpr float kAlphaRmsError = 0.00012f;
+  static constexpr float kSpecularRmsError = 0.00013f;
   // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
   // to the source's. Negative where no pictures were compared.
-  static constexpr float kImageRmsError = 0.33f;
+  static constexpr float kImageRmsError = 0.39f;
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0
@@ -384,8 +798,8 @@ struct povray_specular_to_mitsuba_as {
   // What the measured table covers. Beyond it the width is clamped to the edge, and specular is extrapolated in
   // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
   // of domain. Target specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
-  static constexpr Input kDomainMin{0.53277814f, 0.0f};
-  static constexpr Input kDomainMax{159.22075f, 0.3f};
+  static constexpr Input kDomainMin{0.0406081f, 0.0f};
+  static constexpr Input kDomainMax{163.28926f, 1.0f};
 
   // `count` texels of `Channels` channels (1 for a grey map, 3 for RGB). An output row may be exactly its own input row; no
   // other rows may overlap. Texels do not see each other: any split into rows gives the same bits (which NaN aside). Returns
@@ -446,19 +860,19 @@ struct povray_specular_to_mitsuba_as {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.53277814f, 0.3f}, {0.9387204f, 0.8854201f}, {1.3e-06f, 9.3e-07f}},
-        {{20.368774f, 0.28125f}, {0.3002899f, 0.06114022f}, {9.4e-07f, 5.4e-07f}},
-        {{40.20477f, 0.26250002f}, {0.21730906f, 0.031249786f}, {9e-07f, 5.2e-07f}},
-        {{60.040768f, 0.24375f}, {0.17847538f, 0.02345048f}, {8.8e-07f, 5.2e-07f}},
-        {{79.87676f, 0.22500001f}, {0.15487261f, 0.020154664f}, {8.7e-07f, 5.2e-07f}},
-        {{99.71276f, 0.20625001f}, {0.13861476f, 0.018195968f}, {8.6e-07f, 5.2e-07f}},
-        {{119.54876f, 0.1875f}, {0.12655202f, 0.016673768f}, {8.6e-07f, 5.2e-07f}},
-        {{139.38475f, 0.16875f}, {0.117148235f, 0.015270605f}, {8.5e-07f, 5.2e-07f}},
-        {{159.22075f, 0.15f}, {0.1095537f, 0.013861767f}, {8.5e-07f, 5.2e-07f}},
-        {{0.26638907f, 0.15f}, {0.9387204f, 0.44271004f}, {1.3e-06f, 7.2e-07f}},
-        {{238.83112f, 0.075f}, {0.1095537f, 0.0069308835f}, {8.5e-07f, 5.1e-07f}},
-        {{79.87676f, 0.0f}, {0.15487261f, 0.0f}, {8.7e-07f, 5.1e-07f}},
-        {{79.87676f, 0.6f}, {0.15487261f, 0.053745773f}, {8.7e-07f, 1.1e-06f}},
+        {{0.0406081f, 1.0f}, {0.6176402f, 1.0f}, {5.3e-05f, 9.2e-05f}},
+        {{20.44669f, 0.9375f}, {0.29733223f, 0.24331838f}, {5.3e-05f, 9.2e-05f}},
+        {{40.85277f, 0.875f}, {0.21556051f, 0.118141524f}, {5.2e-05f, 9.2e-05f}},
+        {{61.258854f, 0.8125f}, {0.17753507f, 0.073671654f}, {5.2e-05f, 9.2e-05f}},
+        {{81.66493f, 0.75f}, {0.15445644f, 0.05097654f}, {5.2e-05f, 9.2e-05f}},
+        {{102.071014f, 0.6875f}, {0.13857427f, 0.037213515f}, {5.2e-05f, 9.2e-05f}},
+        {{122.4771f, 0.625f}, {0.12677042f, 0.027955506f}, {5.2e-05f, 9.2e-05f}},
+        {{142.88318f, 0.5625f}, {0.117525704f, 0.021284966f}, {5.2e-05f, 9.2e-05f}},
+        {{163.28926f, 0.5f}, {0.110008255f, 0.016242595f}, {5.2e-05f, 9.2e-05f}},
+        {{0.02030405f, 0.5f}, {0.76458126f, 1.0f}, {5.3e-05f, 9.2e-05f}},
+        {{244.9339f, 0.25f}, {0.1100666f, 0.0074046003f}, {5.2e-05f, 9.2e-05f}},
+        {{81.66493f, 0.0f}, {0.15582956f, 0.0f}, {5.2e-05f, 9.2e-05f}},
+        {{81.66493f, 2.0f}, {0.15447745f, 0.1368691f}, {5.2e-05f, 0.00019f}},
     }};
     std::array<float, kGolden.size()> width{}, specular{};
     for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -20,7 +20,7 @@
 namespace remap {
 namespace {
 
-constexpr float kDifferenceGain = 4.0f;
+constexpr std::size_t kColumns = 3;  // source, copied, converted
 
 // One side of the fit, ready to be rendered.
 struct End {
@@ -45,10 +45,10 @@ End make_end(const Renderer& renderer, const Fit& fit, const std::string& role, 
   return end;
 }
 
-Material material_of(const End& end, double alpha, const std::vector<double>& speculars) {
+Material material_of(const End& end, double alpha, const std::vector<double>& speculars, double diffuse) {
   const ParameterDescription& specular = end.model.parameter(ParameterRole::kSpecular);
   const double clamped = std::clamp(alpha, end.model.alpha.min, end.model.alpha.max);
-  Material material = grey_material(end.model, clamped, specular.range.min, 0.0);
+  Material material = grey_material(end.model, clamped, specular.range.min, diffuse);
   std::vector<double>& values = material.parameters[specular.name];
   values.clear();
   for (const double value : speculars)
@@ -56,78 +56,7 @@ Material material_of(const End& end, double alpha, const std::vector<double>& sp
   return material;
 }
 
-// RGB display values of the pixels that show the shape.
-using Colors = std::vector<float>;
-
-Colors photograph(const Renderer& renderer, const End& end, const Material& material, const Scene& scene,
-                  const std::vector<std::uint32_t>& pixels) {
-  const Image image = renderer.render(material, scene);
-  const auto channels = static_cast<std::size_t>(image.channels);
-  const double nearest = scene.light.distance - 1.0;
-  const double exposure = end.exposure * std::numbers::pi * nearest * nearest;
-  Colors colors;
-  for (const std::uint32_t pixel : pixels)
-    for (std::size_t c = 0; c < 3; ++c)
-      colors.push_back(display_value(
-          exposure * static_cast<double>(image.values[channels * pixel + std::min(c, channels - 1)])));
-  return colors;
-}
-
-Colors difference(const Colors& a, const Colors& b) {
-  Colors result(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    result[i] = std::min(1.0f, kDifferenceGain * std::fabs(a[i] - b[i]));
-  return result;
-}
-
-// Converts the source of this alpha by the fit.
-PreviewedMaterial converted(const Fit& fit, const std::vector<double>& specular, double alpha) {
-  PreviewedMaterial figure;
-  figure.alpha = alpha;
-  figure.target_specular.resize(specular.size());
-  const double own = evaluate_texel(fit, from_alpha(fit.source.roughness, alpha), specular,
-                                    figure.target_specular, &figure.in_domain);
-  figure.target_alpha = to_alpha(fit.target.roughness, own);
-  return figure;
-}
-
-void require_options(const PreviewOptions& options) {
-  if (options.shapes.empty()) throw Error(ErrorKind::kUsage, "preview: at least one shape is required");
-  if (!options.specular.empty() && options.specular.size() != 1 && options.specular.size() != 3)
-    throw Error(ErrorKind::kUsage,
-                "preview: specular must have 1 or 3 values, not " + std::to_string(options.specular.size()));
-  for (const double alpha : options.alphas)
-    if (!(alpha > 0.0))
-      throw Error(ErrorKind::kUsage, "preview: alpha " + number_text(alpha) + " must be above 0");
-}
-
-// Fills missing options from the domain of a fit.
-void fill(const Domain& domain, PreviewMaterials* options) {
-  if (options->alphas.empty()) options->alphas = preview_alphas(domain);
-  if (options->specular.empty()) options->specular = {0.5 * domain.specular.max};
-}
-
-std::string short_number(double value) { return number_text(rounded(value, 3)); }
-
-std::string short_list(std::vector<double> values) {
-  for (double& value : values) value = rounded(value, 3);
-  return listed(values);
-}
-
-// The numbers of a source and of its conversion, a line each.
-std::string numbers_label(const std::vector<double>& specular, const PreviewedMaterial& material) {
-  return "alpha " + short_number(material.alpha) + "\n-> " + short_number(material.target_alpha) +
-         "\nspecular " + short_list(specular) + "\n-> " + short_list(material.target_specular);
-}
-
-constexpr std::size_t kColumns = 3;  // source, copied, converted
-
-// Background on each side of a picture, pixels.
-int margin_of(const LitPreviewOptions& options) { return options.resolution / 20; }
-
-int cell_of(const LitPreviewOptions& options) { return options.resolution + 2 * margin_of(options); }
-
-// Linear radiance of one sphere and the share of each pixel that it covers, row by row.
+// Linear radiance of a shape and the share of each pixel that it covers, row by row.
 struct CoveredPicture {
   std::vector<float> radiance;  // red, green, blue; mean over the covered part of the pixel
   std::vector<float> coverage;  // 0 to 1
@@ -158,20 +87,11 @@ CoveredPicture covered_picture(const SpherePictures& pictures, std::size_t first
   return picture;
 }
 
-// Pixels that show the sphere at least in part.
+// Pixels that show the shape at least in part.
 std::vector<std::uint32_t> covered_pixels(const CoveredPicture& picture) {
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < picture.coverage.size(); ++i)
     if (picture.coverage[i] > 0.0f) pixels.push_back(static_cast<std::uint32_t>(i));
-  return pixels;
-}
-
-// The same pixels in a cell of the sheet.
-std::vector<std::uint32_t> in_cell(const LitPreviewOptions& options, std::vector<std::uint32_t> pixels) {
-  const auto side = static_cast<std::uint32_t>(options.resolution);
-  const auto margin = static_cast<std::uint32_t>(margin_of(options));
-  const auto cell = static_cast<std::uint32_t>(cell_of(options));
-  for (std::uint32_t& pixel : pixels) pixel = (pixel / side + margin) * cell + pixel % side + margin;
   return pixels;
 }
 
@@ -182,7 +102,7 @@ std::vector<float> chosen(const CoveredPicture& picture, const std::vector<std::
   return radiance;
 }
 
-// Display values over the background of the sheet, so that the rim of the sphere is smooth.
+// Display values over the background of the sheet, so that a rim is smooth.
 std::vector<float> over_background(const CoveredPicture& picture, const std::vector<std::uint32_t>& pixels,
                                    std::vector<float> colors) {
   for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -193,7 +113,108 @@ std::vector<float> over_background(const CoveredPicture& picture, const std::vec
   return colors;
 }
 
-void require_options(const LitPreviewOptions& options) {
+// The three pictures of a row.
+using RowPictures = std::array<CoveredPicture, kColumns>;
+
+// Renders rows under a point light.
+class LampStudio {
+ public:
+  LampStudio(const Renderer& renderer, const Fit& fit, const PreviewOptions& options, const Light& light)
+      : renderer_(renderer),
+        options_(options),
+        light_(light),
+        source_(make_end(renderer, fit, "source", fit.source,
+                         parse_number(comment(fit, kLightScaleComment)).value_or(1.0))),
+        target_(make_end(renderer, fit, "target", fit.target, 1.0)) {}
+
+  RowPictures operator()(const PreviewFigure& figure) const {
+    return {photograph(source_, figure.alpha, options_.specular, figure.shape),
+            photograph(target_, figure.alpha, options_.specular, figure.shape),
+            photograph(target_, figure.target_alpha, figure.target_specular, figure.shape)};
+  }
+
+ private:
+  CoveredPicture photograph(const End& end, double alpha, const std::vector<double>& specular,
+                            Shape shape) const {
+    const Image image = renderer_.render(material_of(end, alpha, specular, options_.diffuse),
+                                         {options_.resolution, options_.samples_per_axis, light_, 0, shape});
+    const auto channels = static_cast<std::size_t>(image.channels);
+    const double nearest = light_.distance - 1.0;
+    const double exposure = end.exposure * std::numbers::pi * nearest * nearest;
+    const std::size_t count = image.values.size() / channels;
+    CoveredPicture picture{std::vector<float>(3 * count), std::vector<float>(count, 0.0f)};
+    for (const std::uint32_t pixel : shape_pixels(shape, options_.resolution)) {
+      picture.coverage[pixel] = 1.0f;
+      for (std::size_t c = 0; c < 3; ++c)
+        picture.radiance[3 * pixel + c] = static_cast<float>(
+            exposure * static_cast<double>(image.values[channels * pixel + std::min(c, channels - 1)]));
+    }
+    return picture;
+  }
+
+  const Renderer& renderer_;
+  const PreviewOptions& options_;
+  Light light_;
+  End source_, target_;
+};
+
+// Renders rows under an environment.
+class EnvironmentStudio {
+ public:
+  EnvironmentStudio(const Fit& fit, const PreviewOptions& options, const Environment& environment)
+      : options_(options),
+        source_(lobe_of(fit.source, environment)),
+        target_(lobe_of(fit.target, environment)),
+        pyramid_(std::span(&environment, 1)) {
+    sampling_.resolution = options.resolution * options.samples_per_axis;
+    sampling_.samples = options.directions;
+  }
+
+  RowPictures operator()(const PreviewFigure& figure) const {
+    std::vector<SphereMaterial> materials;
+    const auto add = [&](const BrdfModel& model, double alpha, const std::vector<double>& specular) {
+      for (const double value : specular)
+        materials.push_back({model, std::clamp(alpha, 1e-4, 1.0), value, options_.diffuse});
+    };
+    add(source_, figure.alpha, options_.specular);
+    add(target_, figure.alpha, options_.specular);
+    add(target_, figure.target_alpha, figure.target_specular);
+    const SpherePictures pictures = render_spheres(pyramid_, materials, sampling_);
+    RowPictures row;
+    const std::size_t count = options_.specular.size();
+    for (std::size_t column = 0; column < kColumns; ++column)
+      row[column] = covered_picture(pictures, column * count, count, options_.resolution);
+    return row;
+  }
+
+ private:
+  static BrdfModel lobe_of(const ModelSide& side, const Environment& environment) {
+    const std::vector<ModelDescription> known = make_builtin_renderer()->models();
+    if (std::ranges::find(known, side.model, &ModelDescription::name) == known.end())
+      throw Error(ErrorKind::kUsage, "--light " + environment.name +
+                                         ": shows models of the built-in renderer only, and " + side.model +
+                                         " is none (headlight or degrees show models of workers, too)");
+    return builtin_brdf(side.model);
+  }
+
+  const PreviewOptions& options_;
+  BrdfModel source_, target_;
+  RadiancePyramid pyramid_;
+  SphereSampling sampling_;
+};
+
+PreviewFigure converted(const Fit& fit, const std::vector<double>& specular, const std::string& light,
+                        Shape shape, double alpha) {
+  PreviewFigure figure{light, shape, alpha, {}, std::vector<double>(specular.size()), true, {}, {}};
+  const double own = evaluate_texel(fit, from_alpha(fit.source.roughness, alpha), specular,
+                                    figure.target_specular, &figure.in_domain);
+  figure.target_alpha = to_alpha(fit.target.roughness, own);
+  return figure;
+}
+
+void require_options(const PreviewOptions& options) {
+  if (options.lights.empty() || options.shapes.empty())
+    throw Error(ErrorKind::kUsage, "preview: at least one light and one shape are required");
   if (options.specular.size() != 1 && options.specular.size() != 3)
     throw Error(ErrorKind::kUsage, "--specular: " + std::to_string(options.specular.size()) +
                                        " values given (use one value, or R,G,B)");
@@ -204,42 +225,107 @@ void require_options(const LitPreviewOptions& options) {
     throw Error(ErrorKind::kUsage, "--diffuse: " + number_text(options.diffuse) + " is outside 0 to 1");
 }
 
-// The materials of one figure: source, copied and converted, each with one material for each specular value.
-std::vector<SphereMaterial> materials_of(const Fit& fit, const LitPreviewOptions& options,
-                                         const LitFigure& figure) {
-  const BrdfModel source = builtin_brdf(fit.source.model), target = builtin_brdf(fit.target.model);
-  std::vector<SphereMaterial> materials;
-  for (const double value : options.specular)
-    materials.push_back({source, figure.alpha, value, options.diffuse});
-  for (const double value : options.specular)
-    materials.push_back({target, figure.alpha, value, options.diffuse});
-  for (const double value : figure.target_specular)
-    materials.push_back({target, std::clamp(figure.target_alpha, 1e-4, 1.0), value, options.diffuse});
-  return materials;
+std::string short_number(double value) { return number_text(rounded(value, 3)); }
+
+std::string short_list(std::vector<double> values) {
+  for (double& value : values) value = rounded(value, 3);
+  return listed(values);
 }
 
-// Draws the three spheres of one alpha into a row of the sheet and compares them.
-void show_row(const SpherePictures& pictures, const LitPreviewOptions& options, std::size_t row,
-              LitPreview* preview) {
-  const std::size_t count = options.specular.size();
-  std::array<DisplayedSphere, kColumns> shown;
-  std::vector<std::uint32_t> pixels;
-  for (std::size_t column = 0; column < kColumns; ++column) {
-    const CoveredPicture picture = covered_picture(pictures, column * count, count, options.resolution);
-    pixels = covered_pixels(picture);
-    shown[column] = displayed_sphere(chosen(picture, pixels), pixels, options.resolution);
-    place_picture(&preview->sheet, cell_of(options), row, column, in_cell(options, pixels),
-                  over_background(picture, pixels, shown[column].colors));
+// The scene, and the numbers of a source and of its conversion.
+std::string row_label(const std::vector<double>& specular, const PreviewFigure& figure) {
+  return figure.light + ", " + shape_name(figure.shape) + "\nalpha " + short_number(figure.alpha) + "\n-> " +
+         short_number(figure.target_alpha) + "\nspecular " + short_list(specular) + "\n-> " +
+         short_list(figure.target_specular);
+}
+
+// Fills a preview row by row.
+class SheetFiller {
+ public:
+  SheetFiller(const Fit& fit, const PreviewOptions& options) : fit_(fit), options_(options) {
+    preview_.specular = options.specular;
+    preview_.labels.columns = {"source\n" + fit.source.model, "copied\n" + fit.target.model,
+                               "converted\n" + fit.target.model};
   }
-  const auto similarity = [&](const DisplayedSphere& other) {
-    return LitSimilarity{sphere_similarity(shown[0], other, pixels, options.resolution),
-                         rms_difference(shown[0].colors, other.colors)};
+
+  void add_rows(const std::string& light, Shape shape, const auto& studio) {
+    for (const double alpha : options_.alphas) {
+      PreviewFigure figure = converted(fit_, options_.specular, light, shape, alpha);
+      add_row(studio(figure), figure);
+      preview_.labels.rows.push_back(row_label(options_.specular, figure));
+      preview_.figures.push_back(std::move(figure));
+    }
+  }
+
+  Preview result() {
+    preview_.sheet = contact_sheet(rows_.size(), kColumns, cell());
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      for (std::size_t column = 0; column < kColumns; ++column)
+        place_picture(&preview_.sheet, cell(), row, column, rows_[row].pixels, rows_[row].colors[column]);
+    return std::move(preview_);
+  }
+
+ private:
+  // A row of the sheet: pixels of a cell, and their display values.
+  struct Row {
+    std::vector<std::uint32_t> pixels;
+    std::array<std::vector<float>, kColumns> colors;
   };
-  preview->figures[row].copied = similarity(shown[1]);
-  preview->figures[row].converted = similarity(shown[2]);
+
+  // Compares the pictures, and keeps them.
+  void add_row(const RowPictures& pictures, PreviewFigure& figure) {
+    const std::vector<std::uint32_t> pixels = covered_pixels(pictures[0]);
+    std::array<DisplayedSphere, kColumns> shown;
+    Row& row = rows_.emplace_back(Row{in_cell(pixels), {}});
+    for (std::size_t column = 0; column < kColumns; ++column) {
+      shown[column] = displayed_sphere(chosen(pictures[column], pixels), pixels, options_.resolution);
+      row.colors[column] = over_background(pictures[column], pixels, shown[column].colors);
+    }
+    const auto similarity = [&](const DisplayedSphere& other) {
+      return PreviewSimilarity{sphere_similarity(shown[0], other, pixels, options_.resolution),
+                               rms_difference(shown[0].colors, other.colors)};
+    };
+    figure.copied = similarity(shown[1]);
+    figure.converted = similarity(shown[2]);
+  }
+
+  int margin() const { return options_.resolution / 20; }
+  int cell() const { return options_.resolution + 2 * margin(); }
+
+  std::vector<std::uint32_t> in_cell(std::vector<std::uint32_t> pixels) const {
+    const auto side = static_cast<std::uint32_t>(options_.resolution),
+               width = static_cast<std::uint32_t>(cell()), edge = static_cast<std::uint32_t>(margin());
+    for (std::uint32_t& pixel : pixels) pixel = (pixel / side + edge) * width + pixel % side + edge;
+    return pixels;
+  }
+
+  const Fit& fit_;
+  const PreviewOptions& options_;
+  Preview preview_;
+  std::vector<Row> rows_;
+};
+
+Environment environment_of(const std::string& name_or_file, double exposure) {
+  std::vector<Environment> known = builtin_environments();
+  const auto found = std::ranges::find(known, name_or_file, &Environment::name);
+  if (found == known.end() && !std::filesystem::exists(name_or_file))
+    throw Error(ErrorKind::kUsage, "--light: unknown light '" + name_or_file +
+                                       "' (choose headlight, degrees from -180 to 180, " +
+                                       environment_names(known) + ", or name an EXR or HDR file)");
+  Environment environment = found == known.end() ? load_environment(name_or_file) : *found;
+  const double scale = exposure / mean_luminance(environment);
+  return exposed(std::move(environment), scale);
 }
 
 }  // namespace
+
+PreviewLight preview_light(const std::string& word, double distance, double exposure) {
+  const auto angle = word == "headlight" ? 0.0 : parse_number(word);
+  if (!angle) return {word, environment_of(word, exposure)};
+  if (!(*angle > -180.0 && *angle <= 180.0))
+    throw Error(ErrorKind::kUsage, "--light: " + word + " is outside -180 to 180 degrees");
+  return {word == "headlight" ? word : word + " degrees", Light{*angle, distance}};
+}
 
 std::vector<double> preview_alphas(const Domain& domain) {
   constexpr int kCount = 4;
@@ -253,82 +339,23 @@ std::vector<double> preview_alphas(const Domain& domain) {
 }
 
 Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOptions& wanted) {
-  require_options(wanted);
   PreviewOptions options = wanted;
-  fill(fit.domain, &options);
-  const auto scale = parse_number(comment(fit, kLightScaleComment));
-  const End source = make_end(renderer, fit, "source", fit.source, scale.value_or(1.0));
-  const End target = make_end(renderer, fit, "target", fit.target, 1.0);
-  constexpr std::size_t kRowsAShape = 3;
-  const int side = options.resolution;
-  Preview preview;
-  preview.specular = options.specular;
-  preview.sheet = contact_sheet(kRowsAShape * options.shapes.size(), options.alphas.size(), side);
-  for (std::size_t s = 0; s < options.shapes.size(); ++s) {
-    const Scene scene{side, options.samples_per_axis, options.light, 0, options.shapes[s]};
-    for (const std::string& row : {"source\n" + fit.source.model, "conversion\n" + fit.target.model,
-                                   "difference x " + short_number(kDifferenceGain)})
-      preview.labels.rows.push_back(shape_name(scene.shape) + "\n" + row);
-    const std::vector<std::uint32_t> pixels = shape_pixels(scene.shape, side);
-    for (std::size_t a = 0; a < options.alphas.size(); ++a) {
-      PreviewFigure figure{converted(fit, options.specular, options.alphas[a]), scene.shape};
-      if (s == 0) preview.labels.columns.push_back(numbers_label(options.specular, figure));
-      const Colors before =
-          photograph(renderer, source, material_of(source, figure.alpha, options.specular), scene, pixels);
-      const Colors after = photograph(
-          renderer, target, material_of(target, figure.target_alpha, figure.target_specular), scene, pixels);
-      figure.ssim = sphere_similarity(displayed_colors(before, pixels, side),
-                                      displayed_colors(after, pixels, side), pixels, side);
-      figure.rms = rms_difference(before, after);
-      place_picture(&preview.sheet, side, kRowsAShape * s, a, pixels, before);
-      place_picture(&preview.sheet, side, kRowsAShape * s + 1, a, pixels, after);
-      place_picture(&preview.sheet, side, kRowsAShape * s + 2, a, pixels, difference(before, after));
-      preview.figures.push_back(std::move(figure));
-    }
-  }
-  return preview;
-}
-
-Environment environment_for_preview(const std::string& name_or_file, double exposure) {
-  if (!(exposure > 0.0))
-    throw Error(ErrorKind::kUsage, "--exposure: " + number_text(exposure) + " is not above 0");
-  std::vector<Environment> known = builtin_environments();
-  const auto found = std::ranges::find(known, name_or_file, &Environment::name);
-  if (found == known.end() && !std::filesystem::exists(name_or_file))
-    throw Error(ErrorKind::kUsage, "--environment: unknown environment '" + name_or_file + "' (choose " +
-                                       environment_names(known) + ", or name an EXR or HDR file)");
-  Environment environment = found == known.end() ? load_environment(name_or_file) : *found;
-  const double scale = exposure / mean_luminance(environment);
-  return exposed(std::move(environment), scale);
-}
-
-LitPreview make_lit_preview(const Fit& fit, const Environment& environment, const LitPreviewOptions& wanted) {
-  for (const ModelSide* side : {&fit.source, &fit.target})
-    if (const std::vector<ModelDescription> known = make_builtin_renderer()->models();
-        std::ranges::none_of(known, [&](const ModelDescription& own) { return own.name == side->model; }))
-      throw Error(ErrorKind::kUsage, "--environment: shows models of the built-in renderer only, and " +
-                                         side->model +
-                                         " is none (leave it out: a light shows models of workers, too)");
-  LitPreviewOptions options = wanted;
-  fill(fit.domain, &options);
+  if (options.alphas.empty()) options.alphas = preview_alphas(fit.domain);
+  if (options.specular.empty()) options.specular = {0.5 * fit.domain.specular.max};
   require_options(options);
-  LitPreview preview{
-      options.specular,
-      {},
-      contact_sheet(options.alphas.size(), kColumns, cell_of(options)),
-      {{"source\n" + fit.source.model, "copied\n" + fit.target.model, "converted\n" + fit.target.model}, {}}};
-  const RadiancePyramid pyramid(std::span(&environment, 1));
-  SphereSampling sampling;
-  sampling.resolution = options.resolution * options.samples_per_axis;
-  sampling.samples = options.directions;
-  for (const double alpha : options.alphas) {
-    preview.figures.push_back({converted(fit, options.specular, alpha), {}, {}});
-    preview.labels.rows.push_back(numbers_label(options.specular, preview.figures.back()));
-    const SpherePictures pictures =
-        render_spheres(pyramid, materials_of(fit, options, preview.figures.back()), sampling);
-    show_row(pictures, options, preview.figures.size() - 1, &preview);
+  SheetFiller sheet(fit, options);
+  for (const PreviewLight& light : options.lights) {
+    if (const auto* environment = std::get_if<Environment>(&light.light)) {
+      if (std::ranges::find(options.shapes, Shape::kSphere) == options.shapes.end())
+        throw Error(ErrorKind::kUsage,
+                    "--light " + light.name + ": lights spheres only (add --shape sphere)");
+      sheet.add_rows(light.name, Shape::kSphere, EnvironmentStudio(fit, options, *environment));
+      continue;
+    }
+    const LampStudio studio(renderer, fit, options, std::get<Light>(light.light));
+    for (const Shape shape : options.shapes) sheet.add_rows(light.name, shape, studio);
   }
-  return preview;
+  return sheet.result();
 }
 
 }  // namespace remap

@@ -1,10 +1,10 @@
-// Previews a conversion. Under a light: the source and the converted material side by side, on several shapes
-// and at alphas that may differ from those of the sweep. Under an environment: the source, the target with
-// the numbers of the source, and the target with converted numbers. Copying the numbers is what a conversion
-// competes with.
+// Previews a conversion: under each light, the source, the target with the numbers of the source, and the
+// target with converted numbers, on several shapes and at alphas that may differ from those of the sweep.
+// Copying the numbers is what a conversion competes with.
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "lower/fit.hpp"
@@ -14,82 +14,62 @@
 
 namespace remap {
 
-// The materials and pictures of a preview.
-struct PreviewMaterials {
+// A point light, or an environment, which lights spheres of the built-in renderer only.
+struct PreviewLight {
+  std::string name;
+  std::variant<Light, Environment> light;
+};
+
+// `headlight` or degrees from the camera, -180 to 180, at `distance` in radii of the sphere; sky, overcast,
+// studio or a file (EXR, HDR), whose mean luminance becomes `exposure` (> 0). Throws kUsage, and kInput as
+// load_environment does.
+PreviewLight preview_light(const std::string& word, double distance, double exposure);
+
+struct PreviewOptions {
+  std::vector<PreviewLight> lights;
+  std::vector<Shape> shapes = {Shape::kSphere, Shape::kTorus};
   std::vector<double> alphas;    // of the source, canonical; empty: preview_alphas()
   std::vector<double> specular;  // of the source, in the fit's unit: one value, or red, green, blue; empty:
                                  // half of the domain
+  double diffuse = 0.0;          // reflectance of a Lambertian lobe that all pictures have, 0 to 1
   int resolution = 256;          // width and height of each picture, pixels
   int samples_per_axis = 2;      // N x N samples in each pixel
+  int directions = 512;          // of an environment's light, for each sample
 };
 
-struct PreviewOptions : PreviewMaterials {
-  std::vector<Shape> shapes = {Shape::kSphere, Shape::kTorus};
-  Light light{45.0, 3.0};
+// How far a picture is from the source's, in display values (sRGB) over the pixels that show the shape. Under
+// a point light, a white diffuse surface facing it where it is nearest is white.
+struct PreviewSimilarity {
+  double ssim = 0.0;  // of luma, 1 for equal pictures
+  double rms = 0.0;   // over red, green and blue
 };
 
-struct LitPreviewOptions : PreviewMaterials {
-  double diffuse = 0.0;  // reflectance of a Lambertian lobe that all spheres have, 0 to 1
-  int directions = 512;  // light directions for each sample
-};
-
-// One source material and its conversion.
-struct PreviewedMaterial {
+// One source material, shown in three pictures.
+struct PreviewFigure {
+  std::string light;
+  Shape shape = Shape::kSphere;
   double alpha = 0.0;                   // of the source
   double target_alpha = 0.0;            // canonical
   std::vector<double> target_specular;  // in the fit's unit
   bool in_domain = true;                // of the fit
-};
-
-// One pair of pictures. The figures are computed from display values (sRGB) over the pixels that show the
-// shape. The exposure shows a white diffuse surface, facing the light where it is nearest, as white.
-struct PreviewFigure : PreviewedMaterial {
-  Shape shape = Shape::kSphere;
-  double ssim = 0.0;  // of luma
-  double rms = 0.0;   // over red, green and blue
-};
-
-// How far one picture is from the source's, in display values (sRGB) over the pixels that show the sphere.
-struct LitSimilarity {
-  double ssim = 0.0;  // of luma, 1 for equal pictures
-  double rms = 0.0;   // of red, green and blue
-};
-
-struct LitFigure : PreviewedMaterial {
-  LitSimilarity copied, converted;
+  PreviewSimilarity copied, converted;
 };
 
 struct Preview {
   std::vector<double> specular;        // of the source, as rendered
-  std::vector<PreviewFigure> figures;  // by shape, then alpha
-  // One column for each alpha; for each shape one row of the source, one of the conversion and one of four
-  // times their difference.
-  Image sheet;
-  SheetLabels labels;  // models, and the numbers of source and conversion
+  std::vector<PreviewFigure> figures;  // by light, then shape, then alpha
+  Image sheet;  // a row for each figure; columns: source, numbers copied, numbers converted; a margin of a
+                // twentieth of the resolution around each picture
+  SheetLabels labels;
 };
 
 // Four alphas in a geometric sequence over the part of 0.1 to 0.7 that the domain covers.
 std::vector<double> preview_alphas(const Domain& domain);
 
-// Renders the preview. The source's pictures are multiplied by the factor between the light of the two
-// renderers that the fit's table states. Throws kUsage for models that `renderer` does not have, invalid
-// values, and without shapes.
+// The source's pictures are multiplied by the factor between the light of the two renderers that the fit's
+// table states. Throws kUsage for models that `renderer` does not have, for an environment without the sphere
+// or with models that are no lobes of the built-in renderer with a scale or F0, for values out of range, and
+// without lights or shapes.
 Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOptions& options);
-
-struct LitPreview {
-  std::vector<double> specular;    // of the source, as rendered
-  std::vector<LitFigure> figures;  // by alpha
-  Image sheet;  // a row for each alpha; columns: source, numbers copied, numbers converted; a margin of a
-                // twentieth of the resolution around each picture
-  SheetLabels labels;
-};
-
-// The built-in environment of this name (sky, overcast, studio), or the one of this file; its mean luminance
-// becomes `exposure` (> 0). Throws kUsage, and kInput as load_environment does.
-Environment environment_for_preview(const std::string& name_or_file, double exposure);
-
-// Both models of `fit` must be lobes of the built-in renderer with a scale or F0: throws kUsage otherwise,
-// and for values out of range.
-LitPreview make_lit_preview(const Fit& fit, const Environment& environment, const LitPreviewOptions& options);
 
 }  // namespace remap
