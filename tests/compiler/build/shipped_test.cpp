@@ -94,13 +94,13 @@ TEST_CASE("shipped: every ordered pair of the hub, and the models that are reach
     CHECK(others.count(pair) == 1);
 }
 
-// Tables of real renderers are less smooth: clamped widths, lookup tables in shaders, half floats.
-TEST_CASE(
-    "shipped: fits follow their tables to 2e-3 in alpha, of real renderers 2.5e-3, and 1 % in specular") {
+// Tables of real renderers are less smooth: clamped widths, lookup tables in shaders, half floats, lobes
+// whose peak is at most 1.
+TEST_CASE("shipped: fits follow their tables to 2e-3 in alpha, of real renderers 3e-3, and 1 % in specular") {
   for (const Fit& fit : shipped()) {
     if (!is_measured(fit)) continue;
     INFO(fit.id);
-    const double allowed = of_hub(fit) ? 2e-3 : 2.5e-3;
+    const double allowed = of_hub(fit) ? 2e-3 : 3e-3;
     CHECK(fit.alpha_error.rms <= allowed);
     CHECK(fit.split.held_out_rows >= (of_hub(fit) ? 20 : 15));
     const std::string bytes = read_file(kFits / "tables" / fit.table.name);
@@ -136,7 +136,8 @@ TEST_CASE(
       ++below_limits;
       INFO(alpha << " " << specular);
       CHECK(evaluate_fit(fit, alpha * 1.01, specular).alpha > texel.alpha);
-      if (texel.specular > 0.0) CHECK(evaluate_fit(fit, alpha, specular + 0.01).specular > texel.specular);
+      if (texel.specular > 0.0 && texel.specular != fit.regimes.specular_limit)
+        CHECK(evaluate_fit(fit, alpha, specular + 0.01).specular > texel.specular);
     });
     CHECK(below_limits > 0);
   }
