@@ -62,7 +62,6 @@ class MaterialTextures {
 
  private:
   void require_one_grid(const UsedTexture& first, const UsedTexture& other, const GridReason& reason) const;
-  PngEffort effort() const { return options_.compacts ? PngEffort::kSmallest : PngEffort::kFast; }
   void enlarge(const std::vector<UsedTexture*>& textures) const;
   void resample(UsedTexture& texture, const TextureGrid& grid) const;
 

@@ -173,8 +173,8 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
   AssetConversion conversion;
   conversion.warnings = scene.warnings;
   GltfBuffer buffer;
-  GltfTextures textures(resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles, buffer,
-                        conversion);
+  GltfTextures textures(options, resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles,
+                        buffer, conversion);
   MtlLibraries libraries(resources);
   libraries.read(scene.libraries, conversion.warnings);
   for (const std::string& path : libraries.image_paths()) textures.take(path);

@@ -51,7 +51,7 @@ std::size_t GltfTextures::add_file(MtlImages& images, const MtlMap& map, std::ve
 std::size_t GltfTextures::add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
                                      std::string_view suffix) {
   const std::string path = names_.free_name(images.place_of(model.file).value_or("material"), suffix);
-  std::string png = resources_.codec().encode_png(pixels, PngEffort::kFast);
+  std::string png = resources_.codec().encode_png(pixels, png_level_);
   if (place_ == NewImagePlace::kBuffer) return add_bytes(std::move(png), "image/png", path);
   conversion_.files.push_back({path, std::move(png)});
   return add_uri(path);

@@ -24,9 +24,10 @@ enum class NewImagePlace {
 class GltfTextures {
  public:
   // All must outlive it. New files, and resources that stay, are added to `conversion`.
-  GltfTextures(const AssetResources& resources, NewImagePlace place, GltfBuffer& buffer,
-               AssetConversion& conversion)
-      : resources_(resources),
+  GltfTextures(const AssetOptions& options, const AssetResources& resources, NewImagePlace place,
+               GltfBuffer& buffer, AssetConversion& conversion)
+      : png_level_(options.level_of_png()),
+        resources_(resources),
         place_(place),
         buffer_(buffer),
         conversion_(conversion),
@@ -56,6 +57,7 @@ class GltfTextures {
   std::size_t add_bytes(std::string bytes, const char* type, const std::string& path);
   std::size_t add_uri(const std::string& path);
 
+  int png_level_;
   const AssetResources& resources_;
   NewImagePlace place_;
   GltfBuffer& buffer_;

@@ -33,7 +33,7 @@ class MtlFuzzResources final : public remap::AssetResources, public remap::Image
   remap::ImagePixels enlarged(const remap::ImagePixels& pixels, std::size_t, std::size_t) const override {
     return pixels;
   }
-  std::string encode_png(const remap::ImagePixels& pixels, remap::PngEffort) const override {
+  std::string encode_png(const remap::ImagePixels& pixels, int) const override {
     return std::string(pixels.bytes.size(), 'x');
   }
   std::string encode_jpeg(const remap::ImagePixels& pixels, int) const override {

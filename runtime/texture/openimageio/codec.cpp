@@ -13,8 +13,6 @@ namespace {
 // An image says its size before its texels are read. More is a mistake or an attack.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
 
-// Of zlib: half the time of the usual 6, and files a tenth larger.
-constexpr int kPngLevel = 3, kSmallestPngLevel = 9;
 constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
 
 constexpr auto kOpaque = decltype(ImagePixels::bytes)::value_type(255);
@@ -76,11 +74,11 @@ class AssetCodec final : public ImageCodec {
     return pixels_of(input.get(), place);
   }
 
-  std::string encode_png(const ImagePixels& pixels, PngEffort effort) const override {
+  std::string encode_png(const ImagePixels& pixels, int level) const override {
     OIIO::ImageSpec spec = spec_of(pixels);
-    spec.attribute("png:compressionLevel", effort == PngEffort::kFast ? kPngLevel : kSmallestPngLevel);
+    spec.attribute("png:compressionLevel", level);
     std::string bytes = encoded(pixels, spec, "png");
-    if (effort == PngEffort::kFast) return bytes;
+    if (level < kSmallestPngLevel) return bytes;
     // Images of few values are smaller without filters.
     spec.attribute("png:filter", kNoPngFilter);
     std::string other = encoded(pixels, spec, "png");
