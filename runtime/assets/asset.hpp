@@ -87,10 +87,8 @@ struct AssetOptions {
   // Quality, 1 to 100, of new images of color: JPEG, unless they have alpha or come from a map of color that
   // is none. None for PNG.
   std::optional<int> jpeg_quality = std::nullopt;
-  std::optional<int> png_level =
-      std::nullopt;  // of new images; none for the usual, the smallest with `compacts`
-
-  int level_of_png() const { return png_level.value_or(compacts ? kSmallestPngLevel : kUsualPngLevel); }
+  // Level of new PNG images. None for the usual, the smallest where `compacts` applies.
+  std::optional<int> png_level = std::nullopt;
 };
 
 enum class MaterialState {

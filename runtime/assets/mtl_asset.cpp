@@ -256,7 +256,7 @@ class MtlEditor {
                                                                          : surface.diffuse_map;
     const std::string name = names_.free_name(images_.place_of(model->file).value_or("material"), suffix);
     conversion_.files.push_back(
-        {name, images_.resources().codec().encode_png(pixels, options_.level_of_png())});
+        {name, images_.resources().codec().encode_png(pixels, options_.png_level.value_or(kUsualPngLevel))});
     return name;
   }
 

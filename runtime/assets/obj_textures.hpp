@@ -26,7 +26,7 @@ class GltfTextures {
   // All must outlive it. New files, and resources that stay, are added to `conversion`.
   GltfTextures(const AssetOptions& options, const AssetResources& resources, NewImagePlace place,
                GltfBuffer& buffer, AssetConversion& conversion)
-      : png_level_(options.level_of_png()),
+      : png_level_(options.png_level.value_or(kUsualPngLevel)),
         resources_(resources),
         place_(place),
         buffer_(buffer),
