@@ -323,7 +323,7 @@ class StoredByNode final : public StoredImage {
   int followed_width_ = 0, followed_height_ = 0;
 };
 
-constexpr int kUsualPngLevel = 6, kBestQuality = 100;
+constexpr int kLevelOfNewPng = 6, kBestQuality = 100;
 
 std::string name_of_type(PixelType type) { return std::string(name_of(kPixelTypes, type)); }
 
@@ -436,11 +436,8 @@ class NewByNode final : public NewImage {
   ImageLayout layout_;
   std::vector<PngChunk> chunks_;
   ImagePixels pixels_;
-  int level_ = kUsualPngLevel;
+  int level_ = kLevelOfNewPng;
 };
-
-// Of zlib, as in the programs.
-constexpr int kFastPngLevel = 3, kSmallestPngLevel = 9;
 
 class NodeCodec final : public ImageCodec {
  public:
@@ -448,9 +445,8 @@ class NodeCodec final : public ImageCodec {
     if (format_of(bytes).empty()) throw input_error(place + ": " + refusal_of(bytes));
     return decoded(bytes, place);
   }
-  std::string encode_png(const ImagePixels& pixels, PngEffort effort) const override {
-    return encoded("png", pixels, effort == PngEffort::kFast ? kFastPngLevel : kSmallestPngLevel,
-                   "png image");
+  std::string encode_png(const ImagePixels& pixels, int level) const override {
+    return encoded("png", pixels, level, "png image");
   }
   std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
     return encoded("jpeg", pixels, quality, "jpg image");

@@ -87,6 +87,8 @@ struct AssetOptions {
   // Quality, 1 to 100, of new images of color: JPEG, unless they have alpha or come from a map of color that
   // is none. None for PNG.
   std::optional<int> jpeg_quality = std::nullopt;
+  // Level of new PNG images. None for the usual, the smallest where `compacts` applies.
+  std::optional<int> png_level = std::nullopt;
 };
 
 enum class MaterialState {
@@ -142,12 +144,12 @@ struct AssetResource {
 
 struct AssetConversion {
   std::vector<AssetMaterial> materials;
-  std::vector<std::string> warnings;     // of the file
-  std::string text;                      // of the materials, edited; as it was where nothing was converted
-  std::vector<TextSpan> touched;         // bytes of the text that were replaced or removed
-  bool changed = false;                  // whether a material was converted
-  std::vector<AssetPiece> pieces;        // of the converted file; empty where nothing was converted
-  std::vector<NewResource> files;        // new images
+  std::vector<std::string> warnings;  // of the file
+  std::string text;                   // of the materials, edited, as UTF-8; as it was where nothing changed
+  std::vector<TextSpan> touched;      // bytes of the text that were replaced or removed
+  bool changed = false;               // whether a material was converted
+  std::vector<AssetPiece> pieces;     // of the converted file; empty where nothing was converted
+  std::vector<NewResource> files;     // new images
   std::vector<AssetResource> resources;  // that the asset names, each path once, in the order of the text
 
   std::size_t count(MaterialState state) const { return count_of(materials, state); }

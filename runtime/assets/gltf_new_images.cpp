@@ -52,7 +52,7 @@ std::size_t GltfNewImages::add_image(const ImagePixels& pixels, std::size_t mode
   const ImageCodec& codec = resources_.codec();
   const std::optional<int> quality = coding.jpeg_quality;
   new_images_.push_back(
-      {quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.effort),
+      {quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.png_level),
        quality ? kJpeg : kPng, model, std::string(suffix)});
   return new_images_.size() - 1;
 }
@@ -197,8 +197,8 @@ GltfNewImages::Location GltfNewImages::cheapest_location() const {
   const auto is_short = [](const Location& location) { return location.back().first == "mimeType"; };
   if (const auto found = std::ranges::find_if(locations_, is_short); found != locations_.end()) return *found;
   const ImagePixels texel{1, 1, 1, PixelType::kUint8, std::vector<std::byte>(1)};
-  return {{"uri", "\"data:image/png;base64," +
-                      base64(resources_.codec().encode_png(texel, PngEffort::kFast)) + "\""}};
+  return {{"uri",
+           "\"data:image/png;base64," + base64(resources_.codec().encode_png(texel, kUsualPngLevel)) + "\""}};
 }
 
 // Spare places that no new image took: an image must have bytes and a view must have one, so they share

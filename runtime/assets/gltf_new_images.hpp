@@ -23,7 +23,7 @@ namespace remap {
 
 struct ImageCoding {
   std::optional<int> jpeg_quality = std::nullopt;  // none for PNG
-  PngEffort effort = PngEffort::kFast;
+  int png_level = kUsualPngLevel;
 };
 
 class GltfNewImages {

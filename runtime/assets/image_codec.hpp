@@ -28,18 +28,17 @@ inline std::string size_text(const ImagePixels& pixels) {
   return std::to_string(pixels.width) + "x" + std::to_string(pixels.height);
 }
 
-enum class PngEffort {
-  kFast,      // half the time of the usual, and a tenth larger
-  kSmallest,  // the smallest of several tries
-};
+// Levels of zlib for PNG files: half the time of 6, which is usual elsewhere, and files a tenth larger; and
+// the smallest of several tries.
+inline constexpr int kUsualPngLevel = 3, kSmallestPngLevel = 9;
 
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
   // Palettes are expanded. Throws kInput, beginning with `place`, for bytes that are no image that it reads.
   virtual ImagePixels decode(std::string_view bytes, const std::string& place) const = 0;
-  // A PNG file. Throws kOutput.
-  virtual std::string encode_png(const ImagePixels& pixels, PngEffort effort) const = 0;
+  // A PNG file. `level`: 1 (fast) to 9 (small). Throws kOutput.
+  virtual std::string encode_png(const ImagePixels& pixels, int level) const = 0;
   // A JPEG file, of 8 bits and without alpha. `quality`: 1 to 100. Throws kOutput.
   virtual std::string encode_jpeg(const ImagePixels& pixels, int quality) const = 0;
 };

@@ -244,6 +244,20 @@ void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& fr
   }
 }
 
+ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, bool with_alpha) {
+  ImagePixels result = pixels;
+  const std::size_t count = pixels.channels - (pixels.has_alpha() && !with_alpha ? 1 : 0);
+  FloatRow row(pixels.width);
+  for (std::size_t y = 0; y < pixels.height; ++y)
+    for (std::size_t c = 0; c < count; ++c) {
+      load_channel(pixels, c, y, row.data());
+      for (float& value : row)
+        value = static_cast<float>(std::clamp(base + gain * static_cast<double>(value), 0.0, 1.0));
+      store_channel(result, c, y, row.data());
+    }
+  return result;
+}
+
 ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, char channel) {
   ImagePixels result = blank_like(color != nullptr ? *color : *opacity, opacity != nullptr ? 4 : 3);
   FloatRow row(result.width);

@@ -40,6 +40,11 @@ ImagePixels channel_of(const ImagePixels& pixels, std::size_t channel);
 // of `opacity` (load_scalar_row()). One of them may be null; both have one size.
 ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, char channel);
 
+// The values of a map moved to base + gain x within 0 to 1, as -mm has it: "base adds a base value to the
+// texture values", "gain expands the range of the texture values" (Alias|Wavefront, MTL 4.2, 1995). Values
+// are those that the file stores. Alpha moves where `with_alpha`.
+ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, bool with_alpha);
+
 // Replaces a channel by one of a map of the same size (load_scalar_row()).
 void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
 

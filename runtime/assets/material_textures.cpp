@@ -107,12 +107,12 @@ std::size_t MaterialTextures::add_color(const ImagePixels& pixels, const UsedTex
   const bool is_exact =
       pixels.has_alpha() || pixels.type != PixelType::kUint8 || (color && !color->image.is_jpeg);
   return new_images_.add_image(pixels, model.image.image, suffix,
-                               {is_exact ? std::nullopt : options_.jpeg_quality, effort()});
+                               {is_exact ? std::nullopt : options_.jpeg_quality, png_level()});
 }
 
 std::size_t MaterialTextures::add_data(const ImagePixels& pixels, const UsedTexture& model,
                                        std::string_view suffix) {
-  return new_images_.add_image(pixels, model.image.image, suffix, {std::nullopt, effort()});
+  return new_images_.add_image(pixels, model.image.image, suffix, {std::nullopt, png_level()});
 }
 
 TextureText MaterialTextures::text_of(const UsedTexture& model, std::size_t image) {

@@ -62,7 +62,9 @@ class MaterialTextures {
 
  private:
   void require_one_grid(const UsedTexture& first, const UsedTexture& other, const GridReason& reason) const;
-  PngEffort effort() const { return options_.compacts ? PngEffort::kSmallest : PngEffort::kFast; }
+  int png_level() const {
+    return options_.png_level.value_or(options_.compacts ? kSmallestPngLevel : kUsualPngLevel);
+  }
   void enlarge(const std::vector<UsedTexture*>& textures) const;
   void resample(UsedTexture& texture, const TextureGrid& grid) const;
 

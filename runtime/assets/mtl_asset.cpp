@@ -15,6 +15,7 @@
 #include "assets/mtl_images.hpp"
 #include "assets/mtl_material.hpp"
 #include "assets/specgloss_material.hpp"
+#include "assets/text_encoding.hpp"
 #include "assets/text_splices.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -62,12 +63,14 @@ class BlockEditor {
     const std::array<double, 3> white = {1.0, 1.0, 1.0};
     const bool has_own_base = !result.base_file.empty();
     write_diffuse(has_own_base ? white : result.base);
-    if (surface_.diffuse_map && has_own_base)
+    if (surface_.diffuse_map && has_own_base) {
       splices_.push_back({surface_.diffuse_map->name, result.base_file});
-    else if (surface_.diffuse_map && !result.keeps_map)
+      for (const TextSpan levels : surface_.diffuse_map->levels) splices_.push_back({levels, ""});
+    } else if (surface_.diffuse_map && !result.keeps_map) {
       remove(surface_.diffuse_map->statement);
-    else if (has_own_base)
+    } else if (has_own_base) {
       add("map_Kd " + options() + result.base_file);
+    }
     add("Pr " + (result.roughness_file.empty() ? float_text_of(result.roughness) : "1"));
     add("Pm " + (result.metallic_file.empty() ? float_text_of(result.metallic) : "1"));
     if (!result.roughness_file.empty()) add("map_Pr " + options() + result.roughness_file);
@@ -173,7 +176,6 @@ class MtlEditor {
     conversion_.text = spliced(document_.text(), splices_);
     conversion_.touched = touched_by(splices_);
     conversion_.changed = conversion_.count(MaterialState::kConverted) > 0;
-    if (conversion_.changed) conversion_.pieces.push_back({conversion_.text, 0, 0});
     return std::move(conversion_);
   }
 
@@ -253,7 +255,8 @@ class MtlEditor {
                                          : surface.exponent_map          ? surface.exponent_map
                                                                          : surface.diffuse_map;
     const std::string name = names_.free_name(images_.place_of(model->file).value_or("material"), suffix);
-    conversion_.files.push_back({name, images_.resources().codec().encode_png(pixels, PngEffort::kFast)});
+    conversion_.files.push_back(
+        {name, images_.resources().codec().encode_png(pixels, options_.png_level.value_or(kUsualPngLevel))});
     return name;
   }
 
@@ -287,7 +290,7 @@ std::string mtl_text(const ByteSource& source, const std::string& place) {
   if (source.size() > kLongestMtl)
     throw input_error(place + ": has " + std::to_string(source.size()) + " bytes; at most " +
                       std::to_string(kLongestMtl) + " are read");
-  return source.read(0, static_cast<std::size_t>(source.size()));
+  return utf8_text(source, place);
 }
 
 std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& place,
@@ -302,7 +305,10 @@ AssetConversion convert_mtl(const ByteSource& source, const std::string& place, 
                             const AssetResources* resources) {
   const std::string text = mtl_text(source, place);
   const MtlDocument document(text, place);
-  return MtlEditor(document, options, resources).result();
+  AssetConversion conversion = MtlEditor(document, options, resources).result();
+  if (conversion.changed)
+    conversion.pieces.push_back({encoded(conversion.text, encoding_of(source), place), 0, 0});
+  return conversion;
 }
 
 }  // namespace remap

@@ -9,9 +9,9 @@
 namespace remap {
 
 // Adds metallic and roughness (Pr, Pm and their maps, as later tools know them) to each material that has
-// none, and makes Kd the base color. All other lines stay byte for byte, Ks and Ns for older readers. Images
-// are relative to the folder of the file. Throws kInput, beginning with `place`, for a text that cannot be
-// read. Without `resources`, materials whose maps must be read fail.
+// none, and makes Kd the base color. All other lines stay byte for byte, Ks and Ns for older readers; UTF-16
+// stays UTF-16. Images are relative to the folder of the file. Throws kInput, beginning with `place`, for a
+// text that cannot be read. Without `resources`, materials whose maps must be read fail.
 AssetConversion convert_mtl(const ByteSource& source, const std::string& place,
                             const AssetOptions& options = {}, const AssetResources* resources = nullptr);
 
@@ -20,7 +20,8 @@ AssetConversion convert_mtl(const ByteSource& source, const std::string& place,
 std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& place,
                                          const AssetResources* resources = nullptr);
 
-// The text of an MTL file. Throws kInput, beginning with `place`, for one that is too long.
+// The text of an MTL file as UTF-8. Throws kInput, beginning with `place`, for one that is too long, and for
+// UTF-16 with half a character.
 std::string mtl_text(const ByteSource& source, const std::string& place);
 
 // A word that names an image: map_Kd, bump, norm and the like, in lower case.

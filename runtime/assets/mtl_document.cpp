@@ -8,17 +8,9 @@
 namespace remap {
 namespace {
 
-constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf", kMarkOfBigUtf16 = "\xfe\xff",
-                           kMarkOfLittleUtf16 = "\xff\xfe";
+constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf";
 
 }  // namespace
-
-// Without a mark, every other byte of a text in English is 0.
-bool is_utf16(std::string_view text) {
-  return text.starts_with(kMarkOfBigUtf16) || text.starts_with(kMarkOfLittleUtf16) ||
-         (text.size() >= 4 && (text[0] == '\0') != (text[1] == '\0') &&
-          (text[0] == '\0') == (text[2] == '\0') && (text[1] == '\0') == (text[3] == '\0'));
-}
 
 std::string in_lower_case(std::string_view text) {
   std::string result(text);
@@ -28,7 +20,6 @@ std::string in_lower_case(std::string_view text) {
 }
 
 MtlDocument::MtlDocument(std::string_view text, const std::string& place) : text_(text) {
-  if (is_utf16(text)) throw input_error(place + ": is UTF-16 text (save it as UTF-8)");
   if (text.size() > kLongestMtl)
     throw input_error(place + ": has " + std::to_string(text.size()) + " bytes; at most " +
                       std::to_string(kLongestMtl) + " are read");

@@ -30,7 +30,7 @@ struct MtlBlock {
 
 class MtlDocument {
  public:
-  // `text` must outlive it. Throws kInput, beginning with `place`, for UTF-16 and beyond the limits above.
+  // `text` must outlive it. Throws kInput, beginning with `place`, beyond the limits above.
   MtlDocument(std::string_view text, const std::string& place);
 
   std::string_view text() const noexcept { return text_; }
@@ -61,9 +61,6 @@ class MtlDocument {
   std::vector<MtlStatement> statements_;
   std::vector<MtlBlock> materials_;
 };
-
-// Whether a text is UTF-16, with a byte order mark or by its zeros.
-bool is_utf16(std::string_view text);
 
 // ASCII letters in lower case.
 std::string in_lower_case(std::string_view text);

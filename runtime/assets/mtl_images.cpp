@@ -145,7 +145,9 @@ std::string MtlImages::require(const MtlMap& map, std::vector<std::string>& warn
 }
 
 std::shared_ptr<const ImagePixels> MtlImages::load(const MtlMap& map, std::vector<std::string>& warnings) {
-  return load(require(map, warnings));
+  const std::shared_ptr<const ImagePixels> pixels = load(require(map, warnings));
+  if (!map.has_levels()) return pixels;
+  return std::make_shared<const ImagePixels>(with_levels(*pixels, map.base, map.gain, !map.is_color));
 }
 
 bool is_there(const AssetResources& resources, const std::string& path) {

@@ -45,7 +45,7 @@ class MtlImages {
   std::shared_ptr<const ImagePixels> load(const std::string& path);
   // find(). Throws kInput, naming the map, where it is missing or has options that change what it looks like.
   std::string require(const MtlMap& map, std::vector<std::string>& warnings);
-  // A map of a surface: require() and load().
+  // A map of a surface: require() and load(), with its -mm.
   std::shared_ptr<const ImagePixels> load(const MtlMap& map, std::vector<std::string>& warnings);
   const AssetResources& resources() const { return *resources_; }
   const std::string& folder() const noexcept { return folder_; }

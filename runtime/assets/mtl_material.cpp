@@ -41,7 +41,7 @@ class MapReader {
       : document_(document), words_(document.words(document.statements()[statement])) {
     constexpr std::array<std::string_view, 4> kColors = {"map_ka", "map_kd", "map_ke", "map_ks"};
     const std::string word = document.word(document.statements()[statement]);
-    is_color_ = std::ranges::find(kColors, word) != kColors.end();
+    map_.is_color = std::ranges::find(kColors, word) != kColors.end();
     map_.statement = statement;
     const std::size_t end = document.statements()[statement].arguments.end;
     map_.name = {end, end};
@@ -60,6 +60,7 @@ class MapReader {
     is_named_ = true;
     while (at_ < words_.size())
       if (!read_option()) ++at_;
+    if (!words_.empty()) map_.options += document_.raw({map_.name.end, words_.back().end});
     MtlStatement name;
     name.arguments = map_.name;
     map_.file = document_.rest(name);
@@ -76,7 +77,7 @@ class MapReader {
   bool read_option() {
     const MapOption* const option = option_at(at_);
     if (option == kMapOptions.end()) return false;
-    ++at_;
+    const std::size_t begin = words_[at_++].begin;
     if (option->arguments == OptionArguments::kWord) {
       if (at_ < words_.size()) apply_word(option->name, in_lower_case(document_.raw(words_[at_++])));
       return true;
@@ -91,6 +92,8 @@ class MapReader {
       ++at_;
     }
     apply_numbers(option->name, numbers);
+    if (option->name == "-mm")
+      map_.levels.push_back({begin, at_ < words_.size() ? words_[at_].begin : words_.back().end});
     return true;
   }
 
@@ -98,7 +101,7 @@ class MapReader {
     if (option == "-clamp") map_.clamps = word == "on";
     if (option == "-imfchan" && !word.empty()) map_.channel = word.front();
     const bool changes_values = (option == "-cc" && word == "on") ||
-                                (option == "-colorspace" && word != (is_color_ ? "srgb" : "linear"));
+                                (option == "-colorspace" && word != (map_.is_color ? "srgb" : "linear"));
     if (changes_values) map_.unusual.push_back(std::string(option) + " " + plain(word, 40));
   }
 
@@ -108,17 +111,16 @@ class MapReader {
       if (option == "-o") map_.offset[i] = numbers[i];
     }
     if (option == "-bm" && !numbers.empty()) map_.strength = numbers.front();
-    const bool has_effect =
-        (option == "-t" && std::ranges::any_of(numbers, [](double number) { return number != 0.0; })) ||
-        (option == "-mm" && !numbers.empty() &&
-         (numbers[0] != 0.0 || (numbers.size() > 1 && numbers[1] != 1.0)));
-    if (has_effect) map_.unusual.push_back(std::string(option));
+    if (option == "-mm" && !numbers.empty()) map_.base = numbers[0];
+    if (option == "-mm" && numbers.size() > 1) map_.gain = numbers[1];
+    if (option == "-t" && std::ranges::any_of(numbers, [](double number) { return number != 0.0; }))
+      map_.unusual.push_back(std::string(option));
   }
 
   const MtlDocument& document_;
   std::vector<TextSpan> words_;
   std::size_t at_ = 0;
-  bool is_color_ = false, is_named_ = false;
+  bool is_named_ = false;
   MtlMap map_;
 };
 

@@ -21,17 +21,22 @@ struct MtlMap {
   std::size_t statement = 0;  // index
   TextSpan name;              // in the text
   std::string file;           // the name with '/' between folders; may hold spaces; may be empty
-  std::string options;        // as they are written before the name
+  std::string options;        // as they are written before and after the name
   std::array<double, 2> scale = {1.0, 1.0}, offset = {0.0, 0.0};  // -s and -o: u and v
   double strength = 1.0;                                          // -bm
   bool clamps = false;                                            // -clamp on
   char channel = '\0';                                            // -imfchan; 0 where it is not said
+  double base = 0.0, gain = 1.0;     // -mm: base + gain times a stored value, kept within 0 to 1
+  std::vector<TextSpan> levels;      // where -mm stands, with the white space behind it
+  bool is_color = false;             // else all channels are values, alpha among them
   std::vector<std::string> unusual;  // options that change what it looks like, and are not applied
 
   // Whether it lies in the same place on the surface.
   bool lies_like(const MtlMap& other) const {
     return scale == other.scale && offset == other.offset && clamps == other.clamps;
   }
+  // Whether it is other values than its file has.
+  bool has_levels() const { return base != 0.0 || gain != 1.0; }
 };
 
 // The file of a statement that names one. Options may also follow the name, as some tools write them.

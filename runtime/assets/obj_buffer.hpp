@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/json.hpp"
 
@@ -17,21 +18,34 @@ inline constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 class GltfBuffer {
  public:
   // Appends bytes from a multiple of four. Returns the index of their view.
-  std::size_t add_view(std::string_view bytes, std::optional<int> target = std::nullopt) {
-    bytes_.append((4 - bytes_.size() % 4) % 4, '\0');
-    Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
+  std::size_t add_view(std::string bytes, std::optional<int> target = std::nullopt) {
+    Json view{{"buffer", 0}, {"byteOffset", padded_size()}, {"byteLength", bytes.size()}};
     if (target) view["target"] = *target;
     views_.push_back(std::move(view));
-    bytes_ += bytes;
+    size_ = padded_size() + bytes.size();
+    parts_.push_back(std::move(bytes));
     return views_.size() - 1;
   }
 
-  const std::string& bytes() const noexcept { return bytes_; }
-  std::string& bytes() noexcept { return bytes_; }
+  std::uint64_t size() const noexcept { return size_; }
+  // A multiple of four, as the chunk of a .glb has it.
+  std::uint64_t padded_size() const noexcept { return (size_ + 3) / 4 * 4; }
+  // The bytes, up to `size` of them with zeros; the buffer has them no more. A part goes as it is copied.
+  std::string take(std::uint64_t size) {
+    std::string bytes;
+    bytes.reserve(static_cast<std::size_t>(size));
+    for (std::string& part : parts_) {
+      bytes.append((4 - bytes.size() % 4) % 4, '\0');
+      bytes += std::exchange(part, std::string());
+    }
+    bytes.resize(static_cast<std::size_t>(size));
+    return bytes;
+  }
   const Json& views() const noexcept { return views_; }
 
  private:
-  std::string bytes_;
+  std::vector<std::string> parts_;  // of the views
+  std::uint64_t size_ = 0;
   Json views_ = Json::list();
 };
 

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <set>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "assets/gltf_container.hpp"
@@ -33,11 +32,9 @@ std::string little_endian(std::uint32_t value) {
 }
 
 template <typename Value>
-std::string bytes_of_values(std::span<const Value> values) {
+std::string bytes_of_values(const std::vector<Value>& values) {
   static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
-  std::string bytes(values.size_bytes(), '\0');
-  std::memcpy(bytes.data(), values.data(), values.size_bytes());
-  return bytes;
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
 }
 
 class SceneWriter {
@@ -51,13 +48,13 @@ class SceneWriter {
     Json meshes = Json::list(), nodes = Json::list(), roots = Json::list();
     for (ObjShape& shape : scene_.shapes) {
       Json primitives = Json::list();
-      for (ObjPrimitive& primitive : shape.primitives) primitives.push_back(primitive_of(primitive));
+      for (ObjPrimitive& primitive : shape.primitives)
+        primitives.push_back(primitive_of(std::move(primitive)));
       Json mesh{{"primitives", std::move(primitives)}}, node{{"mesh", meshes.size()}};
       if (!shape.name.empty()) mesh["name"] = node["name"] = utf8_name(shape.name);
       meshes.push_back(std::move(mesh));
       roots.push_back(nodes.size());
       nodes.push_back(std::move(node));
-      shape.primitives.clear();
     }
     if (without_texcoords_ > 0)
       conversion_.warnings.push_back(
@@ -75,25 +72,30 @@ class SceneWriter {
   }
 
  private:
-  Json primitive_of(ObjPrimitive& primitive) {
+  // Values go as they become bytes of the buffer.
+  Json primitive_of(ObjPrimitive primitive) {
+    const std::size_t count = primitive.vertex_count();
     if (primitive.texcoords.empty() && materials_[primitive.material].has_texture) {
-      primitive.texcoords.assign(primitive.vertex_count() * 2, 0.0f);
+      primitive.texcoords.assign(count * 2, 0.0f);
       ++without_texcoords_;
     }
     Json attributes = Json::object();
-    attributes["POSITION"] = add_vertices(primitive.positions, 3, true);
-    if (!primitive.normals.empty()) attributes["NORMAL"] = add_vertices(primitive.normals, 3, false);
-    if (!primitive.texcoords.empty()) attributes["TEXCOORD_0"] = add_vertices(primitive.texcoords, 2, false);
-    if (!primitive.colors.empty()) attributes["COLOR_0"] = add_vertices(primitive.colors, 3, false);
+    attributes["POSITION"] = add_vertices(std::move(primitive.positions), 3, true);
+    if (!primitive.normals.empty())
+      attributes["NORMAL"] = add_vertices(std::move(primitive.normals), 3, false);
+    if (!primitive.texcoords.empty())
+      attributes["TEXCOORD_0"] = add_vertices(std::move(primitive.texcoords), 2, false);
+    if (!primitive.colors.empty())
+      attributes["COLOR_0"] = add_vertices(std::move(primitive.colors), 3, false);
     Json result = Json::object();
     result["attributes"] = std::move(attributes);
-    result["indices"] = add_indices(primitive);
+    result["indices"] = add_indices(std::move(primitive.indices), count);
     result["material"] = primitive.material;
     return result;
   }
 
-  std::size_t add_vertices(const std::vector<float>& values, std::size_t components, bool has_range) {
-    const std::size_t view = buffer_.add_view(bytes_of_values<float>(values), kVertexTarget);
+  std::size_t add_vertices(std::vector<float> values, std::size_t components, bool has_range) {
+    const std::size_t view = buffer_.add_view(bytes_of_values(values), kVertexTarget);
     Json accessor{{"bufferView", view},
                   {"componentType", kFloat},
                   {"count", values.size() / components},
@@ -117,18 +119,18 @@ class SceneWriter {
     return accessors_.size() - 1;
   }
 
-  std::size_t add_indices(const ObjPrimitive& primitive) {
-    const bool is_short = primitive.vertex_count() < kMostShortVertices;
+  std::size_t add_indices(std::vector<std::uint32_t> indices, std::size_t vertex_count) {
+    const bool is_short = vertex_count < kMostShortVertices;
     std::size_t view = 0;
     if (is_short) {
-      const std::vector<std::uint16_t> indices(primitive.indices.begin(), primitive.indices.end());
-      view = buffer_.add_view(bytes_of_values<std::uint16_t>(indices), kIndexTarget);
+      const std::vector<std::uint16_t> short_indices(indices.begin(), indices.end());
+      view = buffer_.add_view(bytes_of_values(short_indices), kIndexTarget);
     } else {
-      view = buffer_.add_view(bytes_of_values<std::uint32_t>(primitive.indices), kIndexTarget);
+      view = buffer_.add_view(bytes_of_values(indices), kIndexTarget);
     }
     accessors_.push_back(Json{{"bufferView", view},
                               {"componentType", is_short ? kUnsignedShort : kUnsignedInt},
-                              {"count", primitive.indices.size()},
+                              {"count", indices.size()},
                               {"type", "SCALAR"}});
     return accessors_.size() - 1;
   }
@@ -145,27 +147,20 @@ void add_list(Json& file, const char* name, Json list) {
   if (!list.empty()) file[name] = std::move(list);
 }
 
-std::string obj_text(const ByteSource& obj, const std::string& place) {
-  if (obj.size() > kLongestObj)
-    throw input_error(place + ": has " + std::to_string(obj.size()) + " bytes; at most " +
-                      std::to_string(kLongestObj) + " are read");
-  return obj.read(0, static_cast<std::size_t>(obj.size()));
-}
-
 // The header, the JSON and the binary chunk (glTF 2.0, section 4).
-std::vector<AssetPiece> glb_pieces(std::string json, std::string binary, const std::string& place) {
+std::vector<AssetPiece> glb_pieces(std::string json, GltfBuffer& buffer, const std::string& place) {
   constexpr std::uint64_t kHeader = 12;
   json.append((4 - json.size() % 4) % 4, ' ');
-  binary.append((4 - binary.size() % 4) % 4, '\0');
-  const std::uint64_t size = kHeader + 2 * kChunkHeaderSize + json.size() + binary.size();
+  const std::uint64_t binary = buffer.padded_size(),
+                      size = kHeader + 2 * kChunkHeaderSize + json.size() + binary;
   if (size > std::numeric_limits<std::uint32_t>::max())
     throw output_error(place + ": would have " + std::to_string(size) +
                        " bytes; a .glb holds less than 4 GiB (convert it to .gltf, which has a .bin)");
   const auto number = [](std::uint64_t value) { return little_endian(static_cast<std::uint32_t>(value)); };
   std::vector<AssetPiece> pieces(2);
   pieces[0].bytes = "glTF" + number(2) + number(size) + number(json.size()) + number(kJsonChunk) + json +
-                    number(binary.size()) + number(kBinaryChunk);
-  pieces[1].bytes = std::move(binary);
+                    number(binary) + number(kBinaryChunk);
+  pieces[1].bytes = buffer.take(binary);
   return pieces;
 }
 
@@ -173,13 +168,13 @@ std::vector<AssetPiece> glb_pieces(std::string json, std::string binary, const s
 
 AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, const AssetOptions& options,
                             const AssetResources& resources, const GltfOutput& output) {
-  ObjScene scene = read_obj(obj_text(obj, place), place);
+  ObjScene scene = read_obj(obj, place);
   if (scene.shapes.empty()) throw input_error(place + ": has no faces");
   AssetConversion conversion;
   conversion.warnings = scene.warnings;
   GltfBuffer buffer;
-  GltfTextures textures(resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles, buffer,
-                        conversion);
+  GltfTextures textures(options, resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles,
+                        buffer, conversion);
   MtlLibraries libraries(resources);
   libraries.read(scene.libraries, conversion.warnings);
   for (const std::string& path : libraries.image_paths()) textures.take(path);
@@ -196,21 +191,21 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
   add_list(file, "images", textures.images());
   add_list(file, "samplers", textures.samplers());
   file["bufferViews"] = buffer.views();
-  Json whole{{"byteLength", buffer.bytes().size()}};
+  Json whole{{"byteLength", buffer.size()}};
   const std::string buffer_name = output.name + ".bin";
   if (!output.as_glb) whole["uri"] = uri_of_path(buffer_name);
   file["buffers"] = Json::list({std::move(whole)});
   conversion.text = file.dump();
   conversion.changed = true;
   if (output.as_glb) {
-    conversion.pieces = glb_pieces(conversion.text, std::move(buffer.bytes()), place);
+    conversion.pieces = glb_pieces(conversion.text, buffer, place);
     return conversion;
   }
-  if (buffer.bytes().size() > std::numeric_limits<std::uint32_t>::max())
-    throw output_error(place + ": its buffer would have " + std::to_string(buffer.bytes().size()) +
+  if (buffer.size() > std::numeric_limits<std::uint32_t>::max())
+    throw output_error(place + ": its buffer would have " + std::to_string(buffer.size()) +
                        " bytes; at most 4 GiB are written (split the file)");
   conversion.pieces.push_back({conversion.text, 0, 0});
-  conversion.files.push_back({buffer_name, std::move(buffer.bytes())});
+  conversion.files.push_back({buffer_name, buffer.take(buffer.size())});
   return conversion;
 }
 
@@ -218,7 +213,7 @@ std::vector<AssetResource> obj_resources(const ByteSource& obj, const std::strin
                                          const AssetResources& resources) {
   MtlLibraries libraries(resources);
   std::vector<std::string> ignored;
-  libraries.read(obj_libraries(obj_text(obj, place)), ignored);
+  libraries.read(obj_libraries(obj, place), ignored);
   std::vector<AssetResource> named;
   for (const std::set<std::string>* paths : {&libraries.paths(), &libraries.image_paths()})
     for (const std::string& path : *paths) named.push_back({"", path, UriKind::kFile});

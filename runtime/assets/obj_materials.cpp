@@ -319,7 +319,8 @@ ObjMaterials::ConvertedImages& ObjMaterials::converted_images(Planned& planned,
                                                               const MtlReflection& reflection,
                                                               bool as_dielectric, const MtlMap& data_map) {
   MtlImages& images = planned.library.images;
-  const std::string opacity = planned.cover.opacity_map ? planned.cover.opacity_map->file : "";
+  const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
+  const std::string opacity = opacity_map ? opacity_map->file + '\0' + opacity_map->options : "";
   const std::string key = images.folder() + '\0' + opacity + '\0' + (is_transparent(planned) ? "1" : "0") +
                           key_of(planned.surface, reflection.factors);
   std::shared_ptr<ConvertedImages>& known = converted_[key];
@@ -359,9 +360,10 @@ void ObjMaterials::set_opacity(Planned& planned) {
   if (!planned.blends || planned.base_image != kNoImage || !has_map) return;
   if (planned.base_pixels == nullptr) {
     // Other materials may have the same two files.
-    const std::string key = planned.library.images.folder() + '\0' +
-                            (planned.base_map != nullptr ? planned.base_map->file : "") + '\0' +
-                            (opacity_map ? opacity_map->file + '\0' + opacity_map->options : "");
+    const std::string key =
+        planned.library.images.folder() + '\0' +
+        (planned.base_map != nullptr ? planned.base_map->file + '\0' + planned.base_map->options : "") +
+        '\0' + (opacity_map ? opacity_map->file + '\0' + opacity_map->options : "");
     planned.shared_image = &composed_.try_emplace(key, kNoImage).first->second;
     planned.base_image = *planned.shared_image;
   }

@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <functional>
+#include <istream>
+#include <limits>
 #include <map>
-#include <optional>
-#include <sstream>
-#include <unordered_map>
+#include <streambuf>
+#include <system_error>
 #include <utility>
 
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
-#include "assets/mtl_document.hpp"
+#include "assets/text_encoding.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 #include "core/report_text.hpp"
@@ -20,20 +23,86 @@
 namespace remap {
 namespace {
 
-// Rewrites an OBJ for the importer, which takes names of materials to end at a space and does not join lines:
-// materials become numbers, and lines that are not geometry go.
-class ObjText {
+// Of what the importer takes to triangles at once; it needs a hundred bytes for each.
+constexpr std::size_t kMostFacesOfPart = std::size_t{1} << 14;
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+// The lines of an OBJ file in their order, read in blocks: a word and the rest, without white space around
+// them. A backslash joins lines.
+class ObjLines {
  public:
-  ObjText(std::string_view text, const std::string& place, ObjScene& scene)
-      : text_(text), place_(place), scene_(scene) {
-    materials_.push_back({"", false});
-    result_.reserve(text.size() + 16);
-    result_ += "mtllib materials\n";
+  ObjLines(const ByteSource& source, const std::string& place) : reader_(source, place) {
+    if (source.size() > kLongestObj)
+      throw input_error(place + ": has " + std::to_string(source.size()) + " bytes; at most " +
+                        std::to_string(kLongestObj) + " are read");
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    if (!is_at_end() && block_.starts_with(kMark)) at_ = kMark.size();
   }
 
-  std::string run() {
-    constexpr std::string_view kMark = "\xef\xbb\xbf";
-    for (std::size_t at = text_.starts_with(kMark) ? kMark.size() : 0; at < text_.size();) at = add_line(at);
+  // Goes to the next line. Returns false at the end.
+  bool next() {
+    if (is_at_end()) return false;
+    joined_.clear();
+    while (add_line() && !joined_.starts_with('#') && joined_.ends_with('\\')) joined_.back() = ' ';
+    // The importer takes a line to end at a NUL.
+    std::ranges::replace(joined_, '\0', ' ');
+    line_ = joined_;
+    while (!line_.empty() && is_space(line_.front())) line_.remove_prefix(1);
+    while (!line_.empty() && is_space(line_.back())) line_.remove_suffix(1);
+    word_ = line_.substr(0, static_cast<std::size_t>(std::ranges::find_if(line_, is_space) - line_.begin()));
+    rest_ = line_.substr(word_.size());
+    while (!rest_.empty() && is_space(rest_.front())) rest_.remove_prefix(1);
+    return true;
+  }
+
+  std::string_view line() const noexcept { return line_; }
+  std::string_view word() const noexcept { return word_; }
+  std::string_view rest() const noexcept { return rest_; }
+
+ private:
+  bool is_at_end() {
+    if (at_ < block_.size()) return false;
+    block_ = reader_.next();
+    at_ = 0;
+    return block_.empty();
+  }
+
+  // Appends up to a line ending, and goes behind it. Returns whether there was one.
+  bool add_line() {
+    while (!is_at_end()) {
+      const auto begin = block_.begin() + static_cast<std::ptrdiff_t>(at_);
+      const auto end = std::find_if(begin, block_.end(), [](char c) { return c == '\n' || c == '\r'; });
+      joined_.append(begin, end);
+      at_ = static_cast<std::size_t>(end - block_.begin());
+      if (end == block_.end()) continue;
+      const bool may_be_pair = block_[at_++] == '\r';
+      if (may_be_pair && !is_at_end() && block_[at_] == '\n') ++at_;
+      return true;
+    }
+    return false;
+  }
+
+  TextReader reader_;
+  std::string block_, joined_;
+  std::size_t at_ = 0;  // in the block
+  std::string_view line_, word_, rest_;
+};
+
+// An OBJ file as the importer reads it, which takes names of materials to end at a space and makes shapes of
+// whole groups: materials and groups become numbers, large groups are cut, and lines that are not geometry
+// go.
+class ObjStream final : public std::streambuf {
+ public:
+  // `take` is called before more lines are made, so that what the importer has made of earlier ones can go.
+  ObjStream(const ByteSource& source, const std::string& place, ObjScene& scene, std::function<void()> take)
+      : lines_(source, place), place_(place), scene_(scene), take_(std::move(take)) {
+    materials_.push_back({"", false});
+    groups_.emplace_back();
+    begin_group();
+  }
+
+  void warn() {
     if (dropped_ > 0)
       scene_.warnings.push_back(counted(dropped_, "line") + " of points, lines, curves or surfaces left out");
     if (small_ > 0)
@@ -42,56 +111,57 @@ class ObjText {
       scene_.warnings.push_back(counted(fans_, "polygon") + " of more than " +
                                 std::to_string(kMostClippedCorners) +
                                 " corners cut as fans, which is right where they are convex");
-    return std::move(result_);
   }
 
   // By their numbers, of which 0 is that of faces without one.
-  const std::vector<ObjMaterialName>& materials() const { return materials_; }
+  const ObjMaterialName& material(std::size_t number) const { return materials_[number]; }
+  const std::string& group(std::size_t number) const { return groups_[number]; }
+
+ protected:
+  int_type underflow() override {
+    constexpr std::size_t kBlock = std::size_t{1} << 16;
+    take_();
+    while (made_.size() < kBlock && lines_.next()) add_statement();
+    text_.swap(made_);
+    made_.clear();
+    setg(text_.data(), text_.data(), text_.data() + text_.size());
+    return text_.empty() ? traits_type::eof() : traits_type::to_int_type(text_.front());
+  }
 
  private:
-  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-
-  // Appends the line as it counts, with lines joined that a backslash joins. Returns where the next begins.
-  std::size_t read_line(std::size_t begin) {
-    line_.clear();
-    for (std::size_t at = begin;;) {
-      const std::size_t end = std::min(text_.find_first_of("\r\n", at), text_.size());
-      const std::string_view part = text_.substr(at, end - at);
-      const bool is_comment = line_.empty() && part.starts_with('#');
-      line_ += part;
-      at = end;
-      if (at < text_.size()) at += text_.substr(at, 2) == "\r\n" ? 2 : 1;
-      if (is_comment || end >= text_.size() || !part.ends_with('\\')) return at;
-      line_.back() = ' ';
-    }
-  }
-
-  std::size_t add_line(std::size_t begin) {
-    const std::size_t next = read_line(begin);
-    // The importer takes a line to end at a NUL.
-    std::ranges::replace(line_, '\0', ' ');
-    std::size_t first = 0, last = line_.size();
-    while (first < last && is_space(line_[first])) ++first;
-    while (last > first && is_space(line_[last - 1])) --last;
-    const std::string_view line = std::string_view(line_).substr(first, last - first);
-    std::size_t word_end = 0;
-    while (word_end < line.size() && !is_space(line[word_end])) ++word_end;
-    std::size_t rest = word_end;
-    while (rest < line.size() && is_space(line[rest])) ++rest;
-    add_statement(line, line.substr(0, word_end), line.substr(rest));
-    return next;
-  }
-
-  void add_statement(std::string_view line, std::string_view word, std::string_view rest) {
-    constexpr std::array<std::string_view, 3> kGeometry = {"v", "vn", "vt"};
+  void add_statement() {
     constexpr std::array<std::string_view, 6> kDropped = {"p", "l", "curv", "curv2", "surf", "mg"};
-    if (std::ranges::find(kGeometry, word) != kGeometry.end()) return pass(bounded(line));
-    if (word == "o" || (word == "g" && rest.empty())) return pass("o " + std::string(rest));
-    if (word == "g") return pass(line);
+    const std::string_view word = lines_.word(), rest = lines_.rest();
+    vertices_ += word == "v" && !rest.empty();
+    if (word == "v" || word == "vn" || word == "vt") return pass(bounded(lines_.line()));
+    if (word == "o" || word == "g") {
+      groups_.push_back(word == "o" ? std::string(rest) : words_of(rest));
+      return begin_group();
+    }
     if (word == "f" || word == "fo") return add_face(rest);
-    if (word == "usemtl") return pass("usemtl " + std::to_string(number_of(std::string(rest))));
+    if (word == "usemtl") return use_material(std::string(rest));
     if (word == "mtllib") scene_.libraries.emplace_back(rest);
     dropped_ += std::ranges::find(kDropped, word) != kDropped.end();
+  }
+
+  // What the importer has of the group becomes a shape. What follows is another one, of the same number where
+  // it goes on.
+  void begin_group() {
+    pass("o " + std::to_string(groups_.size() - 1));
+    faces_ = 0;
+    farthest_ = 0;
+  }
+
+  // Names of several groups, with a space between them.
+  static std::string words_of(std::string_view rest) {
+    std::string words;
+    for (std::size_t at = 0; at < rest.size();) {
+      const std::size_t begin = at;
+      while (at < rest.size() && rest[at] != ' ' && rest[at] != '\t') ++at;
+      (words += words.empty() ? "" : " ") += rest.substr(begin, at - begin);
+      while (at < rest.size() && (rest[at] == ' ' || rest[at] == '\t')) ++at;
+    }
+    return words;
   }
 
   // The importer takes exponents of ten digits for whole numbers of 32 bits. No coordinate has six.
@@ -110,68 +180,114 @@ class ObjText {
   }
 
   void add_face(std::string_view rest) {
-    std::vector<std::string_view> corners;
+    corners_.clear();
     for (std::size_t at = 0; at < rest.size();) {
       const std::size_t begin = at;
       while (at < rest.size() && !is_space(rest[at])) ++at;
-      corners.push_back(rest.substr(begin, at - begin));
+      corners_.push_back(rest.substr(begin, at - begin));
       while (at < rest.size() && is_space(rest[at])) ++at;
     }
-    small_ += corners.size() < 3;
-    if (corners.size() <= kMostClippedCorners) return pass("f " + std::string(rest));
-    ++fans_;
-    for (std::size_t i = 2; i < corners.size(); ++i)
-      ((((((result_ += "f ") += corners[0]) += ' ') += corners[i - 1]) += ' ') += corners[i]) += '\n';
+    for (const std::string_view corner : corners_) farthest_ = std::max(farthest_, vertex_of(corner));
+    small_ += corners_.size() < 3;
+    if (corners_.size() <= kMostClippedCorners) {
+      ((made_ += "f ") += rest) += '\n';
+    } else {
+      ++fans_;
+      for (std::size_t i = 2; i < corners_.size(); ++i)
+        ((((((made_ += "f ") += corners_[0]) += ' ') += corners_[i - 1]) += ' ') += corners_[i]) += '\n';
+    }
+    // The importer must know all vertices of the faces that it takes to triangles.
+    if (++faces_ >= kMostFacesOfPart && farthest_ <= vertices_) begin_group();
   }
 
-  void pass(std::string_view line) { (result_ += line) += '\n'; }
-
-  std::size_t number_of(const std::string& name) {
-    const auto [entry, is_new] = numbers_.try_emplace(name, materials_.size());
-    if (is_new) materials_.push_back({name, true});
-    return entry->second;
+  // The number of the vertex of a corner, where it counts from the first.
+  static std::size_t vertex_of(std::string_view corner) {
+    std::size_t number = 0;
+    const auto result = std::from_chars(corner.data(), corner.data() + corner.size(), number);
+    return result.ec == std::errc::result_out_of_range ? std::numeric_limits<std::size_t>::max() : number;
   }
 
-  std::string_view text_;
+  void use_material(const std::string& name) {
+    const auto [entry, is_new] = numbers_.try_emplace(name, std::to_string(materials_.size()));
+    if (is_new) {
+      materials_.push_back({name, true});
+      pass("mtllib " + entry->second);
+    }
+    pass("usemtl " + entry->second);
+  }
+
+  void pass(std::string_view line) { (made_ += line) += '\n'; }
+
+  ObjLines lines_;
   const std::string& place_;
   ObjScene& scene_;
-  std::string line_, result_;
+  std::function<void()> take_;
+  std::string made_, text_;  // lines to come, and those that are being read
+  std::vector<std::string_view> corners_;
   std::size_t dropped_ = 0, small_ = 0, fans_ = 0;
+  std::size_t vertices_ = 0, faces_ = 0, farthest_ = 0;  // farthest: vertex that faces of this part name
   std::vector<ObjMaterialName> materials_;
-  std::map<std::string, std::size_t> numbers_;
+  std::vector<std::string> groups_;
+  std::map<std::string, std::string> numbers_;  // of materials
 };
 
-// Says to the importer that every number is a material.
+// Says to the importer that the name of a library is the number of its one material.
 class NumberedMaterials final : public tinyobj::MaterialReader {
  public:
-  explicit NumberedMaterials(std::size_t count) : count_(count) {}
-  bool operator()(const std::string&, std::vector<tinyobj::material_t>*, std::map<std::string, int>* numbers,
-                  std::string*, std::string*) override {
-    for (std::size_t i = 0; i < count_; ++i) numbers->emplace(std::to_string(i), static_cast<int>(i));
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>*,
+                  std::map<std::string, int>* numbers, std::string*, std::string*) override {
+    numbers->emplace(name, std::stoi(name));
     return true;
   }
-
- private:
-  std::size_t count_;
-};
-
-// Text in memory, without a copy.
-class MemoryBuffer final : public std::streambuf {
- public:
-  explicit MemoryBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
 };
 
 struct ObjCorner {
   int position, texcoord, normal;
   bool operator==(const ObjCorner&) const = default;
 };
-struct ObjCornerHash {
-  std::size_t operator()(const ObjCorner& corner) const noexcept {
+
+// Corners that do not repeat, each with a number: a table that takes a fourth of the memory of a
+// std::unordered_map.
+class CornerSet {
+ public:
+  // A new corner gets the next number.
+  std::uint32_t number_of(const ObjCorner& corner) {
+    if (2 * corners_.size() >= slots_.size()) grow();
+    std::uint32_t& slot = slot_of(corner);
+    if (slot == kFree) {
+      slot = static_cast<std::uint32_t>(corners_.size());
+      corners_.push_back(corner);
+    }
+    return slot;
+  }
+  const std::vector<ObjCorner>& corners() const noexcept { return corners_; }
+  // Frees the table: no corner follows.
+  void finish() { slots_ = std::vector<std::uint32_t>(); }
+
+ private:
+  static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+
+  static std::size_t hash_of(const ObjCorner& corner) {
     std::uint64_t hash = 0;
     for (const int part : {corner.position, corner.texcoord, corner.normal})
       hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15u;
     return static_cast<std::size_t>(hash ^ hash >> 32);
   }
+
+  std::uint32_t& slot_of(const ObjCorner& corner) {
+    std::size_t at = hash_of(corner) % slots_.size();
+    while (slots_[at] != kFree && corners_[slots_[at]] != corner) at = (at + 1) % slots_.size();
+    return slots_[at];
+  }
+
+  void grow() {
+    constexpr std::size_t kLeastSlots = 16;
+    slots_.assign(std::max(kLeastSlots, 2 * slots_.size()), kFree);
+    for (std::size_t i = 0; i < corners_.size(); ++i) slot_of(corners_[i]) = static_cast<std::uint32_t>(i);
+  }
+
+  std::vector<ObjCorner> corners_;
+  std::vector<std::uint32_t> slots_;  // numbers of corners, at or behind the place of their hash
 };
 
 using Vector = std::array<double, 3>;
@@ -181,25 +297,48 @@ Vector vector_at(const std::vector<float>& values, std::size_t index) {
   return {static_cast<double>(first[0]), static_cast<double>(first[1]), static_cast<double>(first[2])};
 }
 
-// Triangles of one shape and material.
-class PrimitiveBuilder {
+// Triangles of one group and material, as corners that do not repeat.
+struct ObjPart {
+  std::size_t material = 0;
+  CornerSet corners;
+  std::vector<std::uint32_t> indices;  // numbers of corners
+};
+struct ObjGroup {
+  std::size_t number = 0;
+  std::vector<ObjPart> parts;
+};
+
+// A part with the attributes of its corners.
+class PrimitiveMaker {
  public:
-  PrimitiveBuilder(const tinyobj::attrib_t& attributes, std::size_t material) : attributes_(attributes) {
-    primitive_.material = material;
+  PrimitiveMaker(const tinyobj::attrib_t& attributes, ObjPart part) : attributes_(attributes) {
+    const std::vector<ObjCorner>& corners = part.corners.corners();
+    const std::size_t count = corners.size();
+    primitive_.material = part.material;
+    primitive_.indices = std::move(part.indices);
+    has_texcoords_ =
+        std::ranges::any_of(corners, [](const ObjCorner& corner) { return corner.texcoord >= 0; });
+    primitive_.positions.reserve(3 * count);
+    primitive_.normals.reserve(3 * count);
+    if (has_texcoords_) primitive_.texcoords.reserve(2 * count);
+    if (!attributes_.colors.empty()) primitive_.colors.reserve(3 * count);
+    for (const ObjCorner& corner : corners) add(corner);
+    if (lacks_normals()) fill_normals();
+    if (!has_normals_) primitive_.normals = std::vector<float>();
   }
 
-  void add(const tinyobj::index_t& index) {
-    const ObjCorner corner{index.vertex_index, index.texcoord_index, index.normal_index};
-    const auto [entry, is_new] =
-        vertices_.try_emplace(corner, static_cast<std::uint32_t>(primitive_.vertex_count()));
-    primitive_.indices.push_back(entry->second);
-    if (!is_new) return;
+  bool lacks_normals() const {
+    return has_normals_ && std::ranges::find(is_lacking_, true) != is_lacking_.end();
+  }
+  ObjPrimitive result() { return std::move(primitive_); }
+
+ private:
+  void add(const ObjCorner& corner) {
     append(attributes_.vertices, corner.position, 3, primitive_.positions);
     if (corner.texcoord >= 0) {
       append(attributes_.texcoords, corner.texcoord, 2, primitive_.texcoords);
       primitive_.texcoords.back() = 1.0f - primitive_.texcoords.back();
-      has_texcoords_ = true;
-    } else {
+    } else if (has_texcoords_) {
       primitive_.texcoords.insert(primitive_.texcoords.end(), 2, 0.0f);
     }
     add_normal(corner.normal);
@@ -212,20 +351,6 @@ class PrimitiveBuilder {
     }
   }
 
-  // A normal that is missing or has no direction becomes that of the faces around it.
-  ObjPrimitive result() {
-    if (!has_texcoords_) primitive_.texcoords.clear();
-    if (!has_normals_)
-      primitive_.normals.clear();
-    else if (lacks_normals())
-      fill_normals();
-    return std::move(primitive_);
-  }
-  bool lacks_normals() const {
-    return has_normals_ && std::ranges::find(is_lacking_, true) != is_lacking_.end();
-  }
-
- private:
   static void append(const std::vector<float>& from, int index, std::size_t count, std::vector<float>& to) {
     const float* const first = from.data() + static_cast<std::size_t>(index) * count;
     to.insert(to.end(), first, first + count);
@@ -245,7 +370,8 @@ class PrimitiveBuilder {
       primitive_.normals.push_back(is_given ? static_cast<float>(part / length) : 0.0f);
   }
 
-  // Products of edges are as long as triangles are large.
+  // A normal that is missing or has no direction becomes that of the faces around it. Products of edges are
+  // as long as triangles are large.
   void fill_normals() {
     std::vector<Vector> sums(primitive_.vertex_count());
     for (std::size_t i = 0; i + 2 < primitive_.indices.size(); i += 3) {
@@ -273,37 +399,40 @@ class PrimitiveBuilder {
 
   const tinyobj::attrib_t& attributes_;
   ObjPrimitive primitive_;
-  std::unordered_map<ObjCorner, std::uint32_t, ObjCornerHash> vertices_;
   std::vector<bool> is_lacking_;  // a normal, by vertex
   bool has_texcoords_ = false, has_normals_ = false;
 };
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& place) : place_(place) {
-    if (is_utf16(text)) throw input_error(place + ": is UTF-16 text (save it as UTF-8)");
-    if (text.size() > kLongestObj)
-      throw input_error(place + ": has " + std::to_string(text.size()) + " bytes; at most " +
-                        std::to_string(kLongestObj) + " are read");
-    ObjText prepared(text, place, scene_);
-    std::string geometry = prepared.run();
-    names_ = prepared.materials();
-    load(geometry);
-  }
+  ObjReader(const ByteSource& source, const std::string& place)
+      : place_(place), stream_(source, place, scene_, [this] { take_shapes(); }) {}
 
   ObjScene scene() {
-    for (const tinyobj::shape_t& shape : shapes_) add_shape(shape);
-    if (filled_ > 0)
-      scene_.warnings.push_back("normals of " + counted(filled_, "mesh part") +
+    load();
+    std::size_t filled = 0;
+    for (ObjGroup& group : groups_) {
+      ObjShape& shape = scene_.shapes.emplace_back();
+      shape.name = stream_.group(group.number);
+      for (ObjPart& part : group.parts) {
+        for (const ObjCorner& corner : part.corners.corners()) require_there(corner, shape.name);
+        PrimitiveMaker maker(attributes_, std::move(part));
+        filled += maker.lacks_normals();
+        shape.primitives.push_back(maker.result());
+      }
+    }
+    stream_.warn();
+    if (filled > 0)
+      scene_.warnings.push_back("normals of " + counted(filled, "mesh part") +
                                 " that are missing or have length 0 become those of its faces");
     return std::move(scene_);
   }
 
  private:
-  void load(std::string& geometry) {
-    MemoryBuffer buffer(geometry);
-    std::istream stream(&buffer);
-    NumberedMaterials materials(names_.size());
+  void load() {
+    std::istream stream(&stream_);
+    stream.exceptions(std::ios::badbit);  // so that what reading throws arrives here
+    NumberedMaterials materials;
     std::vector<tinyobj::material_t> none;
     std::string warning, fault;
     const bool is_read =
@@ -316,6 +445,54 @@ class ObjReader {
     for (const auto* values : {&attributes_.vertices, &attributes_.texcoords, &attributes_.colors})
       if (!std::ranges::all_of(*values, [](float value) { return std::isfinite(value); }))
         throw input_error(place_ + ": a coordinate is too large for a number of 32 bits");
+    take_shapes();
+    finish_group();
+  }
+
+  // Takes what the importer has made.
+  void take_shapes() {
+    for (const tinyobj::shape_t& shape : shapes_) add_shape(shape);
+    shapes_.clear();
+  }
+
+  void add_shape(const tinyobj::shape_t& shape) {
+    const std::size_t group = std::stoul(shape.name);
+    const std::vector<tinyobj::index_t>& indices = shape.mesh.indices;
+    if (indices.empty()) return;
+    if (groups_.empty() || groups_.back().number != group) {
+      finish_group();
+      groups_.push_back({group, {}});
+    }
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      add_corner({indices[i].vertex_index, indices[i].texcoord_index, indices[i].normal_index},
+                 std::max(shape.mesh.material_ids[i / 3], 0));
+  }
+
+  void add_corner(const ObjCorner& corner, int material) {
+    std::vector<ObjPart>& parts = groups_.back().parts;
+    const auto [number, is_new_part] = part_of_.try_emplace(material, parts.size());
+    if (is_new_part) parts.push_back({used_material(material), {}, {}});
+    ObjPart& part = parts[number->second];
+    part.indices.push_back(part.corners.number_of(corner));
+  }
+
+  void finish_group() {
+    part_of_.clear();
+    if (groups_.empty()) return;
+    for (ObjPart& part : groups_.back().parts) part.corners.finish();
+  }
+
+  // Numbers those that faces use.
+  std::size_t used_material(int number) {
+    const auto [entry, is_new] = used_.try_emplace(number, scene_.materials.size());
+    if (is_new) scene_.materials.push_back(stream_.material(static_cast<std::size_t>(number)));
+    return entry->second;
+  }
+
+  void require_there(const ObjCorner& corner, const std::string& shape) const {
+    require_within(corner.position, attributes_.vertices.size() / 3, false, "vertex", shape);
+    require_within(corner.normal, attributes_.normals.size() / 3, true, "normal", shape);
+    require_within(corner.texcoord, attributes_.texcoords.size() / 2, true, "texture coordinate", shape);
   }
 
   void require_within(int index, std::size_t count, bool may_be_missing, const char* name,
@@ -325,69 +502,27 @@ class ObjReader {
                       " names a " + name + " that is not there; there are " + std::to_string(count));
   }
 
-  void add_shape(const tinyobj::shape_t& shape) {
-    std::map<int, PrimitiveBuilder> builders;
-    std::vector<int> order;
-    const std::vector<tinyobj::index_t>& indices = shape.mesh.indices;
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-      require_within(indices[i].vertex_index, attributes_.vertices.size() / 3, false, "vertex", shape.name);
-      require_within(indices[i].normal_index, attributes_.normals.size() / 3, true, "normal", shape.name);
-      require_within(indices[i].texcoord_index, attributes_.texcoords.size() / 2, true, "texture coordinate",
-                     shape.name);
-      const int material = std::max(shape.mesh.material_ids[i / 3], 0);
-      auto builder = builders.find(material);
-      if (builder == builders.end()) {
-        builder = builders.try_emplace(material, attributes_, used_material(material)).first;
-        order.push_back(material);
-      }
-      builder->second.add(indices[i]);
-    }
-    if (order.empty()) return;
-    ObjShape& added = scene_.shapes.emplace_back();
-    added.name = shape.name;
-    for (const int material : order) {
-      PrimitiveBuilder& builder = builders.at(material);
-      filled_ += builder.lacks_normals();
-      added.primitives.push_back(builder.result());
-    }
-  }
-
-  // Numbers those that faces use.
-  std::size_t used_material(int number) {
-    const auto [entry, is_new] = used_.try_emplace(number, scene_.materials.size());
-    if (is_new) scene_.materials.push_back(names_[static_cast<std::size_t>(number)]);
-    return entry->second;
-  }
-
   const std::string& place_;
   ObjScene scene_;
-  std::vector<ObjMaterialName> names_;
-  std::map<int, std::size_t> used_;
+  std::map<int, std::size_t> used_;  // materials of the file by their numbers
   tinyobj::attrib_t attributes_;
   std::vector<tinyobj::shape_t> shapes_;
-  std::size_t filled_ = 0;
+  std::vector<ObjGroup> groups_;
+  std::map<int, std::size_t> part_of_;  // of the last group, by the number of its material
+  ObjStream stream_;
 };
 
 }  // namespace
 
-std::vector<std::string> obj_libraries(std::string_view text) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf", kWord = "mtllib", kSpace = " \t\v\f";
+std::vector<std::string> obj_libraries(const ByteSource& source, const std::string& place) {
   std::vector<std::string> libraries;
-  for (std::size_t at = 0; (at = text.find(kWord, at)) != std::string_view::npos;) {
-    std::size_t line = at;
-    while (line > 0 && kSpace.find(text[line - 1]) != std::string_view::npos) --line;
-    const bool is_first = line == 0 || text[line - 1] == '\n' || text[line - 1] == '\r' ||
-                          (line == kMark.size() && text.starts_with(kMark));
-    at += kWord.size();
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    std::string_view rest = text.substr(at, end - at);
-    if (!is_first || rest.empty() || kSpace.find(rest.front()) == std::string_view::npos) continue;
-    rest.remove_prefix(std::min(rest.find_first_not_of(kSpace), rest.size()));
-    libraries.emplace_back(rest.substr(0, rest.find_last_not_of(kSpace) + 1));
-  }
+  for (ObjLines lines(source, place); lines.next();)
+    if (lines.word() == "mtllib" && !lines.rest().empty()) libraries.emplace_back(lines.rest());
   return libraries;
 }
 
-ObjScene read_obj(std::string_view text, const std::string& place) { return ObjReader(text, place).scene(); }
+ObjScene read_obj(const ByteSource& source, const std::string& place) {
+  return ObjReader(source, place).scene();
+}
 
 }  // namespace remap

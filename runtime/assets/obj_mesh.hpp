@@ -5,12 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "assets/asset.hpp"
 
 namespace remap {
 
-// The largest file that is read; it takes up to five times as much memory.
+// The largest file that is read; it takes up to three times as much memory.
 inline constexpr std::size_t kLongestObj = std::size_t{1} << 30;
 // Polygons with more corners become fans of triangles, since any other way takes the cube of their number.
 inline constexpr std::size_t kMostClippedCorners = 1024;
@@ -47,10 +48,10 @@ struct ObjScene {
 };
 
 // ObjScene::libraries alone, which takes less time.
-std::vector<std::string> obj_libraries(std::string_view text);
+std::vector<std::string> obj_libraries(const ByteSource& source, const std::string& place);
 
-// Throws kInput, beginning with `place`, for UTF-16, beyond the limit, for coordinates that are no numbers
-// and for faces that name vertices which are not there.
-ObjScene read_obj(std::string_view text, const std::string& place);
+// Throws kInput, beginning with `place`, beyond the limit, for UTF-16 with half a character, for coordinates
+// that are no numbers and for faces that name vertices which are not there.
+ObjScene read_obj(const ByteSource& source, const std::string& place);
 
 }  // namespace remap

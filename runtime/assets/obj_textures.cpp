@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "assets/asset_uri.hpp"
 #include "assets/json_spans.hpp"
@@ -31,33 +32,35 @@ std::string stem_of(const std::string& path) {
 
 std::size_t GltfTextures::add_file(MtlImages& images, const MtlMap& map, std::vector<std::string>& warnings) {
   const std::string path = images.require(map, warnings);
-  if (const auto known = of_files_.find(path); known != of_files_.end()) return known->second;
-  const std::string bytes = images.bytes_of(path);
+  const std::string key = path + (map.has_levels() ? '\0' + map.options : "");
+  if (const auto known = of_files_.find(key); known != of_files_.end()) return known->second;
+  std::string bytes = images.bytes_of(path);
   const char* const type = core_type_of(bytes);
   std::size_t index = 0;
-  if (*type == '\0') {
-    index = add_pixels(images, *images.load(path), map, "");
+  if (*type == '\0' || map.has_levels()) {
+    index = add_pixels(images, *images.load(map, warnings), map, "");
   } else if (place_ == NewImagePlace::kBuffer) {
-    index = add_bytes(bytes, type, path);
+    index = add_bytes(std::move(bytes), type, path);
   } else {
     index = add_uri(path);
     conversion_.resources.push_back({"", path, UriKind::kFile});
   }
-  return of_files_[path] = index;
+  return of_files_[key] = index;
 }
 
 std::size_t GltfTextures::add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
                                      std::string_view suffix) {
   const std::string path = names_.free_name(images.place_of(model.file).value_or("material"), suffix);
-  std::string png = resources_.codec().encode_png(pixels, PngEffort::kFast);
-  if (place_ == NewImagePlace::kBuffer) return add_bytes(png, "image/png", path);
+  std::string png = resources_.codec().encode_png(pixels, png_level_);
+  if (place_ == NewImagePlace::kBuffer) return add_bytes(std::move(png), "image/png", path);
   conversion_.files.push_back({path, std::move(png)});
   return add_uri(path);
 }
 
-std::size_t GltfTextures::add_bytes(std::string_view bytes, const char* type, const std::string& path) {
-  images_.push_back(
-      Json{{"bufferView", buffer_.add_view(bytes)}, {"mimeType", type}, {"name", utf8_name(stem_of(path))}});
+std::size_t GltfTextures::add_bytes(std::string bytes, const char* type, const std::string& path) {
+  images_.push_back(Json{{"bufferView", buffer_.add_view(std::move(bytes))},
+                         {"mimeType", type},
+                         {"name", utf8_name(stem_of(path))}});
   return images_.size() - 1;
 }
 

@@ -24,9 +24,10 @@ enum class NewImagePlace {
 class GltfTextures {
  public:
   // All must outlive it. New files, and resources that stay, are added to `conversion`.
-  GltfTextures(const AssetResources& resources, NewImagePlace place, GltfBuffer& buffer,
-               AssetConversion& conversion)
-      : resources_(resources),
+  GltfTextures(const AssetOptions& options, const AssetResources& resources, NewImagePlace place,
+               GltfBuffer& buffer, AssetConversion& conversion)
+      : png_level_(options.png_level.value_or(kUsualPngLevel)),
+        resources_(resources),
         place_(place),
         buffer_(buffer),
         conversion_(conversion),
@@ -34,8 +35,9 @@ class GltfTextures {
 
   // Keeps a path from new images.
   void take(const std::string& path) { names_.take(path); }
-  // The image of a map: PNG and JPEG as they are, others as PNG, each file once. Appends warnings. Throws
-  // kInput where it is missing, cannot be read, or has options that change what it looks like.
+  // The image of a map: PNG and JPEG as they are, others and those with -mm as PNG, each file once. Appends
+  // warnings. Throws kInput where it is missing, cannot be read, or has options that change what it looks
+  // like.
   std::size_t add_file(MtlImages& images, const MtlMap& map, std::vector<std::string>& warnings);
   // A new image, named after the file of `model`. Returns its index.
   std::size_t add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
@@ -52,16 +54,17 @@ class GltfTextures {
   const Json& samplers() const noexcept { return samplers_; }
 
  private:
-  std::size_t add_bytes(std::string_view bytes, const char* type, const std::string& path);
+  std::size_t add_bytes(std::string bytes, const char* type, const std::string& path);
   std::size_t add_uri(const std::string& path);
 
+  int png_level_;
   const AssetResources& resources_;
   NewImagePlace place_;
   GltfBuffer& buffer_;
   AssetConversion& conversion_;
   Json textures_ = Json::list(), images_ = Json::list(), samplers_ = Json::list();
   NewImageNames names_;
-  std::map<std::string, std::size_t> of_files_;                    // images by path
+  std::map<std::string, std::size_t> of_files_;                    // images by path, and options with -mm
   std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;  // textures by image and whether they clamp
   std::size_t info_count_ = 0;
   bool has_transforms_ = false;

@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 
+#include "assets/mtl_asset.hpp"
 #include "assets/mtl_document.hpp"
 #include "assets/mtl_material.hpp"
 #include "check/material.hpp"
@@ -40,7 +41,7 @@ void add_map(const std::string& name, const MapLine& line, CheckedMaterial& mate
 }  // namespace
 
 void add_mtl(const fs::path& file, FoundMaterials& found) {
-  const std::string text = read_file(file);
+  const std::string text = mtl_text(MemorySource(read_file(file)), shown(file));
   const MtlDocument document(text, shown(file));
   std::vector<Exponent> exponents;
   const std::size_t first = found.materials.size();

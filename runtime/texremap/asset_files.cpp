@@ -70,7 +70,12 @@ bool are_same_files(const fs::path& a, const fs::path& b) {
 
 bool have_same_bytes(const fs::path& file, std::string_view bytes) {
   const FileSource source(file);
-  return source.size() == bytes.size() && source.read(0, bytes.size()) == bytes;
+  if (source.size() != bytes.size()) return false;
+  for (std::uint64_t at = 0; at < source.size(); at += kCopiedAtOnce) {
+    const std::uint64_t count = std::min(kCopiedAtOnce, source.size() - at);
+    if (source.read(at, count) != bytes.substr(at, count)) return false;
+  }
+  return true;
 }
 
 void add_pieces(NewFile& file, const std::vector<AssetPiece>& pieces, const ByteSource& source) {

@@ -32,6 +32,7 @@ AssetOptions asset_options(const ConvertOptions& options) {
   asset.compacts = options.compact;
   asset.bakes = options.bake;
   asset.jpeg_quality = options.jpeg;
+  asset.png_level = options.compression;
   return asset;
 }
 

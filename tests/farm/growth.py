@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""How a conversion in parts grows: the figures of docs/farm.md.
+"""How a conversion grows: the figures of docs/farm.md, and of large assets.
 
 Prints time and memory of the index of a tree of sets and of one of assets, what a part costs beside its sets, how many
 files a set opens and renames (where strace is installed), sets a second against the number of parts at once, and what one large set takes.
+With --assets instead: processor time and memory of an OBJ file of 150 MB, a GLB file of 1 GB, a pair of images and many factors.
 
-Usage: tests/farm/growth.py TEXREMAP [--sets 100000] [--small 512]
+Usage: tests/farm/growth.py TEXREMAP [--sets 100000] [--small 512] [--assets]
 """
 import argparse
 import json
@@ -80,19 +81,73 @@ def make_large_set(root):
                         "--resize", "4096x4096", "-d", "half", "--compression", "zip", "-o", root / f"rock_{word}.exr"], check=True)
 
 
+def make_obj(path, side):
+    """A wavy grid of side x side vertices, with normals and texture coordinates, as triangles."""
+    with open(path, "w", encoding="ascii") as file:
+        for y in range(side):
+            for x in range(side):
+                file.write(f"v {x * 0.001:.6f} {y * 0.001:.6f} {x * y % 97 * 0.0001:.6f}\nvn {x % 7 * 0.01:.6f} {y % 5 * 0.01:.6f} 0.990000\n"
+                           f"vt {x / side:.6f} {y / side:.6f}\n")
+        for y in range(side - 1):
+            for x in range(side - 1):
+                a = y * side + x + 1
+                b, c, d = a + 1, a + side, a + side + 1
+                file.write(f"f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}\nf {b}/{b}/{b} {d}/{d}/{d} {c}/{c}/{c}\n")
+
+
+def make_glb(path, size):
+    """One spec-gloss material beside a buffer of zeros, which takes no place on the disk."""
+    text = json.dumps({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
+                       "materials": [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": 0.5}}}],
+                       "buffers": [{"byteLength": size}]}).encode()
+    text += b" " * (-len(text) % 4)
+    with open(path, "wb") as file:
+        file.write(b"glTF" + b"".join(number.to_bytes(4, "little") for number in (2, 28 + len(text) + size, len(text))) + b"JSON")
+        file.write(text + size.to_bytes(4, "little") + b"BIN\0")
+        file.truncate(28 + len(text) + size)
+
+
+def make_pair(folder, size):
+    """A spec-gloss material with two maps of smooth noise."""
+    folder.mkdir()
+    for name, channels, seed in (("diffuse", 3, 1), ("specular", 4, 2)):
+        subprocess.run(["oiiotool", "--pattern", f"noise:type=uniform:min=0.1:max=0.9:seed={seed}", f"{size // 4}x{size // 4}",
+                        str(channels), "--resize", f"{size}x{size}", "-d", "uint8", "-o", folder / f"{name}.png"], check=True)
+    (folder / "pair.gltf").write_text(json.dumps({
+        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
+        "images": [{"uri": "diffuse.png"}, {"uri": "specular.png"}], "textures": [{"source": 0}, {"source": 1}],
+        "materials": [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+            "diffuseTexture": {"index": 0}, "specularGlossinessTexture": {"index": 1}}}}]}))
+    return folder / "pair.gltf"
+
+
+def make_factors(path, count):
+    path.write_text(json.dumps({
+        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
+        "materials": [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+            "diffuseFactor": [i / count, 0.3, 0.5, 1], "specularFactor": [0.04, i / count, 0.04], "glossinessFactor": 0.5}}}
+            for i in range(count)]}))
+
+
 def bytes_in(folder):
     return sum(path.stat().st_size for path in folder.rglob("*.exr"))
 
 
-def measured(*words):
-    """Seconds and peak memory of a command, and what it prints."""
+def run(*words):
+    """Seconds of a command, what it used, and what it prints."""
     begin = time.monotonic()
     process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     output = process.stdout.read()
     _, status, usage = os.wait4(process.pid, 0)
     if status != 0:
         sys.exit(f"growth: failed: {' '.join(map(str, words))}")
-    return time.monotonic() - begin, usage.ru_maxrss / 1000, output
+    return time.monotonic() - begin, usage, output
+
+
+def measured(*words):
+    """Seconds and peak memory of a command, and what it prints."""
+    seconds, usage, output = run(*words)
+    return seconds, usage.ru_maxrss / 1000, output
 
 
 def system_calls(texremap, manifest, output, sets):
@@ -115,12 +170,37 @@ def main():
     parser.add_argument("texremap")
     parser.add_argument("--sets", type=int, default=100_000, help="of the tree that is indexed")
     parser.add_argument("--small", type=int, default=512, help="sets that are converted")
+    parser.add_argument("--assets", action="store_true", help="large assets instead")
     options = parser.parse_args()
     scratch = Path(tempfile.mkdtemp(prefix="remap-growth-"))
     try:
-        report(Path(options.texremap).resolve(), scratch, options)
+        if options.assets:
+            report_assets(Path(options.texremap).resolve(), scratch)
+        else:
+            report(Path(options.texremap).resolve(), scratch, options)
     finally:
         shutil.rmtree(scratch)
+
+
+def report_assets(texremap, scratch):
+    def convert(name, file, result, *options):
+        _, usage, _ = run(texremap, "convert", file, "--to", "gltf", "-o", scratch / "result" / result, "--threads", "1", "--quiet",
+                          "--force", *options)
+        print(f"{name}: {usage.ru_utime + usage.ru_stime:.2f} s of processor, {usage.ru_maxrss / 1000:.0f} MB")
+
+    make_obj(scratch / "grid.obj", 850)
+    convert("an OBJ file of 150 MB to .glb", scratch / "grid.obj", "grid.glb")
+    convert("an OBJ file of 150 MB to .gltf", scratch / "grid.obj", "grid.gltf")
+    make_glb(scratch / "large.glb", 10**9)
+    convert("a GLB file of 1 GB", scratch / "large.glb", "large.glb")
+    (scratch / "result/large.glb").unlink()
+    make_factors(scratch / "factors.gltf", 40)
+    convert("40 factor materials", scratch / "factors.gltf", "factors.gltf")
+    if shutil.which("oiiotool") is None:
+        return
+    pair = make_pair(scratch / "pair", 2048)
+    for options in ((), ("--compression", "1"), ("--compression", "9")):
+        convert(" ".join(("a pair of 2048 x 2048", *options)), pair, "pair.gltf", *options)
 
 
 def report(texremap, scratch, options):

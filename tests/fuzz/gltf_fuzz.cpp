@@ -23,11 +23,11 @@ class FuzzResources final : public remap::AssetResources, public remap::ImageCod
   remap::ImagePixels enlarged(const remap::ImagePixels& pixels, std::size_t, std::size_t) const override {
     return pixels;
   }
-  std::string encode_png(const remap::ImagePixels& pixels, remap::PngEffort) const override {
+  std::string encode_png(const remap::ImagePixels& pixels, int) const override {
     return std::string(pixels.bytes.size(), 'x');
   }
   std::string encode_jpeg(const remap::ImagePixels& pixels, int) const override {
-    return "\xff\xd8" + encode_png(pixels, remap::PngEffort::kFast);
+    return "\xff\xd8" + encode_png(pixels, remap::kUsualPngLevel);
   }
 };
 

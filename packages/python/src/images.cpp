@@ -237,8 +237,8 @@ class PythonCodec : public ImageCodec {
       return pixels;
     });
   }
-  std::string encode_png(const ImagePixels& pixels, PngEffort effort) const override {
-    return encoded(pixels, "encode_png", nb::cast(effort == PngEffort::kSmallest));
+  std::string encode_png(const ImagePixels& pixels, int level) const override {
+    return encoded(pixels, "encode_png", nb::int_(level));
   }
   std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
     return encoded(pixels, "encode_jpeg", nb::int_(quality));

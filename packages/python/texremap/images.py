@@ -35,7 +35,7 @@ _COLOR_SPACE = ("oiio:ColorSpace", "oiio:Gamma", "Exif:ColorSpace", "png:cicp", 
 _NOTED_COLOR_SPACE = "remap:color_space"
 _MOST_PARTS = 4096
 _MOST_TEXELS = 1 << 30
-_FAST_PNG, _SMALLEST_PNG = 3, 9
+_SMALLEST_PNG = 9
 
 
 def _first_line(text, otherwise):
@@ -565,13 +565,13 @@ class Images:
             with open(path, "rb") as file:
                 return file.read()
 
-    def encode_png(self, width, height, channels, kind, texels, is_smallest):
+    def encode_png(self, width, height, channels, kind, texels, level):
         image = (width, height, channels, kind, texels)
-        if not is_smallest:
-            return self._encoded("png", *image, {"png:compressionLevel": _FAST_PNG})
+        if level < _SMALLEST_PNG:
+            return self._encoded("png", *image, {"png:compressionLevel": level})
         # Images of few values are smaller without filters.
         tries = ({}, {"png:filter": 8})
-        return min((self._encoded("png", *image, {"png:compressionLevel": _SMALLEST_PNG, **more}) for more in tries),
+        return min((self._encoded("png", *image, {"png:compressionLevel": level, **more}) for more in tries),
                    key=len)
 
     def encode_jpeg(self, width, height, channels, kind, texels, quality):

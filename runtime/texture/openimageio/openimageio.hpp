@@ -32,13 +32,6 @@ std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std
 OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
 
 // Throws kInput if a channel has an unsupported type.
-// Why an image is refused: OpenImageIO 2.4 multiplies the colors of WebP by alpha in 8 bits, whatever it is
-// asked for.
-inline constexpr const char* kSpoiledWebP =
-    "is WebP with alpha, by which OpenImageIO multiplies the colors when it reads them, so that they are "
-    "lost "
-    "(convert it to PNG: dwebp IN.webp -o OUT.png)";
-
 // Whether the compression takes a level: that of PNG, and zip of EXR and TIFF.
 bool has_compression_level(const OIIO::ImageSpec& spec, const std::string& format);
 

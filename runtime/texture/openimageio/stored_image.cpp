@@ -21,6 +21,12 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
+// Why an image is refused: OpenImageIO 2.4 multiplies the colors of WebP by alpha in 8 bits, whatever it is
+// asked for.
+constexpr const char* kSpoiledWebP =
+    "is WebP with alpha, by which OpenImageIO multiplies the colors when it reads them, so that they are "
+    "lost (convert it to PNG: dwebp IN.webp -o OUT.png)";
+
 // The name of a lossy compression; empty for a lossless one.
 std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& format) {
   if (format == "jpeg" || format == "hdr" || format == "webp") return format;

@@ -36,7 +36,7 @@ inline ImagePixels constant_pixels(std::initializer_list<int> texel) {
 }
 
 inline std::string file_of(const ImagePixels& pixels) {
-  return PlainCodec().encode_png(pixels, PngEffort::kFast);
+  return PlainCodec().encode_png(pixels, kUsualPngLevel);
 }
 inline ImagePixels pixels_of(const std::string& bytes) { return PlainCodec().decode(bytes, "image"); }
 

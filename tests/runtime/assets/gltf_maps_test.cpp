@@ -562,8 +562,8 @@ class JpegCodec final : public ImageCodec {
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {
     return plain_.decode(bytes.starts_with("\xff\xd8") ? bytes.substr(4) : bytes, place);
   }
-  std::string encode_png(const ImagePixels& pixels, PngEffort effort) const override {
-    return plain_.encode_png(pixels, effort);
+  std::string encode_png(const ImagePixels& pixels, int level) const override {
+    return plain_.encode_png(pixels, level);
   }
   std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
     return plain_.encode_jpeg(pixels, quality);

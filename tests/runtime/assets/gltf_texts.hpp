@@ -83,7 +83,7 @@ class PlainCodec final : public ImageCodec {
     for (const char c : bytes.substr(5)) pixels.bytes.push_back(static_cast<std::byte>(c));
     return pixels;
   }
-  std::string encode_png(const ImagePixels& pixels, PngEffort) const override {
+  std::string encode_png(const ImagePixels& pixels, int) const override {
     std::string bytes = "P";
     for (const std::size_t number : {pixels.width, pixels.height, pixels.channels, byte_count(pixels.type)})
       bytes += static_cast<char>(number);
@@ -92,7 +92,7 @@ class PlainCodec final : public ImageCodec {
   }
   // What begins as JPEG files do, and cannot be read again.
   std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
-    return "\xff\xd8" + std::to_string(quality) + encode_png(pixels, PngEffort::kFast);
+    return "\xff\xd8" + std::to_string(quality) + encode_png(pixels, kUsualPngLevel);
   }
 };
 

@@ -222,6 +222,34 @@ TEST_CASE("Maps are converted texel by texel, as factors are", "[assets]") {
   CHECK_FALSE(converted_mtl(conversion.text, &resources).changed);
 }
 
+TEST_CASE("-mm moves the values of a map before it is converted", "[assets]") {
+  PlainResources resources;
+  resources.files["d.png"] = map_bytes({{10, 20, 30, 77}, {200, 100, 50, 0}, {120, 130, 0, 255}});
+  resources.files["n.png"] = map_bytes({{0}, {100}, {200}});
+  resources.files["baked/d.png"] = map_bytes({{46, 66, 86, 77}, {255, 226, 126, 0}, {255, 255, 26, 255}});
+  resources.files["baked/n.png"] = map_bytes({{51}, {101}, {151}});
+  const std::string numbers = "newmtl a\nKd .8 .8 .8\nKs .9 .6 .3\nNs 100\n";
+  const AssetConversion moved = converted_mtl(
+      numbers + "map_Kd -mm .1 2 -s 2 2 d.png -blendu on\nmap_Ns -s 2 2 n.png -mm .2 .5\n", &resources);
+  const AssetConversion baked =
+      converted_mtl(numbers + "map_Kd -s 2 2 baked/d.png\nmap_Ns -s 2 2 baked/n.png\n", &resources);
+  REQUIRE(moved.materials[0].failure.empty());
+  REQUIRE(moved.files.size() == baked.files.size());
+  REQUIRE(moved.files.size() >= 2);
+  for (std::size_t i = 0; i < moved.files.size(); ++i) CHECK(moved.files[i].bytes == baked.files[i].bytes);
+  CHECK(value_of(moved, "map_Kd") == "-s 2 2 d_baseColor.png -blendu on");
+  CHECK(value_of(moved, "map_Pr").starts_with("-s 2 2 "));
+  // Materials that differ in it share nothing, wherever it stands.
+  const std::string other = numbers + "map_Ns n.png -mm 0 .5\n";
+  const AssetConversion both = converted_mtl(numbers + "map_Ns n.png -mm .2 .5\n" + other, &resources);
+  CHECK(both.files.size() == 2 * converted_mtl(other, &resources).files.size());
+  // The line stays where the map does.
+  const AssetConversion kept =
+      converted_mtl("newmtl a\nKd 1 1 1\nKs 1 1 1\nNs 155.5\nmap_Kd -mm .5 .25 d.png\n", &resources);
+  CHECK(value_of(kept, "map_Kd") == "-mm .5 .25 d.png");
+  CHECK(kept.files.empty());
+}
+
 TEST_CASE("Constant maps become factors", "[assets]") {
   PlainResources resources;
   resources.files["d.png"] = map_bytes({{188, 188, 188}, {188, 188, 188}});
@@ -251,8 +279,9 @@ TEST_CASE("Maps that cannot be converted fail with a reason", "[assets]") {
   CHECK(failure("map_Kd d.png\nmap_Ks s.png\n", enlarging).empty());
   CHECK(failure("map_Kd gone.png\n") == "gone.png: is not there (put it beside the MTL file)");
   CHECK(failure("map_Kd x.png\n") == "x.png: is no image");
-  CHECK(failure("map_Kd -mm .1 2 d.png\n") ==
-        "d.png: has -mm, which is not applied (bake it into the image)");
+  CHECK(failure("map_Kd -t .1 d.png\n") == "d.png: has -t, which is not applied (bake it into the image)");
+  CHECK(failure("map_Kd -cc on d.png\n") ==
+        "d.png: has -cc on, which is not applied (bake it into the image)");
   CHECK(failure("map_Kd -s 2 2 d.png\nmap_Ks d.png\n") ==
         "d.png and d.png lie on the surface in different places (-s, -o, -clamp); use one for both");
   CHECK(converted_mtl("newmtl a\nKs 1 1 1\nmap_Ns d.png\n", &resources).materials[0].failure ==

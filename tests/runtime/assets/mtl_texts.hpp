@@ -40,7 +40,7 @@ inline std::string map_bytes(const std::vector<std::vector<int>>& texels, std::s
   for (std::size_t y = 0; y < height; ++y)
     for (const std::vector<int>& texel : texels)
       for (const int value : texel) pixels.bytes.push_back(static_cast<std::byte>(value));
-  return PlainCodec().encode_png(pixels, PngEffort::kFast);
+  return PlainCodec().encode_png(pixels, kUsualPngLevel);
 }
 
 }  // namespace remap

@@ -64,6 +64,8 @@ MadeScene of_material(const std::string& lines, const PlainResources& resources 
               profile);
 }
 
+ObjScene read(const std::string& text) { return read_obj(MemorySource(text), "file"); }
+
 std::string refusal_of(const std::string& obj) {
   try {
     (void)made(obj);
@@ -92,7 +94,7 @@ TEST_CASE("A triangle: positions, texture coordinates from the top, indices, ran
 TEST_CASE("Polygons are taken to triangles, corners are shared, materials are parts", "[assets]") {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -.5 .5 0\n";
   const ObjScene scene =
-      read_obj(vertices + "usemtl a  b \nf 1 2 3 4\nusemtl c\nf 1 3 4 5\nusemtl a  b\nf -5 -4 -3\n", "file");
+      read(vertices + "usemtl a  b \nf 1 2 3 4\nusemtl c\nf 1 3 4 5\nusemtl a  b\nf -5 -4 -3\n");
   REQUIRE(scene.shapes.size() == 1);
   REQUIRE(scene.shapes[0].primitives.size() == 2);
   REQUIRE(scene.materials.size() == 2);
@@ -104,10 +106,9 @@ TEST_CASE("Polygons are taken to triangles, corners are shared, materials are pa
 }
 
 TEST_CASE("Groups and objects are nodes; normals get length 1, or are those of faces", "[assets]") {
-  const ObjScene scene = read_obj(kTriangle +
-                                      "vn 0 0 2\nvn 0 0 0\nvn 3 0 4\ng one two\nf 1//1 2//1 3//1\ng\nf 1//3 "
-                                      "2//2 3\no \tbox one\t\nf 1 2//2 3\n",
-                                  "file");
+  const ObjScene scene = read(kTriangle +
+                              "vn 0 0 2\nvn 0 0 0\nvn 3 0 4\ng one  two\nf 1//1 2//1 3//1\ng\nf 1//3 "
+                              "2//2 3\no \tbox one\t\nf 1 2//2 3\n");
   REQUIRE(scene.shapes.size() == 3);
   CHECK(scene.shapes[0].name == "one two");
   CHECK(scene.shapes[1].name.empty());
@@ -120,15 +121,42 @@ TEST_CASE("Groups and objects are nodes; normals get length 1, or are those of f
             "normals of 1 mesh part that are missing or have length 0 become those of its faces"});
 }
 
+TEST_CASE("A group that is read in parts is one shape", "[assets]") {
+  // More faces than the importer gets at once; vertices that follow the first polygons; a material between.
+  constexpr int kFaces = 40000;
+  std::string text = "g a b\nusemtl x\nf 1 2 3 4\n";
+  for (int i = 0; i < kFaces; ++i) text += "f 1 2 3\n";
+  text += "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  for (int i = 0; i < kFaces; ++i) text += i % 2 == 0 ? "f -4 -3 -2 -1\n" : "f 1 2 3 4\n";
+  text += "usemtl y\nf 1 2 3\nusemtl x\nf 1 2 3\ng\nf 2 3 4\n";
+  const ObjScene scene = read(text);
+  REQUIRE(scene.shapes.size() == 2);
+  CHECK(scene.shapes[0].name == "a b");
+  REQUIRE(scene.shapes[0].primitives.size() == 2);
+  CHECK(scene.shapes[0].primitives[0].indices.size() == 3 * (2 + kFaces + 2 * kFaces + 1));
+  CHECK(scene.shapes[0].primitives[0].vertex_count() == 4);
+  CHECK(scene.shapes[1].name.empty());
+  CHECK(scene.materials.size() == 2);
+}
+
+TEST_CASE("Lines that end on the edges of blocks", "[assets]") {
+  const std::string block(std::size_t{1} << 20, ' ');
+  const std::string head = "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\n", face = "f 1 2 3";
+  for (std::size_t shift = 0; shift < 16; ++shift) {
+    std::string text = head + "#" + block;
+    text.resize(block.size() - shift);
+    text += "\r\n" + face + " \\\r\n 2\r\n" + face;
+    const ObjScene scene = read(text);
+    REQUIRE(scene.shapes.size() == 1);
+    REQUIRE(scene.shapes[0].primitives[0].indices.size() == 9);
+  }
+}
+
 TEST_CASE("Vertex colors are kept where every vertex has one", "[assets]") {
   const std::string face = "f 1 2 3\n";
-  CHECK(
-      read_obj("v 0 0 0 1 .5 2\nv 1 0 0 0 0 0\nv 0 1 0 1 1 1\n" + face, "f").shapes[0].primitives[0].colors ==
-      std::vector<float>{1, 0.5f, 1, 0, 0, 0, 1, 1, 1});
-  CHECK(read_obj("v 0 0 0 1 .5 1\nv 1 0 0\nv 0 1 0 1 1 1\n" + face, "f")
-            .shapes[0]
-            .primitives[0]
-            .colors.empty());
+  CHECK(read("v 0 0 0 1 .5 2\nv 1 0 0 0 0 0\nv 0 1 0 1 1 1\n" + face).shapes[0].primitives[0].colors ==
+        std::vector<float>{1, 0.5f, 1, 0, 0, 0, 1, 1, 1});
+  CHECK(read("v 0 0 0 1 .5 1\nv 1 0 0\nv 0 1 0 1 1 1\n" + face).shapes[0].primitives[0].colors.empty());
 }
 
 TEST_CASE("Materials by the short forms", "[assets]") {
@@ -207,6 +235,24 @@ TEST_CASE("Images: PNG and JPEG as they are, others as PNG, each once", "[assets
   REQUIRE(beside.files.size() == 2);
   CHECK(beside.files[0].path == "c.png");
   CHECK(beside.files[1].path == "my mesh.bin");
+}
+
+TEST_CASE("An image with -mm is a new one", "[assets]") {
+  PlainResources resources;
+  resources.files["c.tga"] = map_bytes({{10, 20, 30}, {100, 110, 120}});
+  const std::string mtl =
+      "newmtl m\nmap_Kd -mm .2 2 c.tga\nnewmtl n\nmap_Kd c.tga\nnewmtl o\nmap_Kd -mm .2 2 c.tga\n";
+  const MadeScene scene =
+      made("mtllib a.mtl\n" + kTriangle +
+               "usemtl m\nf 1/1 2/2 3/3\nusemtl n\nf 1/1 2/2 3/3\nusemtl o\nf 1/1 2/2 3/3\n",
+           resources, mtl);
+  CHECK(scene.conversion.count(MaterialState::kFailed) == 0);
+  REQUIRE(scene.root()["images"].size() == 2);
+  const auto bytes = [&](std::size_t image) {
+    return scene.view(*scene.entry("images", image)["bufferView"].whole());
+  };
+  CHECK(bytes(0) == map_bytes({{71, 91, 111}, {251, 255, 255}}));
+  CHECK(bytes(1) == resources.files["c.tga"]);
 }
 
 TEST_CASE("A map of opacity becomes the alpha of base color", "[assets]") {
@@ -304,7 +350,6 @@ TEST_CASE("Damaged OBJ files are refused", "[assets]") {
   CHECK(refusal_of(kTriangle + "f 1 2 99999999999\n").find("there") != std::string::npos);
   CHECK(refusal_of("v 1e999 0 0\n" + kTriangle + "f 1 2 3\n").find("too large") != std::string::npos);
   CHECK(refusal_of("v 1e2147483649 0 0\nf 1 1 1\n").find("too large") != std::string::npos);
-  CHECK(refusal_of(std::string("v\0 \0", 4)).find("UTF-16") != std::string::npos);
   CHECK(refusal_of(kTriangle + std::string("f 1 2\0 3\n", 9)).empty());
 }
 
@@ -315,7 +360,8 @@ TEST_CASE("Large polygons and lines take seconds", "[assets][slow]") {
     text += "\nf";
     for (std::size_t k = 0; k < kMostClippedCorners; ++k) text += k % 2 == 0 ? " 1" : " 2";
   }
-  const double seconds = seconds_of([&] { CHECK(read_obj(text, "file").warnings.size() == 1); });
+  const double seconds =
+      seconds_of([&] { CHECK(read_obj(MemorySource(text), "file").warnings.size() == 1); });
   CHECK(seconds < 10.0);
 }
 

@@ -49,6 +49,27 @@ TEST_CASE("The codec reads the formats of assets as they are stored", "[texture]
     }
 }
 
+// By libwebp's encoder, lossless and exact, which keeps colors of opacity 0.
+TEST_CASE("The codec reads WebP as it is stored, colors where nothing is seen among them", "[texture]") {
+  const std::string head("RIFF\x34\0\0\0WEBPVP8L\x27\0\0\0\x2f\x02\0\0\0", 25),
+      head_of_alpha("RIFF\x38\0\0\0WEBPVP8L\x2b\0\0\0\x2f\x02\0\0\x10", 25),
+      colors("\x17\x20\x20\x49\xc0\x5d\xed\x6f\xa3\x98\x34\x61\xa7\xfd\x8b\x1a\x81\x40\x80\x32\x56\xcc\x70",
+             23),
+      end("\xc5\xfc\x07\x7d\xd3\x87\x26\x44\xf4\x3f\0\0", 12),
+      end_of_alpha("\x85\x80\x24\xc1\xe7\x3d\x2f\xe8\x37\xfd\xd0\x84\x88\xfe\x07\0", 16);
+  const auto texels = [](const std::string& bytes) {
+    const ImagePixels pixels = image_library().codec().decode(bytes, "image");
+    std::vector<int> values = {static_cast<int>(pixels.width), static_cast<int>(pixels.channels)};
+    for (const std::byte byte : pixels.bytes) values.push_back(std::to_integer<int>(byte));
+    return values;
+  };
+  CHECK(texels(head + colors + end) == std::vector<int>{3, 3, 10, 200, 30, 250, 4, 90, 1, 2, 3});
+  CHECK(texels(head_of_alpha + colors + end_of_alpha) ==
+        std::vector<int>{3, 4, 10, 200, 30, 0, 250, 4, 90, 128, 1, 2, 3, 255});
+  CHECK_THROWS_WITH(texels((head + colors).substr(0, 44)),
+                    "image: cannot be read: the image is damaged, or an animation (convert it to PNG)");
+}
+
 TEST_CASE("The codec refuses images that are cut off, and other files", "[texture]") {
   const ImageCodec& codec = image_library().codec();
   for (const std::string extension : {"png", "tga", "bmp", "tif"}) {
