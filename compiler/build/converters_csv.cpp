@@ -55,11 +55,16 @@ std::string joined(const std::vector<std::string>& remarks) {
   return text;
 }
 
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+// numpy's genfromtxt knows no quotes, and takes what follows # for a comment.
+std::string cell(std::string text) {
+  for (char& c : text)
+    if (c == ',')
+      c = ';';
+    else if (c == '"')
+      c = '\'';
+    else if (c == '#' || c == '\n')
+      c = ' ';
+  return text;
 }
 
 std::string line(const Row& row) {

@@ -1,6 +1,7 @@
 #include "study/study_options.hpp"
 
 #include <iostream>
+#include <set>
 #include <utility>
 
 #include "build/fit_folder.hpp"
@@ -65,7 +66,13 @@ void require_folder_for_pictures(const OutputOptions& options) {
 void prepare_folder(const OutputOptions& options, const std::string& name) {
   if (options.folder.empty()) return;
   create_parent(options.folder / "results");
-  require_new(options.folder / (name + ".csv"), options.force);  // every study writes this table
+  std::set<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(options.folder)) {
+    const std::string file = entry.path().filename().string();
+    const bool is_result = file.starts_with(name + ".") || file.starts_with(name + "_");
+    if (is_result || (options.pictures && file.starts_with("spheres_"))) found.insert(entry.path());
+  }
+  for (const std::filesystem::path& path : found) require_new(path, options.force);
 }
 
 std::vector<std::string> write_report(const OutputOptions& options, const StudyReport& report) {

@@ -129,16 +129,16 @@ int fail(const char* what) {
 // Where the elements of a texel are.
 struct Layout {
   std::size_t stride, red, width;
-  bool apart;  // the width has a buffer of its own, with two elements a texel
+  std::size_t apart;  // the width has a buffer of its own, with so many elements a texel; 0: it has none
 };
-constexpr Layout kLayouts[] = {
-    {4, 0, 3, false}, {4, 1, 0, false}, {4, 0, 1, true}, {3, 0, 0, true}, {5, 1, 4, false}};
+constexpr Layout kLayouts[] = {{4, 0, 3, 0}, {4, 1, 0, 0}, {4, 0, 1, 2},
+                               {3, 0, 0, 2}, {3, 0, 0, 1}, {5, 1, 4, 0}};
 
 // Planar rows as texels; 7 between them.
 template <class T>
 struct Interleaved {
   Interleaved(const Layout& layout, std::size_t count)
-      : own(layout), color(count * layout.stride, T(7.0f)), width(count * 2, T(7.0f)) {}
+      : own(layout), color(count * layout.stride, T(7.0f)), width(count * layout.apart, T(7.0f)) {}
   Interleaved(const Layout& layout, const std::vector<float>& rows) : Interleaved(layout, rows.size() / 4) {
     const Buffers<T> to = buffers();
     const std::size_t count = rows.size() / 4;
@@ -149,8 +149,8 @@ struct Interleaved {
   }
 
   Buffers<T> buffers() {
-    return {(own.apart ? width : color).data() + own.width, color.data() + own.red,
-            own.apart ? 2 : own.stride, own.stride};
+    return {(own.apart != 0 ? width : color).data() + own.width, color.data() + own.red,
+            own.apart != 0 ? own.apart : own.stride, own.stride};
   }
   std::vector<float> values() const {
     std::vector<float> all;

@@ -129,6 +129,7 @@ TEST_CASE("glTF: packed maps of its two material models") {
   CHECK(box.maps[0].habit == "glTF");
   CHECK(reading_text("Default_metalRoughness") == "glTF: G=roughness B=metallic");
   CHECK(reading_text("Fox_metallicRoughness") == "glTF: G=roughness B=metallic");
+  CHECK(reading_text("Fox_Roughness_Metallic") == "glTF: G=roughness B=metallic");
   CHECK(reading_text("T_Crate_Worn_ORM") == "glTF: R=occlusion G=roughness B=metallic");
 }
 
