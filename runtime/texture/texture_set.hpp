@@ -36,7 +36,8 @@ struct ParameterRequest {
 
 // Parses the value of an option: `0.5` and `0.9,0.6,0.2` are constants; `maps.png:G` and `maps.exr:R,G,B`
 // name channels of a file, unless a file with this whole name exists; any other text is a file. Throws
-// kUsage, naming `option`, for other than one or three numbers, or for a negative or infinite number.
+// kUsage, naming `option`, for other than one or three numbers, for a negative or infinite number, and for a
+// percentage.
 std::variant<MapName, ConstantValues> parameter_source(std::string_view option, std::string_view text);
 
 // Parses one or three finite factors from 0; throws as above.
