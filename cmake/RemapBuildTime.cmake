@@ -1,4 +1,4 @@
-# What keeps builds short: headers that many sources read are compiled once, and tests are not optimised.
+# What keeps builds short: headers that many sources read are compiled once, and what has no long loops is not optimised.
 
 # remap_precompile_tests(OWNER), remap_use_precompiled_tests(TARGET OWNER): Catch2 compiled once, for all test programs.
 # They must have the same flags as OWNER; definitions may differ.
@@ -15,7 +15,14 @@ function(remap_use_precompiled_tests target owner)
 endfunction()
 
 # remap_unoptimised(TARGET): TARGET checks what others compute, and is itself not worth the time of an optimiser.
-# Debug builds and sanitizers keep their own flags.
 function(remap_unoptimised target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O0>)
+  target_compile_options(${target} PRIVATE -O0)
+endfunction()
+
+# remap_small(TARGET...): what plans, edits texts and reports has no loop over texels, rows or pictures. Half the code, and a third of the
+# compile time; under sanitizers, whose checks an optimiser takes long to move, half of it.
+function(remap_small)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os> $<$<CONFIG:Debug>:-O0>)
+  endforeach()
 endfunction()
