@@ -42,6 +42,16 @@ class SkipListener : public Catch::TestEventListenerBase {
 };
 CATCH_REGISTER_LISTENER(SkipListener)
 
+// Each case that is not hidden as "file<tab>tags, with spaces between them<tab>name", for discover_tests.cmake.
+void list_cases(const Catch::IConfig& config) {
+  for (const Catch::TestCase& test : Catch::getAllTestCasesSorted(config)) {
+    if (test.isHidden()) continue;
+    std::cout << test.lineInfo.file << '\t';
+    for (const std::string& tag : test.lcaseTags) std::cout << ' ' << tag;
+    std::cout << " \t" << test.name << '\n';
+  }
+}
+
 }  // namespace
 
 namespace remap {
@@ -76,6 +86,10 @@ bool has_avx2() {
 
 int main(int argc, char** argv) {
   Catch::Session session;
+  if (argc == 2 && std::string(argv[1]) == "--list-for-ctest") {
+    list_cases(session.config());
+    return 0;
+  }
   if (session.applyCommandLine(argc, argv) != 0) return 1;
   // A name that matches no case is an error: ctest would count it as passed.
   session.configData().warnings =

@@ -35,11 +35,14 @@ std::string comment(const Fit& fit, const std::string& key) {
 }
 
 End make_end(const Renderer& renderer, const Fit& fit, const std::string& role, const ModelSide& side,
-             double exposure) {
+             double exposure, double diffuse) {
   const ParameterRoles roles =
       recorded_roles(comment(fit, role + "_roughness_parameter"), comment(fit, role + "_specular"),
                      comment(fit, role + "_fixed"));
   End end{recast(renderer.model(side.model), roles), {SpecularLaw::kAffine}, exposure};
+  if (diffuse > 0.0 && !end.model.has(ParameterRole::kDiffuse))
+    throw Error(ErrorKind::kUsage,
+                "--diffuse: " + side.model + " has no diffuse reflectance (leave the option out)");
   if (end.model.parameter(ParameterRole::kSpecular).name != side.specular)
     end.response = specular_response(renderer, end.model);
   return end;
@@ -124,8 +127,8 @@ class LampStudio {
         options_(options),
         light_(light),
         source_(make_end(renderer, fit, "source", fit.source,
-                         parse_number(comment(fit, kLightScaleComment)).value_or(1.0))),
-        target_(make_end(renderer, fit, "target", fit.target, 1.0)) {}
+                         parse_number(comment(fit, kLightScaleComment)).value_or(1.0), options.diffuse)),
+        target_(make_end(renderer, fit, "target", fit.target, 1.0, options.diffuse)) {}
 
   RowPictures operator()(const PreviewFigure& figure) const {
     return {photograph(source_, figure.alpha, options_.specular, figure.shape),
@@ -239,6 +242,14 @@ std::string row_label(const std::vector<double>& specular, const PreviewFigure& 
          short_list(figure.target_specular);
 }
 
+// The shapes that `light` shows.
+std::vector<Shape> lit_shapes(const PreviewLight& light, const std::vector<Shape>& shapes) {
+  if (std::holds_alternative<Light>(light.light)) return shapes;
+  if (std::ranges::find(shapes, Shape::kSphere) == shapes.end())
+    throw Error(ErrorKind::kUsage, "--light " + light.name + ": lights spheres only (add --shape sphere)");
+  return {Shape::kSphere};
+}
+
 // Fills a preview row by row.
 class SheetFiller {
  public:
@@ -246,40 +257,33 @@ class SheetFiller {
     preview_.specular = options.specular;
     preview_.labels.columns = {"source\n" + fit.source.model, "copied\n" + fit.target.model,
                                "converted\n" + fit.target.model};
+    std::size_t rows = 0;
+    for (const PreviewLight& light : options.lights)
+      rows += lit_shapes(light, options.shapes).size() * options.alphas.size();
+    preview_.sheet = contact_sheet(rows, kColumns, cell());
   }
 
   void add_rows(const std::string& light, Shape shape, const auto& studio) {
     for (const double alpha : options_.alphas) {
       PreviewFigure figure = converted(fit_, options_.specular, light, shape, alpha);
-      add_row(studio(figure), figure);
+      add_pictures(studio(figure), figure);
       preview_.labels.rows.push_back(row_label(options_.specular, figure));
       preview_.figures.push_back(std::move(figure));
     }
   }
 
-  Preview result() {
-    preview_.sheet = contact_sheet(rows_.size(), kColumns, cell());
-    for (std::size_t row = 0; row < rows_.size(); ++row)
-      for (std::size_t column = 0; column < kColumns; ++column)
-        place_picture(&preview_.sheet, cell(), row, column, rows_[row].pixels, rows_[row].colors[column]);
-    return std::move(preview_);
-  }
+  Preview result() { return std::move(preview_); }
 
  private:
-  // A row of the sheet: pixels of a cell, and their display values.
-  struct Row {
-    std::vector<std::uint32_t> pixels;
-    std::array<std::vector<float>, kColumns> colors;
-  };
-
-  // Compares the pictures, and keeps them.
-  void add_row(const RowPictures& pictures, PreviewFigure& figure) {
+  // Compares the pictures, and places them in the next row of the sheet.
+  void add_pictures(const RowPictures& pictures, PreviewFigure& figure) {
     const std::vector<std::uint32_t> pixels = covered_pixels(pictures[0]);
+    const std::vector<std::uint32_t> places = in_cell(pixels);
     std::array<DisplayedSphere, kColumns> shown;
-    Row& row = rows_.emplace_back(Row{in_cell(pixels), {}});
     for (std::size_t column = 0; column < kColumns; ++column) {
       shown[column] = displayed_sphere(chosen(pictures[column], pixels), pixels, options_.resolution);
-      row.colors[column] = over_background(pictures[column], pixels, shown[column].colors);
+      place_picture(&preview_.sheet, cell(), preview_.figures.size(), column, places,
+                    over_background(pictures[column], pixels, shown[column].colors));
     }
     const auto similarity = [&](const DisplayedSphere& other) {
       return PreviewSimilarity{sphere_similarity(shown[0], other, pixels, options_.resolution),
@@ -302,7 +306,6 @@ class SheetFiller {
   const Fit& fit_;
   const PreviewOptions& options_;
   Preview preview_;
-  std::vector<Row> rows_;
 };
 
 Environment environment_of(const std::string& name_or_file, double exposure) {
@@ -345,15 +348,13 @@ Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOpti
   require_options(options);
   SheetFiller sheet(fit, options);
   for (const PreviewLight& light : options.lights) {
-    if (const auto* environment = std::get_if<Environment>(&light.light)) {
-      if (std::ranges::find(options.shapes, Shape::kSphere) == options.shapes.end())
-        throw Error(ErrorKind::kUsage,
-                    "--light " + light.name + ": lights spheres only (add --shape sphere)");
-      sheet.add_rows(light.name, Shape::kSphere, EnvironmentStudio(fit, options, *environment));
-      continue;
-    }
-    const LampStudio studio(renderer, fit, options, std::get<Light>(light.light));
-    for (const Shape shape : options.shapes) sheet.add_rows(light.name, shape, studio);
+    const auto show = [&](const auto& studio) {
+      for (const Shape shape : lit_shapes(light, options.shapes)) sheet.add_rows(light.name, shape, studio);
+    };
+    if (const auto* environment = std::get_if<Environment>(&light.light))
+      show(EnvironmentStudio(fit, options, *environment));
+    else
+      show(LampStudio(renderer, fit, options, std::get<Light>(light.light)));
   }
   return sheet.result();
 }

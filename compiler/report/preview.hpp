@@ -68,8 +68,8 @@ std::vector<double> preview_alphas(const Domain& domain);
 
 // The source's pictures are multiplied by the factor between the light of the two renderers that the fit's
 // table states. Throws kUsage for models that `renderer` does not have, for an environment without the sphere
-// or with models that are no lobes of the built-in renderer with a scale or F0, for values out of range, and
-// without lights or shapes.
+// or with models that are no lobes of the built-in renderer with a scale or F0, for values out of range, for
+// a diffuse reflectance where a model has none, and without lights or shapes.
 Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOptions& options);
 
 }  // namespace remap

@@ -5,9 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Dense>
-
 #include "core/errors.hpp"
+#include "warp/decompositions.hpp"
 
 namespace remap {
 namespace {
@@ -61,7 +60,7 @@ Placement fitted(const WarpMaterial& material, const AppearanceFeatures& feature
   }
   Eigen::MatrixXd left = design.transpose() * design;
   left.diagonal().array() += kFitRidge * left.trace() / static_cast<double>(kTerms);
-  const Eigen::MatrixXd weights = left.ldlt().solve(design.transpose() * goal);
+  const Eigen::MatrixXd weights = solve_symmetric(left, design.transpose() * goal);
   QuadraticTerms terms;
   for (Eigen::Index k = 0; k < dimension; ++k)
     for (Eigen::Index t = 0; t < kTerms; ++t) terms.weights.push_back(static_cast<float>(weights(t, k)));
@@ -84,11 +83,10 @@ AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFe
   if (!(space.radius > kLeastRadius * space.mean.norm()))
     throw input_error(material.name() +
                       ": all texels look the same (a warp needs a material with at least two appearances)");
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   // With fewer than three features, the other axes are 0.
   const Eigen::Index found = std::min<Eigen::Index>(3, columns.rows());
   space.axes = Eigen::MatrixXd::Zero(columns.rows(), 3);
-  space.axes.leftCols(found) = solver.eigenvectors().rightCols(found).rowwise().reverse();
+  space.axes.leftCols(found) = symmetric_eigen(covariance).vectors.rightCols(found).rowwise().reverse();
   space.stress = stress_of(columns, space.axes);
   return space;
 }

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/errors.hpp"
+#include "warp/decompositions.hpp"
 
 namespace remap {
 namespace {
@@ -52,10 +51,9 @@ FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& t
   }
   columns = weights.asDiagonal() * columns;
   // Only the coordinates of the columns in the left singular vectors are needed, not the vectors themselves.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(columns.transpose() * columns);
-  const Eigen::VectorXd strengths = solver.eigenvalues().tail(kFeatureBasis).cwiseMax(0.0).cwiseSqrt();
-  const Eigen::MatrixXd features =
-      strengths.asDiagonal() * solver.eigenvectors().rightCols(kFeatureBasis).transpose();
+  const auto [values, vectors] = symmetric_eigen(columns.transpose() * columns);
+  const Eigen::VectorXd strengths = values.tail(kFeatureBasis).cwiseMax(0.0).cwiseSqrt();
+  const Eigen::MatrixXd features = strengths.asDiagonal() * vectors.rightCols(kFeatureBasis).transpose();
   const auto part = [&](Eigen::Index first) {
     return SeparableFeatures{features.col(0), features.middleCols(first, nodes),
                              features.middleCols(first + nodes, nodes)};

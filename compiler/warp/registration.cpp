@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include "warp/decompositions.hpp"
 
 namespace remap {
 namespace {
@@ -93,10 +93,7 @@ Pull pull_of(const PointSets& sets, const Points& moved, double sigma) {
 }  // namespace
 
 Eigen::MatrixXd common_axes(const AppearanceSpace& source, const AppearanceSpace& target, int dimension) {
-  const Eigen::MatrixXd product =
-      source.axes.leftCols(dimension).transpose() * target.axes.leftCols(dimension);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  return nearest_orthogonal(source.axes.leftCols(dimension).transpose() * target.axes.leftCols(dimension));
 }
 
 Points stroke_centres(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes) {
@@ -112,7 +109,7 @@ AffineMap affine_from_strokes(const PointSets& sets) {
   const Points from = sets.source_centres.rowwise() - from_mean, to = sets.target_centres.rowwise() - to_mean;
   const Eigen::Index n = from.cols();
   const Eigen::MatrixXd left = from.transpose() * from + kPrior * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd linear = left.ldlt().solve(from.transpose() * to + kPrior * sets.common_axes);
+  const Eigen::MatrixXd linear = solve_symmetric(left, from.transpose() * to + kPrior * sets.common_axes);
   return {linear, to_mean - from_mean * linear};
 }
 
@@ -134,7 +131,7 @@ SmoothWarp register_points(const PointSets& sets, const AffineMap& start) {
     left.topLeftCorner(centres, centres) +=
         kBending * sigma * sigma / 0.05 / static_cast<double>(kCentres) * kernel;
     left.diagonal().array() += 1e-9 * left.trace() / static_cast<double>(unknowns);
-    const Eigen::MatrixXd solution = left.ldlt().solve(design.transpose() * pull.weighted);
+    const Eigen::MatrixXd solution = solve_symmetric(left, design.transpose() * pull.weighted);
     warp.weights = solution.topRows(centres);
     warp.affine = {solution.middleRows(centres, n), solution.row(unknowns - 1)};
     moved = design * solution;

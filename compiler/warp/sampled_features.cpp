@@ -3,10 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/errors.hpp"
 #include "renderer/fresnel.hpp"
+#include "warp/decompositions.hpp"
 #include "warp/features.hpp"
 
 namespace remap {
@@ -98,13 +97,12 @@ Eigen::MatrixXd basis_of(const SampledFeatures& source, const MaterialRef& sourc
     columns.col(next++) = weighted(source, samples_of(source, source_material, texel));
   for (const std::uint32_t texel : to)
     columns.col(next++) = weighted(target, samples_of(target, target_material, texel));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(columns.transpose() * columns);
-  const Eigen::VectorXd& values = solver.eigenvalues();  // in increasing order
+  const auto [values, vectors] = symmetric_eigen(columns.transpose() * columns);
   const double least = kLeastShare * values[values.size() - 1];
   const Eigen::Index rank =
       std::clamp<Eigen::Index>((values.array() > least).count(), 1, std::min(kLargestBasis, values.size()));
   const Eigen::VectorXd lengths = values.tail(rank).cwiseMax(1e-300).cwiseSqrt();
-  return columns * solver.eigenvectors().rightCols(rank) * lengths.cwiseInverse().asDiagonal();
+  return columns * vectors.rightCols(rank) * lengths.cwiseInverse().asDiagonal();
 }
 
 }  // namespace

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
-
 #include "core/errors.hpp"
 #include "core/report_text.hpp"
+#include "warp/decompositions.hpp"
 #include "warp/warp_table.hpp"
 
 namespace remap {
@@ -58,9 +57,8 @@ Selection selection_of(const MaterialRef& material, const std::vector<StrokePair
 // The number of directions along which the centres of the strokes differ by more than a tenth of the radius.
 int fixed_directions(const Points& centres) {
   const Points centred = centres.rowwise() - centres.colwise().mean();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred);
-  return static_cast<int>(
-      (svd.singularValues().array() > 0.1 * std::sqrt(static_cast<double>(centres.rows()))).count());
+  const Eigen::VectorXd squares = symmetric_eigen(centred.transpose() * centred).values;
+  return static_cast<int>((squares.array() > 0.01 * static_cast<double>(centres.rows())).count());
 }
 
 double rms_distance(const Points& a, const Points& b, std::size_t* worst = nullptr) {

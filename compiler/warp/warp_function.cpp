@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 namespace remap {
 namespace {

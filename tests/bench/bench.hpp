@@ -35,6 +35,9 @@ Section texel_section(const Medians& medians);
 void add_converters();
 Section converter_section(const Medians& medians);
 
+void add_maps();
+Section maps_section(const Medians& medians);
+
 void add_chains();
 Section chain_section(const Medians& medians);
 

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
 
   add_passes();
   add_converters();
+  add_maps();
   add_chains();
   add_rivals();
   add_networks();
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
       pass_section(medians, "fused",
                    "Three converters as one pass (remapc chain: ward, ward-balanced, beckmann, as)"),
       converter_section(medians),
+      maps_section(medians),
       chain_section(medians),
       rival_section(medians),
       network_section(medians),
