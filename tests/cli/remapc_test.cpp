@@ -99,7 +99,9 @@ TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final
     arguments[6] = "512";  // seconds of work
     arguments[8] = "400";
     Process process = session.start(REMAPC_PROGRAM + arguments);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    while (process.is_running() && !process.catches(SIGTERM))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
     process.send(signal);
     const ProcessResult result = process.wait();
     CHECK((signal == SIGKILL ? result.signal == SIGKILL : result.exit_code == 1));

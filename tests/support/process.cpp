@@ -79,6 +79,14 @@ bool Process::is_running() {
   return false;
 }
 
+bool Process::catches(int signal) const {
+  std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("SigCgt:"))
+      return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+  return false;
+}
+
 ProcessResult Process::wait() {
   if (!result_) {
     int status = 0;

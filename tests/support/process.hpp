@@ -52,6 +52,8 @@ class Process {
 
   void send(int signal) const;
   bool is_running();
+  // Whether the program has a handler of `signal`: it takes as long to start as the machine is busy.
+  bool catches(int signal) const;
   ProcessResult wait();
 
  private:
