@@ -42,7 +42,7 @@ class SkipListener : public Catch::TestEventListenerBase {
 };
 CATCH_REGISTER_LISTENER(SkipListener)
 
-// Each case that is not hidden as "file<tab>tags, with spaces between them<tab>name", for discover_tests.cmake.
+// Each case that is not hidden, for discover_tests.cmake: file, tags with spaces between them, name.
 void list_cases(const Catch::IConfig& config) {
   for (const Catch::TestCase& test : Catch::getAllTestCasesSorted(config)) {
     if (test.isHidden()) continue;
