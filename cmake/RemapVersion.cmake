@@ -34,14 +34,14 @@ function(remap_version_text target)
   string(SUBSTRING ${hash} 0 12 hash)
   set(REMAP_DATA "${count} converters, SHA-256 ${hash}...")
 
-  foreach(package IN ITEMS OpenImageIO CLI11 nlohmann_json)
+  foreach(package IN ITEMS OpenImageIO libwebp CLI11 nlohmann_json)
     get_directory_property(${package} DIRECTORY ${PROJECT_SOURCE_DIR}/runtime DEFINITION ${package}_VERSION)
   endforeach()
   foreach(part IN ITEMS MAJOR MINOR RELEASE)
     remap_macro_value(${part} ${XXHASH_INCLUDE_DIR}/xxhash.h XXH_VERSION_${part})
   endforeach()
-  remap_library_list(REMAP_LIBRARIES OpenImageIO=${OpenImageIO} CLI11=${CLI11} "JSON for Modern C++=${nlohmann_json}"
-                     xxHash=${MAJOR}.${MINOR}.${RELEASE})
+  remap_library_list(REMAP_LIBRARIES OpenImageIO=${OpenImageIO} libwebp=${libwebp} CLI11=${CLI11}
+                     "JSON for Modern C++=${nlohmann_json}" xxHash=${MAJOR}.${MINOR}.${RELEASE})
   set(written ${PROJECT_BINARY_DIR}/runtime/version_text.cpp)
   configure_file(${PROJECT_SOURCE_DIR}/runtime/command_line/version_text.cpp.in ${written} @ONLY)
   target_sources(${target} PRIVATE ${written})

@@ -58,6 +58,6 @@ fi
 # The first line is the version, as it always was; then what a report of an error should say.
 expect_exit 0 "$work/remap_tools/bin/remapc" --version
 for words in "data: $(grep -c '^ *{"id":' "$source_folder/generated/converters.json") converters, SHA-256 $(
-  sha256sum "$source_folder/generated/converters.json" | head -c 12)..." "libraries: OpenImageIO " "Eigen 3."; do
+  sha256sum "$source_folder/generated/converters.json" | head -c 12)..." "libraries: OpenImageIO " "libwebp 1." "Eigen 3."; do
   expect_output "$words"
 done
