@@ -18,7 +18,7 @@ package_npm() {
     echo "npm: em++ was not found (install it with: apt-get install --no-install-recommends emscripten)" >&2
     return 1
   fi
-  step "Build for WebAssembly" build_preset wasm npm_package
+  step "Build for WebAssembly" build_wasm npm_package
   rm -rf "$folder"
   mkdir -p "$folder"
   step "Pack" npm pack --silent --pack-destination "$folder" "$repository/build/wasm/npm"

@@ -18,12 +18,6 @@ install_modules() {
   (cd build/web && npm ci --ignore-scripts --no-audit --no-fund)
 }
 
-build_program() {
-  local -a options=()
-  ! type -P ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  cmake --preset wasm "${options[@]}" && cmake --build --preset wasm --target texremap_page
-}
-
 package_web() {
   case ${1-} in
     "" | --test) ;;
@@ -38,7 +32,7 @@ package_web() {
   esac
   local -r folder=build/packages/web/texremap-web
   step "Fetch what the page is bundled from" install_modules
-  step "Compile the program for browsers" build_program
+  step "Compile the program for browsers" build_wasm texremap_page
   step "Make the page" node web/build.mjs build/packages/web build/web/node_modules build/wasm/web
   local file
   for file in "$folder"/* build/packages/web/texremap.html; do
