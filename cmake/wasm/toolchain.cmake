@@ -11,14 +11,4 @@ include(${emscripten_root}/cmake/Modules/Platform/Emscripten.cmake)
 set(CMAKE_CXX_FLAGS_INIT
   "-msimd128 -fwasm-exceptions -isystem ${CMAKE_CURRENT_LIST_DIR}/../libcxx/include")
 
-# Packages of this machine that are headers alone, each by a folder of its own: /usr/include has headers of another
-# C library.
-set(nlohmann_json_DIR ${CMAKE_CURRENT_LIST_DIR})
-set(CLI11_DIR ${CMAKE_CURRENT_LIST_DIR})
-include(${CMAKE_CURRENT_LIST_DIR}/header_folder.cmake)
-if(NOT XXHASH_INCLUDE_DIR)
-  remap_header_folder(xxhash.h xxhash.h XXHASH_INCLUDE_DIR)
-  remap_header_folder(tiny_obj_loader.h tiny_obj_loader.h TINYOBJLOADER_INCLUDE_DIR)
-  set(XXHASH_INCLUDE_DIR ${XXHASH_INCLUDE_DIR} CACHE PATH "")
-  set(TINYOBJLOADER_INCLUDE_DIR ${TINYOBJLOADER_INCLUDE_DIR} CACHE PATH "")
-endif()
+include(${CMAKE_CURRENT_LIST_DIR}/../headers/header_folders.cmake)

@@ -1,12 +1,7 @@
 #include "command_line/progress.hpp"
 
 #include <cstdio>
-#include <sys/resource.h>
 #include <utility>
-#ifdef __EMSCRIPTEN__
-#include <array>
-#include <emscripten.h>
-#endif
 
 namespace remap {
 namespace {
@@ -25,35 +20,6 @@ std::string clock_text(double seconds) {
 }
 
 }  // namespace
-
-#ifdef __EMSCRIPTEN__
-// What the host knows of its process (packages/npm/cli.js): seconds and bytes. A page has none.
-// clang-format off
-EM_JS(void, remap_host_use, (double* use), { if (Module["processes"]) HEAPF64.set(Module["processes"].use(), use >> 3); });
-// clang-format on
-
-ResourceUse resource_use() noexcept {
-  std::array<double, 2> use{};
-  remap_host_use(use.data());
-  return {use[0], static_cast<std::size_t>(use[1])};
-}
-#else
-namespace {
-
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-}  // namespace
-
-ResourceUse resource_use() noexcept {
-  rusage usage{};
-  if (::getrusage(RUSAGE_SELF, &usage) != 0) return {};
-  constexpr std::size_t kUnit = 1024;  // Linux counts in kilobytes
-  return {seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime),
-          static_cast<std::size_t>(usage.ru_maxrss) * kUnit};
-}
-#endif
 
 Progress::Progress(std::string label, std::size_t total, bool shown)
     : label_(std::move(label)),

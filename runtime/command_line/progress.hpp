@@ -1,4 +1,4 @@
-// The progress of a run: a line on the terminal, and the processor time and memory that it took.
+// The progress of a run: a line on the terminal.
 #pragma once
 
 #include <chrono>
@@ -9,14 +9,6 @@
 #include "command_line/run_app.hpp"
 
 namespace remap {
-
-struct ResourceUse {
-  double processor_seconds = 0.0;     // of all threads
-  std::size_t peak_memory_bytes = 0;  // resident
-};
-
-// The use of this process since it began; zeros where the system does not report it.
-ResourceUse resource_use() noexcept;
 
 // Shows `label  42 %, 0:13 left` on standard error, updates it at most ten times a second, and erases it when
 // destroyed. Prints nothing where standard error is not a terminal. Thread-safe.

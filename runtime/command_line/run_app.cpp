@@ -1,7 +1,6 @@
 #include "command_line/run_app.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -16,6 +15,7 @@
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 #include "core/plain_text.hpp"
+#include "core/system.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -163,9 +163,7 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
 }  // namespace
 
 int run_app(Command& command, int argc, const char* const* argv) noexcept {
-  // Without this, the signal would end the program where a file exceeds the process's size limit. With it,
-  // the write fails and is reported like any other.
-  std::signal(SIGXFSZ, SIG_IGN);
+  fail_at_limit_of_file_size();
   CLI::App& app = command.app();
   try {
     try {

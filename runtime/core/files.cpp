@@ -3,16 +3,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fcntl.h>
 #include <mutex>
 #include <set>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/open_file.hpp"
 #include "core/process_mark.hpp"
+#include "core/system.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -49,15 +46,6 @@ void remove_abandoned_once(const fs::path& folder) {
   if (done.insert(folder).second) remove_abandoned(folder);
 }
 
-// Waits until the disk has the content of a file or the names of a folder. Some file systems cannot.
-bool is_on_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS; }
-
-// What cannot be opened was read-only when it was made.
-bool is_on_disk(const fs::path& path) {
-  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  return !file.is_open() || is_on_disk(file.get());
-}
-
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
 
 void replace(const fs::path& unfinished, const fs::path& path) {
@@ -67,7 +55,7 @@ void replace(const fs::path& unfinished, const fs::path& path) {
     throw output_error(path.string() +
                        ": cannot be written: is a device or a pipe, which a file must not replace");
   fs::rename(unfinished, path, failure);
-  if (failure) fail_to_write(path, failure.value());
+  if (failure) fail_to_write(path, errno_of(failure));
 }
 
 }  // namespace
@@ -91,7 +79,7 @@ void commit_file(const fs::path& unfinished, const fs::path& path, Flush flush) 
   try {
     if (flush == Flush::kYes) flush_to_disk(unfinished, path);
     replace(unfinished, path);
-    if (flush == Flush::kYes) is_on_disk(folder_of(path));  // the file is there, whatever the answer
+    if (flush == Flush::kYes) wait_for_disk(folder_of(path));  // the file is there, whatever the answer
   } catch (const Error&) {
     std::error_code ignored;
     fs::remove(unfinished, ignored);
@@ -106,9 +94,9 @@ void require_new(const fs::path& path, bool force) {
 }
 
 fs::path installed(const fs::path& below) {
+  const fs::path program = program_file(), found = program.parent_path().parent_path() / below;
   std::error_code failure;
-  const fs::path found = fs::read_symlink("/proc/self/exe", failure).parent_path().parent_path() / below;
-  return !failure && fs::exists(found, failure) ? found : fs::path();
+  return !program.empty() && fs::exists(found, failure) ? found : fs::path();
 }
 
 void create_parent(const fs::path& path) {
@@ -117,7 +105,7 @@ void create_parent(const fs::path& path) {
   std::error_code failure;
   fs::create_directories(parent, failure);
   if (failure)
-    throw system_error(ErrorKind::kOutput, parent.string() + ": folder cannot be created", failure.value());
+    throw system_error(ErrorKind::kOutput, parent.string() + ": folder cannot be created", errno_of(failure));
   if (!fs::is_directory(parent))
     throw output_error(parent.string() + ": folder cannot be created: not a folder");
 }
@@ -125,7 +113,7 @@ void create_parent(const fs::path& path) {
 NewFile::NewFile(const fs::path& path) : path_(path) {
   create_parent(path);
   unfinished_ = unfinished_name(path);
-  file_ = std::fopen(unfinished_.c_str(), "w+be");
+  file_ = create_file(unfinished_);
   if (file_ == nullptr) fail_to_write(path, errno);
 }
 
@@ -145,11 +133,11 @@ const fs::path& NewFile::finish() {
 }
 
 std::shared_ptr<const InputFile> NewFile::content() const {
-  return std::make_shared<const InputFile>(unfinished_, ::fileno(file_));
+  return std::make_shared<const InputFile>(unfinished_, descriptor_of(file_));
 }
 
 void NewFile::flush_to_disk() const {
-  if (!is_on_disk(::fileno(file_))) fail_to_write(path_, errno);
+  if (!wait_for_disk(descriptor_of(file_))) fail_to_write(path_, errno);
 }
 
 void NewFile::commit(Flush flush) {
@@ -158,7 +146,7 @@ void NewFile::commit(Flush flush) {
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail_to_write(path_, errno);
   replace(unfinished_, path_);
   unfinished_.clear();
-  if (flush == Flush::kYes) is_on_disk(folder_of(path_));  // the file is there, whatever the answer
+  if (flush == Flush::kYes) wait_for_disk(folder_of(path_));  // the file is there, whatever the answer
 }
 
 void write_file(const fs::path& path, std::string_view content, Flush flush) {
@@ -168,13 +156,12 @@ void write_file(const fs::path& path, std::string_view content, Flush flush) {
 }
 
 void flush_to_disk(const fs::path& path, const fs::path& shown) {
-  if (!is_on_disk(path)) fail_to_write(shown, errno);
+  if (!wait_for_disk(path)) fail_to_write(shown, errno);
 }
 
 void add_copy(const InputFile& from, NewFile& to) {
   for_pieces(from, [&](std::string_view piece) { to.add(piece); });
-  struct stat found {};
-  if (::fstat(from.descriptor(), &found) == 0) ::fchmod(::fileno(to.stream()), found.st_mode & 07777);
+  copy_permissions(from.descriptor(), descriptor_of(to.stream()));
 }
 
 void copy_whole_file(const fs::path& from, const fs::path& to) {

@@ -1,12 +1,10 @@
 #include "core/input_file.hpp"
 
 #include <cerrno>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "core/errors.hpp"
 #include "core/read_file.hpp"
+#include "core/system.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -19,7 +17,7 @@ namespace {
 // To open a pipe would wait for its writer, and to open a device may do something.
 int opened(const fs::path& path) {
   require_regular_file(path);
-  return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+  return open_to_read(path);
 }
 
 }  // namespace
@@ -33,17 +31,17 @@ InputFile::InputFile(const fs::path& path, int descriptor) : path_(path), own_(-
 }
 
 void InputFile::look() {
-  struct stat found {};
-  if (descriptor_ < 0 || ::fstat(descriptor_, &found) != 0) fail_to_read(path_);
+  const std::optional<FileFacts> found = descriptor_ < 0 ? std::nullopt : facts_of(descriptor_);
+  if (!found) fail_to_read(path_);
   // The name may lead elsewhere by now.
-  if (!S_ISREG(found.st_mode)) throw input_error(path_.string() + ": is not a file");
-  size_ = static_cast<std::uintmax_t>(found.st_size);
+  if (found->type != fs::file_type::regular) throw input_error(path_.string() + ": is not a file");
+  size_ = found->size;
 }
 
 std::size_t InputFile::read(std::uintmax_t place, char* bytes, std::size_t size) const {
   std::size_t done = 0;
   while (done < size) {
-    const ssize_t count = ::pread(descriptor_, bytes + done, size - done, static_cast<off_t>(place + done));
+    const std::ptrdiff_t count = read_at(descriptor_, place + done, bytes + done, size - done);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail_to_read(path_);
     if (count == 0) break;

@@ -4,10 +4,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <stdlib.h>
 #include <string>
 
 #include "core/errors.hpp"
+#include "core/system.hpp"
 
 namespace remap {
 
@@ -17,7 +17,7 @@ class ScratchFolder {
  public:
   explicit ScratchFolder(const std::string& prefix) {
     std::string name = (std::filesystem::temp_directory_path() / (prefix + "-XXXXXX")).string();
-    if (::mkdtemp(name.data()) == nullptr)
+    if (!create_scratch_folder(name))
       throw output_error(name + ": cannot be created: " + std::strerror(errno));
     path_ = name;
   }

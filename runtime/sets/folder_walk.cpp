@@ -5,9 +5,9 @@
 #include <cerrno>
 #include <set>
 #include <string_view>
-#include <sys/stat.h>
 #include <system_error>
 
+#include "core/system.hpp"
 #include "remap/error.hpp"
 #include "sets/name_pieces.hpp"
 
@@ -28,19 +28,14 @@ bool holds(const auto& extensions, const std::string& extension) {
   return std::ranges::find(extensions, extension) != extensions.end();
 }
 
-using FolderIdentity = std::pair<dev_t, ino_t>;
-
 class Walker {
  public:
   Walker(const fs::path& root, const WalkOptions& options)
       : root_(root), recursive_(options.recursive), also_(options.also) {
-    for (const fs::path& folder : options.excluded) {
-      struct stat status {};
-      if (::stat(folder.c_str(), &status) == 0) visited_.insert({status.st_dev, status.st_ino});
-    }
+    for (const fs::path& folder : options.excluded)
+      if (const auto found = facts_of(folder)) visited_.insert(found->identity);
     // The root is searched even if results go there, too.
-    struct stat status {};
-    if (::stat(root.c_str(), &status) == 0) visited_.erase({status.st_dev, status.st_ino});
+    if (const auto found = facts_of(root)) visited_.erase(found->identity);
   }
 
   Walk run() {
@@ -60,16 +55,16 @@ class Walker {
  private:
   void visit(const fs::path& relative) {
     const fs::path folder = relative.empty() ? root_ : root_ / relative;
-    struct stat status {};
-    if (::stat(folder.c_str(), &status) != 0) {
+    const std::optional<FileFacts> found = facts_of(folder);
+    if (!found) {
       add_problem(relative, std::generic_category().message(errno));
       return;
     }
-    if (!S_ISDIR(status.st_mode)) {
+    if (found->type != fs::file_type::directory) {
       add_problem(relative, "not a folder");
       return;
     }
-    if (!visited_.insert({status.st_dev, status.st_ino}).second) return;
+    if (!visited_.insert(found->identity).second) return;
 
     ImageFolder images{relative, {}};
     std::error_code failure;
@@ -116,7 +111,7 @@ class Walker {
   bool recursive_ = true;
   const std::vector<std::string>& also_;
   bool root_was_read_ = false;
-  std::set<FolderIdentity> visited_;
+  std::set<decltype(FileFacts::identity)> visited_;
   std::set<std::string> folders_;  // not yet visited
   std::set<std::string> links_;
   Walk walk_;

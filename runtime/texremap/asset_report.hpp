@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "assets/asset.hpp"
-#include "command_line/progress.hpp"
 #include "core/json.hpp"
+#include "core/system.hpp"
 
 namespace remap {
 

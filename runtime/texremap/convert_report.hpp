@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "command_line/progress.hpp"
 #include "core/json.hpp"
+#include "core/system.hpp"
 #include "remap/path.hpp"
 #include "texremap/conversion_jobs.hpp"
 #include "texremap/plan_table.hpp"

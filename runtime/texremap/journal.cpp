@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
 #include <set>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/plain_text.hpp"
+#include "core/system.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {
@@ -161,25 +159,6 @@ bool is_as_written(const fs::path& path, const Entry& entry) {
   }
 }
 
-// The lock of a folder while the object lives.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder)
-      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    // A file system without locks leaves runs in one folder at the same time unprotected, and nothing else.
-    while (folder_ >= 0 && ::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
-    }
-  }
-  ~FolderLock() {
-    if (folder_ >= 0) ::close(folder_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int folder_;
-};
-
 // Of a text from a journal, which anybody may have written.
 std::string shown_note(const std::string& text) {
   constexpr std::size_t kShown = 200;
@@ -252,15 +231,8 @@ struct Journal::State {
 
 // One write, so that lines of several processes do not mix.
 void Journal::State::append(const Json& json) const {
-  // File names need not be UTF-8.
-  const std::string line = json.dump() + '\n';
-  const int journal = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const bool written = journal >= 0 &&
-                       ::write(journal, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
-                       ::fdatasync(journal) == 0;
-  const int failure = errno;
-  if (journal >= 0) ::close(journal);
-  if (!written) throw system_error(ErrorKind::kOutput, file.string() + ": cannot be written", failure);
+  if (!append_to_file(file, json.dump() + '\n'))
+    throw system_error(ErrorKind::kOutput, file.string() + ": cannot be written", errno);
 }
 
 Journal::Journal(const fs::path& folder, ConversionNote conversion, const std::optional<Part>& part)

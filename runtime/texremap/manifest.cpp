@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
+#include "core/system.hpp"
 #include "remap/version.hpp"
 #include "texture/content_hash.hpp"
 
@@ -41,7 +42,7 @@ struct Listed {
   void add_file(const fs::path& root, const fs::path& file, bool is_read) {
     std::error_code failure;
     const std::uintmax_t size = fs::file_size(root / file, failure);
-    if (failure) throw system_error(ErrorKind::kInput, shown(file) + ": cannot be read", failure.value());
+    if (failure) throw system_error(ErrorKind::kInput, shown(file) + ": cannot be read", errno_of(failure));
     sizes.push_back(size);
     bytes += size;
     if (is_read) cost += size + kCostOfFile;
@@ -347,7 +348,7 @@ void require_as_listed(const ListedSizes& files) {
       throw system_error(
           ErrorKind::kInput,
           file.string() + ": the manifest lists it (texremap index again), but it cannot be read",
-          failure.value());
+          errno_of(failure));
     if (size != bytes)
       throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, the manifest says " +
                         std::to_string(bytes) + " (texremap index again)");

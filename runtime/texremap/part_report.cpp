@@ -3,24 +3,19 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
-#include <unistd.h>
 #include <unordered_map>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/report_text.hpp"
+#include "core/system.hpp"
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
 namespace {
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
 
 // Many of one kind are told by the first few and their number.
 constexpr std::size_t kNamed = 8;
@@ -244,7 +239,7 @@ Json part_json(const GivenPart& part, const ManifestHead& manifest, const Conver
                {std::string(name_of(kListedKinds, manifest.kind)), manifest.count},
                {"conversion", conversion.hash}};
   for (const auto& [name, value] : conversion.details) json[name] = value;
-  json["host"] = host_name();
+  json["host"] = machine_name();
   json["note"] = part.note;
   return {{"part", json}};
 }

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <numeric>
 
-#include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -15,6 +14,7 @@
 #include "core/report_text.hpp"
 #include "core/scratch_folder.hpp"
 #include "core/stopwatch.hpp"
+#include "core/system.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/convert.hpp"
 #include "texremap/manifest.hpp"
@@ -153,9 +153,8 @@ std::vector<std::string> ConvertWords::for_jobs() const {
 }
 
 std::string own_program() {
-  std::error_code failure;
-  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", failure);
-  return failure ? "texremap" : path.string();
+  const std::filesystem::path path = program_file();
+  return path.empty() ? "texremap" : path.string();
 }
 
 int rounded_up(double value, int step) { return static_cast<int>(std::ceil(value / step)) * step; }

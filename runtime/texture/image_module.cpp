@@ -1,6 +1,7 @@
 // The module that alone links OpenImageIO, as the programs load it.
 #include <dlfcn.h>
 
+#include "core/system.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "texture/image_library.hpp"
@@ -11,11 +12,7 @@ namespace {
 
 // REMAP_IMAGE_MODULE leads from the folder of the programs to the module, in the build tree as in an
 // installed one.
-fs::path module_file() {
-  std::error_code failure;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failure);
-  return (program.parent_path() / REMAP_IMAGE_MODULE).lexically_normal();
-}
+fs::path module_file() { return (program_file().parent_path() / REMAP_IMAGE_MODULE).lexically_normal(); }
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-# To be sourced by scripts/package: the hashes of bits, by other compilers and on other machines.
+# To be sourced by scripts/package: the hashes of bits, and tests, by other compilers and on other machines.
 
 # What a variant cannot be built with is a reason to skip it. Debian's package of libc++ is never installed: it replaces a library that
 # the whole build needs. It is unpacked into a folder of the build.
@@ -14,36 +14,54 @@ libcxx_folder() {
   echo "$folder"
 }
 
-# check_bits NAME EMULATOR OPTION...: builds bits in build/check/NAME, and compares what it prints, run by the words of EMULATOR.
-check_bits() {
-  local -r name=$1 emulator=$2 folder=build/check/$1
-  shift 2
-  {
-    cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DREMAP_BUILD_PROGRAMS=OFF -DREMAP_BUILD_BITS=ON \
-      -DREMAP_INSTALL=OFF -Dnlohmann_json_DIR="$PWD/cmake/wasm" "$@" && cmake --build "$folder" --target bits
-  } >"build/check/$name.log" 2>&1 || {
-    tail -n 20 "build/check/$name.log" >&2
-    echo "$name: does not build; the whole log: build/check/$name.log" >&2
-    return 1
-  }
-  # shellcheck disable=SC2086 # the emulator is words
-  printf '%-12s' "$name:"
-  tests/bits/check.bash $emulator "$(ls "$folder"/bin/bits{,.exe} 2>/dev/null | head -n 1)"
+# build_variant NAME TARGETS OPTION...: in build/check/NAME.
+build_variant() {
+  local -r name=$1 targets=$2 folder=build/check/$1
+  local -a options=(-DCMAKE_BUILD_TYPE=Release -DREMAP_BUILD_BITS=ON -DREMAP_BUILD_EXAMPLES=OFF -DREMAP_INSTALL=OFF "${@:3}")
+  ! type -P ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  # shellcheck disable=SC2086 # the targets are words
+  cmake -S . -B "$folder" -G Ninja "${options[@]}" && cmake --build "$folder" --target $targets
 }
 
-# check_cross NAME COMPILER EMULATOR SYSTEM PROCESSOR OPTION...
+program_of() { ls "build/check/$1/bin/$2"{,.exe} 2>/dev/null | head -n 1; }
+
+# check_bits NAME EMULATOR, check_tests NAME EMULATOR, check_commands NAME EMULATOR: what was built, run by the words of EMULATOR.
+# shellcheck disable=SC2086 # the emulator is words
+check_bits() { tests/bits/check.bash $2 "$(program_of "$1" bits)"; }
+
+# shellcheck disable=SC2086
+check_tests() { (cd build/check && $2 "$(cd "$repository" && realpath "$(program_of "$1" machine_test)")" "~[slow]"); }
+
+# shellcheck disable=SC2086
+check_commands() { tests/machines/commands.bash build/check/"$1".commands $2 "$(program_of "$1" texremap)"; }
+
+# check_variant NAME EMULATOR TARGETS OPTION...
+check_variant() {
+  local -r name=$1 emulator=$2 targets=$3
+  step "$name: build" build_variant "$name" "$targets" "${@:4}" || return
+  local status=0 target
+  for target in $targets; do
+    case $target in
+      bits) step "$name: bits are equal" check_bits "$name" "$emulator" || status=1 ;;
+      machine_test) step "$name: tests of texts, lowering, stages and maps" check_tests "$name" "$emulator" || status=1 ;;
+      texremap) step "$name: texremap without images" check_commands "$name" "$emulator" || status=1 ;;
+    esac
+  done
+  return "$status"
+}
+
+# check_cross NAME COMPILER EMULATOR TARGETS OPTION...: by cmake/cross/NAME.cmake.
 check_cross() {
-  local -r name=$1 compiler=$2 emulator=$3 system=$4 processor=$5
-  shift 5
+  local -r name=$1 compiler=$2 emulator=$3 targets=$4
   local program
-  for program in "$compiler" ${emulator:+"$emulator"}; do
+  for program in "$compiler" "$emulator"; do
     type -P "$program" >/dev/null || {
       echo "$name: skipped: $program is not installed"
       return
     }
   done
-  check_bits "$name" "$emulator" -DCMAKE_SYSTEM_NAME="$system" -DCMAKE_SYSTEM_PROCESSOR="$processor" \
-    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_EXE_LINKER_FLAGS=-static "$@"
+  check_variant "$name" "$emulator" "$targets" -DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/$name.cmake" \
+    -DREMAP_BUILD_MACHINE_TEST=ON "${@:5}"
 }
 
 # package_check: every variant, also after one has failed.
@@ -56,15 +74,16 @@ package_check() {
     echo "libc++: skipped: its packages cannot be downloaded"
   else
     local -r lib=$libcxx/usr/lib/llvm-14
-    check_bits libc++ "env LD_LIBRARY_PATH=$lib/lib" -DCMAKE_CXX_COMPILER=clang++ \
+    check_variant libc++ "env LD_LIBRARY_PATH=$lib/lib" bits -DREMAP_BUILD_PROGRAMS=OFF \
+      -DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/headers/header_folders.cmake" -DCMAKE_CXX_COMPILER=clang++ \
       -DCMAKE_CXX_FLAGS="-nostdinc++ -isystem $PWD/cmake/libcxx/include -isystem $lib/include/c++/v1" \
       -DCMAKE_EXE_LINKER_FLAGS="-nostdlib++ -L$lib/lib -lc++ -lc++abi" || status=1
   fi
-  check_cross aarch64 aarch64-linux-gnu-g++ qemu-aarch64-static Linux aarch64 || status=1
+  check_cross aarch64 aarch64-linux-gnu-g++ qemu-aarch64-static "bits machine_test" -DREMAP_BUILD_PROGRAMS=OFF || status=1
   # Debian has wine64 in no folder of programs. What wine writes for itself, and what it says of itself, is nobody's matter.
   export WINEPREFIX=$PWD/build/check/wine WINEDEBUG=-all
   local wine=wine64
   type -P wine64 >/dev/null || [[ ! -x /usr/lib/wine/wine64 ]] || wine=/usr/lib/wine/wine64
-  check_cross windows x86_64-w64-mingw32-g++-posix "$wine" Windows AMD64 || status=1
+  check_cross windows x86_64-w64-mingw32-g++-posix "$wine" "bits machine_test texremap" -DREMAP_BUILD_IMAGES=OFF || status=1
   return "$status"
 }

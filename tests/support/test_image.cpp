@@ -24,15 +24,6 @@ void divide(TestImage& image) {
 }  // namespace
 
 // The finaliser of SplitMix64 (Steele, Lea and Flood, 2014).
-float noise(int x, int y, int channel) {
-  std::uint64_t state = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u +
-                        static_cast<std::uint64_t>(y) * 0xd1b54a32d192ed03u +
-                        static_cast<std::uint64_t>(channel) * 0x8cb92ba72f3d8dd7u;
-  state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
-  state = (state ^ (state >> 27)) * 0x94d049bb133111ebu;
-  return static_cast<float>((state ^ (state >> 31)) >> 40) * 0x1p-24f;
-}
-
 OIIO::ImageSpec test_spec(int width, int height, const std::vector<std::string>& channels,
                           OIIO::TypeDesc type) {
   OIIO::ImageSpec spec(width, height, static_cast<int>(channels.size()), type);

@@ -10,6 +10,8 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include "support/noise.hpp"
+
 namespace remap {
 
 struct TestImage {
@@ -22,9 +24,6 @@ struct TestImage {
   }
   int channel(const std::string& name) const { return spec.channelindex(name); }
 };
-
-// A repeatable value in [0, 1) for a texel and a channel.
-float noise(int x, int y, int channel);
 
 using TexelFunction = std::function<float(int x, int y, int channel)>;
 

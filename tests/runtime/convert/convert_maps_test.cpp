@@ -10,7 +10,7 @@
 #include "remap/error.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"
-#include "support/test_image.hpp"
+#include "support/noise.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

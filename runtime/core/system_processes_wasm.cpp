@@ -1,0 +1,41 @@
+// WebAssembly has no processes. The host says in what process of which machine it is, and how much that has
+// used (packages/npm/cli.js); a page has none.
+#include <array>
+#include <cstdlib>
+#include <emscripten.h>
+
+#include "core/system.hpp"
+
+namespace remap {
+namespace {
+
+// clang-format off
+EM_JS(int, remap_host_process, (), { return Module["processes"] ? Module["processes"].own : 1; });
+EM_JS(int, remap_host_has_ended, (int process), { return Module["processes"] ? Module["processes"].hasEnded(process) : 0; });
+EM_JS(char*, remap_host_machine, (), { return allocateUTF8(Module["processes"] ? Module["processes"].machine : ""); });
+EM_JS(void, remap_host_use, (double* use), { if (Module["processes"]) HEAPF64.set(Module["processes"].use(), use >> 3); });
+// clang-format on
+
+}  // namespace
+
+int own_process() { return remap_host_process(); }
+
+bool has_ended(int process) { return remap_host_has_ended(process) != 0; }
+
+std::string machine_name() {
+  char* const name = remap_host_machine();
+  const std::string text = name;
+  std::free(name);
+  return text;
+}
+
+std::filesystem::path program_file() { return {}; }
+
+// Seconds and bytes.
+ResourceUse resource_use() noexcept {
+  std::array<double, 2> use{};
+  remap_host_use(use.data());
+  return {use[0], static_cast<std::size_t>(use[1])};
+}
+
+}  // namespace remap

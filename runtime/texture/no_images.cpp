@@ -1,0 +1,14 @@
+// The images of a program that is built without any (REMAP_BUILD_IMAGES).
+#include "remap/error.hpp"
+#include "texture/image_library.hpp"
+
+namespace remap {
+
+const ImageLibrary& load_image_library() {
+  throw Error(
+      ErrorKind::kInput,
+      "this texremap is built without a library of images, so that they can be neither read nor written "
+      "(use the Python or the npm package)");
+}
+
+}  // namespace remap
