@@ -124,14 +124,16 @@ std::vector<LobeRanking> rank_exponent_rules(const ShortFormsOptions& options,
     add_decades(judge.materials(), errors_of(least), best);
     best.opengl = is_opengl ? mean_rmse(errors_of(courses.least(FormRule(form))))
                             : std::numeric_limits<double>::quiet_NaN();
-    for (const ExponentRule& rule : exponent_rules()) {
-      const LobeRule applied = rule_of(rule, form);
-      RankedRule ranked{rule.name, rule.formula, judge.figures(applied), {}, {}, 0.0};
+    const auto rank = [&](const std::string& name, const std::string& formula, const LobeRule& applied) {
+      RankedRule ranked{name, formula, judge.figures(applied), {}, {}, 0.0};
       add_decades(judge.materials(), judge.errors(applied), ranked);
       ranked.opengl =
           is_opengl ? mean_rmse(courses.errors(applied)) : std::numeric_limits<double>::quiet_NaN();
       ranking.rules.push_back(std::move(ranked));
-    }
+    };
+    for (const ExponentRule& rule : exponent_rules()) rank(rule.name, rule.formula, rule_of(rule, form));
+    if (const Fit* fit = fit_of(options.fits, form))
+      rank("compiled converter", fit->id, compiled_rule(*fit, form));
     std::ranges::stable_sort(ranking.rules, {}, [](const RankedRule& rule) { return rule.all.rmse; });
     ranking.rules.insert(ranking.rules.begin(), std::move(best));
     rankings.push_back(std::move(ranking));

@@ -59,15 +59,6 @@ Start start_of(const ShortForm& form) {
   return {};
 }
 
-// Exponents become GGX with constant Fresnel, which the lobes have, too.
-const Fit* fit_of(const std::vector<Fit>& fits, const ShortForm& form) {
-  const std::string target = has_exponent(form.source) ? "mitsuba/ggx-plain" : form.target;
-  const auto fit = std::ranges::find_if(fits, [&](const Fit& candidate) {
-    return candidate.source.model == form.source && candidate.target.model == target;
-  });
-  return fit == fits.end() ? nullptr : &*fit;
-}
-
 std::vector<LobeMaterial> materials_of(const ShortForm& form, Half half) {
   switch (form.kind) {
     case ShortKind::kWidths:
@@ -171,16 +162,7 @@ void study_short_forms(const ShortFormsOptions& options,
     best.figures = judge.figures(FormRule(best));
     best.best = judge.figures(judge.least(FormRule(best)));
     best.copied = judge.figures([&](const LobeMaterial& material) { return copied(best, material); });
-    if (const Fit* fit = fit_of(options.fits, best))
-      best.compiled = judge.figures([&, own = FormRule(best)](const LobeMaterial& material) {
-        LobeSurface surface = own(material);  // for its diffuse
-        for (std::size_t c = 0; c < 3; ++c) {
-          const SamplePoint point = shipped_point(*fit, material.alpha, material.specular[c]);
-          surface.alpha = point.alpha;
-          surface.specular[c] = std::min(1.0, point.specular);
-        }
-        return surface;
-      });
+    if (const Fit* fit = fit_of(options.fits, best)) best.compiled = judge.figures(compiled_rule(*fit, best));
     finished(best);
   }
 }

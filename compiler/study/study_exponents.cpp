@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
@@ -103,8 +104,9 @@ void run(const ExponentsCommand& command) {
   set_light_halves(command.environments, options);
   require_folder_for_pictures(command.output);
   prepare_folder(command.output, "exponents");
-  const auto file = fit_folder_of(command.fit_folder) / kShortFormsName;
+  const std::filesystem::path folder = fit_folder_of(command.fit_folder), file = folder / kShortFormsName;
   const std::vector<ShortForm> forms = short_forms_of(read_file(file), file.string());
+  options.fits = load_fits(folder);
   watch_interruptions();
   options.cancelled = &interruption();
   const std::vector<LobeRanking> rankings = rank_exponent_rules(options, forms);
