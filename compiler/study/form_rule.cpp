@@ -41,10 +41,11 @@ const Fit* fit_of(const std::vector<Fit>& fits, const ShortForm& form) {
 LobeRule compiled_rule(const Fit& fit, const ShortForm& form) {
   return [&fit, own = FormRule(form)](const LobeMaterial& material) {
     LobeSurface surface = own(material);
-    surface.alpha = to_alpha(fit.target.roughness,
-                             evaluate_texel(fit, from_alpha(fit.source.roughness, material.alpha),
-                                            material.specular, surface.specular));
+    surface.alpha =
+        to_alpha(fit.target.roughness, evaluate_texel(fit, from_alpha(fit.source.roughness, material.alpha),
+                                                      material.specular, surface.specular));
     for (double& specular : surface.specular) specular = std::min(1.0, specular);
+    surface.diffuse = material.diffuse;
     return surface;
   };
 }

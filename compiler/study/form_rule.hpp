@@ -25,7 +25,8 @@ class FormRule {
 // the lobes have, too.
 const Fit* fit_of(const std::vector<Fit>& fits, const ShortForm& form);
 
-// What texels of the converter hold, and the diffuse of the form. `fit` must outlive it.
+// What texels of the converter hold. Diffuse stays as it is, as texremap leaves it in specular workflows.
+// `fit` must outlive it.
 LobeRule compiled_rule(const Fit& fit, const ShortForm& form);
 
 }  // namespace remap

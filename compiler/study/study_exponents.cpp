@@ -66,7 +66,8 @@ std::string ranking_plot(const LobeRanking& ranking) {
     for (std::size_t d = 0; d < kDecades; ++d)
       blocks += std::to_string(d) + " " + number_text(rule.rmse[d]) + "\n";
     blocks += "EOD\n";
-    const bool is_own = rule.name.starts_with("short form"), is_best = rule.name == "best possible";
+    const bool is_own = rule.name.starts_with("short form") || rule.name.starts_with("converter"),
+               is_best = rule.name.starts_with("best possible");
     const std::string color = is_best  ? "black"
                               : is_own ? kPlotColors[r % 2 == 0 ? 0 : 2]
                                        : kPlotColors[1 + r % (kPlotColors.size() - 1)];
