@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // legacy/blinn-phong-normalised to mitsuba/ggx-plain: which parameters of the second give the same picture as those of the first.
-// Table legacy_blinn_phong_normalised_to_mitsuba_ggx_plain.csv, sha256 0db0c0c5f4d4e202b7a9b62b8d47ae60c3987e8b40b3900767496fde6d833a8a;
+// Table legacy_blinn_phong_normalised_to_mitsuba_ggx_plain.csv, sha256 0cf6fd06f825403626a5c326e4a1bdb73e78a328eaf01f18c4b4552c24069a72;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: series, seed 1, 240 rows trained, 60 held out.
-// Error on the rows held out: alpha rms 2.9e-05, 99 % 4.9e-05, max 4.9e-05;
-// specular rms 1.7e-05, 99 % 8.5e-05, max 8.5e-05.
-// Lowered from the fit. Target alpha: degree 6, proven within 1.6e-07 (sampled 9.6e-09), rising with alpha.
-// Target specular: degree 9 in alpha / (alpha + 0.2), proven within 8.1e-05 (sampled 8e-05), rising with specular.
-// Covers alpha 0.01415 to 0.53, specular 0 to 1.
+// Fit: series, seed 1, 349 rows trained, 87 held out.
+// Error on the rows held out: alpha rms 9e-05, 99 % 0.00059, max 0.00059;
+// specular rms 2.8e-05, 99 % 7.4e-05, max 7.4e-05.
+// Lowered from the fit. Target alpha: degree 10, proven within 3.1e-07 (sampled 1.9e-08), rising with alpha.
+// Target specular: degree 6, proven within 2.5e-05 (sampled 1.3e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 2, 3 in specular, proven within 8.9e-05 (sampled 8.3e-05).
+// All together within 0.00011 in alpha, 2.5e-05 in specular.
+// Covers alpha 0.01415 to 0.8165, specular 0 to 1.
 #ifndef REMAP_GENERATED_LEGACY_BLINN_PHONG_NORMALISED_TO_MITSUBA_GGX_PLAIN_HPP
 #define REMAP_GENERATED_LEGACY_BLINN_PHONG_NORMALISED_TO_MITSUBA_GGX_PLAIN_HPP
 
@@ -47,15 +49,19 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float) noexcept {
-  const float u = alpha - 0.27207556f;
+  const float u = alpha - 0.41532585f;
   const float u_2 = u * u;
-  float c0 = 8.609302f;
-  float c0_next = -2.2009373f;
-  c0 = c0 * u_2 + -1.2967776f;
-  c0_next = c0_next * u_2 + 0.6522946f;
-  c0 = c0 * u_2 + 0.120596975f;
-  c0_next = c0_next * u_2 + 0.77831894f;
-  c0 = c0 * u_2 + 0.21629481f;
+  float c0 = -197.53036f;
+  float c0_next = -4.403391f;
+  c0 = c0 * u_2 + 95.097015f;
+  c0_next = c0_next * u_2 + -1.3529054f;
+  c0 = c0 * u_2 + -15.522346f;
+  c0_next = c0_next * u_2 + 0.34898207f;
+  c0 = c0 * u_2 + 0.31167895f;
+  c0_next = c0_next * u_2 + 0.107466005f;
+  c0 = c0 * u_2 + 0.22675586f;
+  c0_next = c0_next * u_2 + 0.83535725f;
+  c0 = c0 * u_2 + 0.33159173f;
   c0 = c0_next * u + c0;
   return c0;
 }
@@ -64,6 +70,8 @@ inline float target_alpha(float alpha, float) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -78,31 +86,24 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.2f);
-    const float u = t - 0.3960514f;
+    const float u = alpha - 0.41532585f;
     const float u_2 = u * u;
-    float c0 = -14.434176f;
-    float c0_next = -2.189294f;
-    c0 = c0 * u_2 + 3.4143195f;
-    c0_next = c0_next * u_2 + 0.513248f;
-    c0 = c0 * u_2 + -0.2611257f;
-    c0_next = c0_next * u_2 + -0.040734507f;
-    c0 = c0 * u_2 + 0.00703797f;
-    c0_next = c0_next * u_2 + 0.0011937801f;
-    c0 = c0 * u_2 + -5.1527888e-05f;
-    c0_next = c0_next * u_2 + -6.24787e-06f;
-    c0 = c0 * u + c0_next;
-    float c1 = 690.8417f;
-    float c1_next = 289.56448f;
-    c1 = c1 * u_2 + -44.881203f;
-    c1_next = c1_next * u_2 + -8.636777f;
-    c1 = c1 * u_2 + 13.97596f;
-    c1_next = c1_next * u_2 + 5.5840216f;
-    c1 = c1 * u_2 + 1.6899853f;
-    c1_next = c1_next * u_2 + 0.5872074f;
-    c1 = c1 * u_2 + 0.13645405f;
-    c1_next = c1_next * u_2 + 0.49042645f;
-    c1 = c1 * u + c1_next;
+    float c0 = 0.0025705132f;
+    float c0_next = -0.00034768495f;
+    c0 = c0 * u_2 + -0.00071189227f;
+    c0_next = c0_next * u_2 + 9.284887e-05f;
+    c0 = c0 * u_2 + 5.595025e-05f;
+    c0_next = c0_next * u_2 + -1.1375744e-05f;
+    c0 = c0 * u_2 + -1.8935071e-06f;
+    c0 = c0_next * u + c0;
+    float c1 = -3.7780793f;
+    float c1_next = -0.5804134f;
+    c1 = c1 * u_2 + 0.8143757f;
+    c1_next = c1_next * u_2 + 0.62191075f;
+    c1 = c1 * u_2 + 1.654413f;
+    c1_next = c1_next * u_2 + 1.088515f;
+    c1 = c1 * u_2 + 0.67594296f;
+    c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -111,6 +112,25 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.72392136f;
+  float c0 = 0.39093125f;
+  c0 = c0 * u + -0.2417286f;
+  c0 = c0 * u + 0.6013904f;
+  float c1 = -0.88338697f;
+  c1 = c1 * u + 0.6567473f;
+  c1 = c1 * u + -0.7171631f;
+  const float c2 = 0.7007663f;
+  const float c3 = -0.19823758f;
+  const float w = specular - 0.85252285f;
+  float sum = c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -180,12 +200,28 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{5.1199718f, 9986.888f, 0.0f, 1.0f, 1.0f};
+  static constexpr Domain domain{0.99997485f, 9986.888f, 0.0f, 1.0f, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return alpha; }
-  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -196,6 +232,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.6313423f), clamped_above(specular, 0.7050451f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -303,8 +353,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -314,13 +369,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -332,15 +476,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -348,16 +499,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 // Rows of any length; one function for all buffers. In a caller's function clang would warn of loops that stay scalar.
@@ -541,11 +695,11 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
   static constexpr const char* kTargetSpecular = "specular";
 
   // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-  static constexpr float kAlphaRmsError = 2.9e-05f;
-  static constexpr float kSpecularRmsError = 1.7e-05f;
+  static constexpr float kAlphaRmsError = 9e-05f;
+  static constexpr float kSpecularRmsError = 2.8e-05f;
   // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
   // to the source's. Negative where no pictures were compared.
-  static constexpr float kImageRmsError = 0.34f;
+  static constexpr float kImageRmsError = 0.28f;
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0
@@ -593,7 +747,7 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
   // What the measured table covers. Beyond it the width is clamped to the edge, and specular is extrapolated in
   // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
   // of domain. Target specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
-  static constexpr Input kDomainMin{5.1199718f, 0.0f};
+  static constexpr Input kDomainMin{0.99997485f, 0.0f};
   static constexpr Input kDomainMax{9986.888f, 1.0f};
 
   // `count` texels of `Channels` channels (1 for a grey map, 3 for RGB). An output row may be exactly its own input row; no
@@ -655,19 +809,19 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{5.1199718f, 1.0f}, {0.43054074f, 0.8235391f}, {8.4e-07f, 8.2e-05f}},
-        {{1252.841f, 0.9375f}, {0.033009253f, 0.44761947f}, {6.5e-07f, 8.2e-05f}},
-        {{2500.562f, 0.875f}, {0.023373706f, 0.41740182f}, {6.5e-07f, 8.2e-05f}},
-        {{3748.283f, 0.8125f}, {0.019088473f, 0.38749057f}, {6.5e-07f, 8.2e-05f}},
-        {{4996.004f, 0.75f}, {0.016530838f, 0.3576451f}, {6.5e-07f, 8.2e-05f}},
-        {{6243.7246f, 0.6875f}, {0.014784489f, 0.32782272f}, {6.4e-07f, 8.2e-05f}},
-        {{7491.446f, 0.625f}, {0.013495043f, 0.29801056f}, {6.4e-07f, 8.1e-05f}},
-        {{8739.167f, 0.5625f}, {0.012492746f, 0.26820356f}, {6.4e-07f, 8.1e-05f}},
-        {{9986.888f, 0.5f}, {0.0116847595f, 0.23839934f}, {6.4e-07f, 8.1e-05f}},
-        {{2.5599859f, 0.5f}, {0.43054074f, 0.41176444f}, {8.4e-07f, 8.2e-05f}},
-        {{14980.332f, 0.25f}, {0.0116847595f, 0.119197264f}, {6.4e-07f, 8.1e-05f}},
-        {{4996.004f, 0.0f}, {0.016530838f, 0.0f}, {6.5e-07f, 8.1e-05f}},
-        {{4996.004f, 2.0f}, {0.016530838f, 0.9537208f}, {6.5e-07f, 0.00017f}},
+        {{0.99997485f, 1.0f}, {0.49904794f, 1.0f}, {0.00011f, 2.6e-05f}},
+        {{1249.236f, 0.9375f}, {0.033060383f, 0.44763833f}, {0.00011f, 2.5e-05f}},
+        {{2497.472f, 0.875f}, {0.023402767f, 0.41740102f}, {0.00011f, 2.5e-05f}},
+        {{3745.7078f, 0.8125f}, {0.019109154f, 0.38747913f}, {0.00011f, 2.5e-05f}},
+        {{4993.944f, 0.75f}, {0.016545294f, 0.35762787f}, {0.00011f, 2.5e-05f}},
+        {{6242.1797f, 0.6875f}, {0.0147937285f, 0.3278027f}, {0.00011f, 2.5e-05f}},
+        {{7490.4155f, 0.625f}, {0.013499765f, 0.29798973f}, {0.00011f, 2.5e-05f}},
+        {{8738.651f, 0.5625f}, {0.012493489f, 0.26818335f}, {0.00011f, 2.5e-05f}},
+        {{9986.888f, 0.5f}, {0.011681961f, 0.23838082f}, {0.00011f, 2.5e-05f}},
+        {{0.49998742f, 0.5f}, {0.6961652f, 0.70917505f}, {0.00011f, 2.5e-05f}},
+        {{14980.332f, 0.25f}, {0.011681961f, 0.119192585f}, {0.00011f, 2.5e-05f}},
+        {{4993.944f, 0.0f}, {0.016545294f, 1.7941638e-06f}, {0.00011f, 2.5e-05f}},
+        {{4993.944f, 2.0f}, {0.016545294f, 0.9536731f}, {0.00011f, 5e-05f}},
     }};
     std::array<float, kGolden.size()> width{}, specular{};
     for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // legacy/phong to mitsuba/ggx-plain: which parameters of the second give the same picture as those of the first.
-// Table legacy_phong_to_mitsuba_ggx_plain.csv, sha256 a9dc447a9295f8e72a2e81a80d7f4c34db0ec810c68c17da62e14a3f2a1f3da4;
+// Table legacy_phong_to_mitsuba_ggx_plain.csv, sha256 1f37e95f90405c2b5a45526ef4791e767f1e5b6d5c104ea8e84ee632d1d760c4;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: series, seed 1, 240 rows trained, 60 held out.
-// Error on the rows held out: alpha rms 7.7e-06, 99 % 1.7e-05, max 1.7e-05;
-// specular rms 1.9e-05, 99 % 8.9e-05, max 8.9e-05.
-// Lowered from the fit. Target alpha: degree 6, proven within 1.1e-07 (sampled 6.4e-09), rising with alpha.
-// Target specular: degree 5, proven within 1.2e-05 (sampled 1.1e-05), rising with specular.
-// Covers alpha 0.01415 to 0.53, specular 0 to 1.
+// Fit: series, seed 1, 330 rows trained, 82 held out.
+// Error on the rows held out: alpha rms 7.7e-05, 99 % 0.00039, max 0.00039;
+// specular rms 4.6e-05, 99 % 0.00025, max 0.00025.
+// Lowered from the fit. Target alpha: degree 8, proven within 3.2e-07 (sampled 1.3e-08), rising with alpha.
+// Target specular: degree 9 in alpha / (alpha + 1), proven within 9.8e-05 (sampled 8.7e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 2, 2 in specular, proven within 3.6e-07 (sampled 2.3e-08).
+// All together within 5.6e-05 in alpha, 9.8e-05 in specular.
+// Covers alpha 0.01415 to 0.8165, specular 0 to 1.
 #ifndef REMAP_GENERATED_LEGACY_PHONG_TO_MITSUBA_GGX_PLAIN_HPP
 #define REMAP_GENERATED_LEGACY_PHONG_TO_MITSUBA_GGX_PLAIN_HPP
 
@@ -47,15 +49,17 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float) noexcept {
-  const float u = alpha - 0.27207556f;
+  const float u = alpha - 0.41532585f;
   const float u_2 = u * u;
-  float c0 = -2.2648492f;
-  float c0_next = 0.7542405f;
-  c0 = c0 * u_2 + 1.1927837f;
-  c0_next = c0_next * u_2 + 0.44240782f;
-  c0 = c0 * u_2 + 0.08136097f;
-  c0_next = c0_next * u_2 + 0.486746f;
-  c0 = c0 * u_2 + 0.13067141f;
+  float c0 = -10.061837f;
+  float c0_next = -6.369749f;
+  c0 = c0 * u_2 + -1.0370849f;
+  c0_next = c0_next * u_2 + 0.2906562f;
+  c0 = c0 * u_2 + 1.249554f;
+  c0_next = c0_next * u_2 + 1.1229129f;
+  c0 = c0 * u_2 + 0.42211118f;
+  c0_next = c0_next * u_2 + 0.5523045f;
+  c0 = c0 * u_2 + 0.2039105f;
   c0 = c0_next * u + c0;
   return c0;
 }
@@ -64,6 +68,8 @@ inline float target_alpha(float alpha, float) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -78,21 +84,30 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.27207556f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.23172192f;
     const float u_2 = u * u;
-    float c0 = 0.12006823f;
-    float c0_next = 0.013583067f;
-    c0 = c0 * u_2 + -0.009080634f;
-    c0_next = c0_next * u_2 + -0.0008340547f;
-    c0 = c0 * u_2 + 0.00012703077f;
-    c0_next = c0_next * u_2 + 5.3798653e-06f;
+    float c0 = -734.6545f;
+    float c0_next = -83.551445f;
+    c0 = c0 * u_2 + 79.868965f;
+    c0_next = c0_next * u_2 + 7.9161773f;
+    c0 = c0 * u_2 + -2.8954272f;
+    c0_next = c0_next * u_2 + -0.2337327f;
+    c0 = c0 * u_2 + 0.038417332f;
+    c0_next = c0_next * u_2 + 0.002225395f;
+    c0 = c0 * u_2 + -0.00012555008f;
+    c0_next = c0_next * u_2 + -3.1652958e-06f;
     c0 = c0 * u + c0_next;
-    float c1 = 2.2833068f;
-    float c1_next = 1.970669f;
-    c1 = c1 * u_2 + 0.87180954f;
-    c1_next = c1_next * u_2 + 1.2264377f;
-    c1 = c1 * u_2 + 0.57346755f;
-    c1_next = c1_next * u_2 + 0.0753517f;
+    float c1 = 108012.805f;
+    float c1_next = 43276.355f;
+    c1 = c1 * u_2 + 2021.2769f;
+    c1_next = c1_next * u_2 + -397.23578f;
+    c1 = c1 * u_2 + 213.51553f;
+    c1_next = c1_next * u_2 + 77.3616f;
+    c1 = c1 * u_2 + 17.086721f;
+    c1_next = c1_next * u_2 + 5.1116123f;
+    c1 = c1 * u_2 + 1.0989307f;
+    c1_next = c1_next * u_2 + 0.093474194f;
     c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
@@ -102,6 +117,22 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.7856405f;
+  float c0 = 6.1920443f;
+  c0 = c0 * u + -1.8022424f;
+  c0 = c0 * u + 0.53383553f;
+  float c1 = 3.2923799f;
+  c1 = c1 * u + -0.69122005f;
+  const float c2 = 0.8316373f;
+  const float w = specular - 0.86427045f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -171,12 +202,28 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, clamped to the least and at the largest that it may be.
+inline Float clamped_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float clamped_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return clamped_below(clamped_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{5.1199718f, 9986.888f, 0.0f, 1.0f, 1.0f};
+  static constexpr Domain domain{0.99997485f, 9986.888f, 0.0f, 1.0f, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return alpha; }
-  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -187,6 +234,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.75478077f), clamped_above(specular, 0.7285403f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -294,8 +355,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -305,13 +371,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, clamped_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, clamped at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, clamped_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = clamped_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = clamped_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -323,15 +478,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
+    const Float clamped = kInside ? load(in + i) + 0.0f : clamped_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? clamped : clamped * load(block.inverse + i);
+    const Float mapped = clamped_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = clamped_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(clamped, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -339,16 +501,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 // Rows of any length; one function for all buffers. In a caller's function clang would warn of loops that stay scalar.
@@ -532,11 +697,11 @@ struct legacy_phong_to_mitsuba_ggx_plain {
   static constexpr const char* kTargetSpecular = "specular";
 
   // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-  static constexpr float kAlphaRmsError = 7.7e-06f;
-  static constexpr float kSpecularRmsError = 1.9e-05f;
+  static constexpr float kAlphaRmsError = 7.7e-05f;
+  static constexpr float kSpecularRmsError = 4.6e-05f;
   // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
   // to the source's. Negative where no pictures were compared.
-  static constexpr float kImageRmsError = 0.48f;
+  static constexpr float kImageRmsError = 0.46f;
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0
@@ -584,7 +749,7 @@ struct legacy_phong_to_mitsuba_ggx_plain {
   // What the measured table covers. Beyond it the width is clamped to the edge, and specular is extrapolated in
   // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
   // of domain. Target specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
-  static constexpr Input kDomainMin{5.1199718f, 0.0f};
+  static constexpr Input kDomainMin{0.99997485f, 0.0f};
   static constexpr Input kDomainMax{9986.888f, 1.0f};
 
   // `count` texels of `Channels` channels (1 for a grey map, 3 for RGB). An output row may be exactly its own input row; no
@@ -646,19 +811,19 @@ struct legacy_phong_to_mitsuba_ggx_plain {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{5.1199718f, 1.0f}, {0.27469155f, 0.33117315f}, {7.2e-07f, 1.2e-05f}},
-        {{1252.841f, 0.9375f}, {0.019123035f, 0.0014884158f}, {6e-07f, 1.2e-05f}},
-        {{2500.562f, 0.875f}, {0.013513713f, 0.00069620623f}, {6e-07f, 1.2e-05f}},
-        {{3748.283f, 0.8125f}, {0.011018042f, 0.00043016055f}, {6e-07f, 1.2e-05f}},
-        {{4996.004f, 0.75f}, {0.009527443f, 0.00029693736f}, {6e-07f, 1.2e-05f}},
-        {{6243.7246f, 0.6875f}, {0.008509019f, 0.00021721661f}, {6e-07f, 1.2e-05f}},
-        {{7491.446f, 0.625f}, {0.0077566463f, 0.00016441235f}, {5.9e-07f, 1.2e-05f}},
-        {{8739.167f, 0.5625f}, {0.0071715545f, 0.00012707812f}, {5.9e-07f, 1.2e-05f}},
-        {{9986.888f, 0.5f}, {0.006699707f, 9.946686e-05f}, {5.9e-07f, 1.2e-05f}},
-        {{2.5599859f, 0.5f}, {0.27469155f, 0.16560398f}, {7.2e-07f, 1.2e-05f}},
-        {{14980.332f, 0.25f}, {0.006699707f, 5.313853e-05f}, {5.9e-07f, 1.2e-05f}},
-        {{4996.004f, 0.0f}, {0.009527443f, 1.5425935e-06f}, {6e-07f, 1.2e-05f}},
-        {{4996.004f, 2.0f}, {0.009527443f, 0.00079080457f}, {6e-07f, 2.4e-05f}},
+        {{0.99997485f, 1.0f}, {0.41940808f, 1.0f}, {5.7e-05f, 9.9e-05f}},
+        {{1249.236f, 0.9375f}, {0.019152172f, 0.0014843903f}, {5.7e-05f, 9.8e-05f}},
+        {{2497.472f, 0.875f}, {0.013524642f, 0.00069232454f}, {5.7e-05f, 9.8e-05f}},
+        {{3745.7078f, 0.8125f}, {0.01102365f, 0.00042879587f}, {5.7e-05f, 9.8e-05f}},
+        {{4993.944f, 0.75f}, {0.009530261f, 0.00029722173f}, {5.7e-05f, 9.8e-05f}},
+        {{6242.1797f, 0.6875f}, {0.008509997f, 0.0002182459f}, {5.7e-05f, 9.8e-05f}},
+        {{7490.4155f, 0.625f}, {0.0077562616f, 0.00016545485f}, {5.7e-05f, 9.8e-05f}},
+        {{8738.651f, 0.5625f}, {0.0071700932f, 0.00012755349f}, {5.7e-05f, 9.8e-05f}},
+        {{9986.888f, 0.5f}, {0.006697359f, 9.890908e-05f}, {5.7e-05f, 9.8e-05f}},
+        {{0.49998742f, 0.5f}, {0.57957655f, 0.6862907f}, {5.7e-05f, 9.9e-05f}},
+        {{14980.332f, 0.25f}, {0.006697359f, 4.8535556e-05f}, {5.7e-05f, 9.8e-05f}},
+        {{4993.944f, 0.0f}, {0.009530261f, 2.7609353e-06f}, {5.7e-05f, 9.8e-05f}},
+        {{4993.944f, 2.0f}, {0.009530261f, 0.0007907506f}, {5.7e-05f, 2e-04f}},
     }};
     std::array<float, kGolden.size()> width{}, specular{};
     for (std::size_t i = 0; i < kGolden.size(); ++i) {

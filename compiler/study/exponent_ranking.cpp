@@ -40,10 +40,31 @@ double mean_rmse(const std::vector<RuleError>& errors) {
   return sum;
 }
 
-std::vector<RuleError> errors_of(const std::vector<LeastError>& least) {
+struct Judged {
+  ShortFigures figures;
   std::vector<RuleError> errors;
-  for (const LeastError& entry : least) errors.push_back(entry.error);
-  return errors;
+};
+
+Judged by_rule(const RuleJudge& judge, const LobeRule& rule) {
+  return {judge.figures(rule), judge.errors(rule)};
+}
+
+// With the diffuse of the rule.
+Judged by_least(const RuleJudge& judge, const LobeRule& rule) {
+  const std::vector<LeastError> least = judge.least(rule);
+  Judged judged{judge.figures(least), {}};
+  for (const LeastError& entry : least) judged.errors.push_back(entry.error);
+  return judged;
+}
+
+// A base color is at most 1, and diffuse is base color times 1 - F (appendix B of glTF 2.0).
+LobeRule in_gltf(const LobeRule& rule) {
+  return [rule](const LobeMaterial& material) {
+    LobeSurface surface = rule(material);
+    const double left = 1.0 - *std::ranges::max_element(surface.specular);
+    for (double& diffuse : surface.diffuse) diffuse = std::min(diffuse, left);
+    return surface;
+  };
 }
 
 std::vector<double> alphas_of(const std::vector<LobeMaterial>& materials) {
@@ -119,21 +140,27 @@ std::vector<LobeRanking> rank_exponent_rules(const ShortFormsOptions& options,
     const RuleJudge courses(bank.lights(), lobes, target, shown);
 
     LobeRanking ranking{form.source, {}};
-    const auto least = judge.least(FormRule(form));
-    RankedRule best{"best possible", "any alpha and strength", judge.figures(least), {}, {}, 0.0};
-    add_decades(judge.materials(), errors_of(least), best);
-    best.opengl = is_opengl ? mean_rmse(errors_of(courses.least(FormRule(form))))
-                            : std::numeric_limits<double>::quiet_NaN();
-    for (const ExponentRule& rule : exponent_rules()) {
-      const LobeRule applied = rule_of(rule, form);
-      RankedRule ranked{rule.name, rule.formula, judge.figures(applied), {}, {}, 0.0};
-      add_decades(judge.materials(), judge.errors(applied), ranked);
-      ranked.opengl =
-          is_opengl ? mean_rmse(courses.errors(applied)) : std::numeric_limits<double>::quiet_NaN();
+    const auto add = [&](const char* name, const std::string& formula, const LobeRule& rule,
+                         Judged judged_by(const RuleJudge&, const LobeRule&)) {
+      const Judged judged = judged_by(judge, rule);
+      RankedRule ranked{name, formula, judged.figures, {}, {}, std::numeric_limits<double>::quiet_NaN()};
+      add_decades(judge.materials(), judged.errors, ranked);
+      if (is_opengl) ranked.opengl = mean_rmse(judged_by(courses, rule).errors);
       ranking.rules.push_back(std::move(ranked));
+    };
+    for (const ExponentRule& rule : exponent_rules())
+      add(rule.name.c_str(), rule.formula, rule_of(rule, form), by_rule);
+    const Fit* fit = fit_of(options.fits, form);
+    if (fit != nullptr) {
+      add("converter", "the compiled one, Kd kept", compiled_rule(*fit, form), by_rule);
+      add("converter, glTF", "the same, diffuse at most 1 - F", in_gltf(compiled_rule(*fit, form)), by_rule);
     }
     std::ranges::stable_sort(ranking.rules, {}, [](const RankedRule& rule) { return rule.all.rmse; });
-    ranking.rules.insert(ranking.rules.begin(), std::move(best));
+    const auto first_least = static_cast<std::ptrdiff_t>(ranking.rules.size());
+    add("best possible", "any alpha and strength, diffuse of the form", FormRule(form), by_least);
+    if (fit != nullptr)
+      add("best possible, Kd kept", "any alpha and strength", compiled_rule(*fit, form), by_least);
+    std::rotate(ranking.rules.begin(), ranking.rules.begin() + first_least, ranking.rules.end());
     rankings.push_back(std::move(ranking));
   }
   return rankings;

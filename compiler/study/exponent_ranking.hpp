@@ -24,8 +24,9 @@ struct RankedRule {
 };
 
 struct LobeRanking {
-  std::string lobe;               // `legacy/blinn-phong`
-  std::vector<RankedRule> rules;  // by RMSE; the best possible parameters first
+  std::string lobe;  // `legacy/blinn-phong`
+  std::vector<RankedRule>
+      rules;  // by RMSE; the best possible parameters first, with the form's diffuse and with Kd kept
 };
 
 // Spheres of four materials of OpenGL under one environment: a row each, columns the source and

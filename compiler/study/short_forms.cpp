@@ -59,15 +59,6 @@ Start start_of(const ShortForm& form) {
   return {};
 }
 
-// Exponents become GGX with constant Fresnel, which the lobes have, too.
-const Fit* fit_of(const std::vector<Fit>& fits, const ShortForm& form) {
-  const std::string target = has_exponent(form.source) ? "mitsuba/ggx-plain" : form.target;
-  const auto fit = std::ranges::find_if(fits, [&](const Fit& candidate) {
-    return candidate.source.model == form.source && candidate.target.model == target;
-  });
-  return fit == fits.end() ? nullptr : &*fit;
-}
-
 std::vector<LobeMaterial> materials_of(const ShortForm& form, Half half) {
   switch (form.kind) {
     case ShortKind::kWidths:
@@ -114,6 +105,45 @@ double choose_constants(const RuleJudge& judge, const std::vector<LeastError>& l
   return value(best);
 }
 
+// The best constants and the best kind of strength, by the lights and materials that choose.
+ShortForm chosen_form(LobeBank& bank, const StudyPair& pair) {
+  ShortForm form{converter_id(pair.source, pair.target),
+                 pair.source,
+                 pair.target,
+                 kind_of(pair),
+                 ShortStrength::kLine,
+                 {},
+                 {},
+                 {},
+                 {},
+                 {}};
+  const RuleJudge chooser(bank.lights(), bank.of(pair.source), bank.of(pair.target),
+                          materials_of(form, Half::kChoosing));
+  form.constants = start_of(form).constants;
+  // The start lies near enough for the search of the least errors, which is for a width and a strength.
+  const std::vector<LeastError> least = chooser.least(FormRule(form));
+  double lowest = 1e300;
+  ShortForm best = form;
+  for (const auto& strength : kShortStrengths) {
+    if (form.kind != ShortKind::kWidths && strength.value != ShortStrength::kLine) continue;
+    ShortForm tried = form;
+    tried.strength = strength.value;
+    const double value = choose_constants(chooser, least, tried);
+    if (value < lowest) {
+      lowest = value;
+      best = tried;
+    }
+  }
+  return best;
+}
+
+// Of the form, the best possible parameters and copied numbers.
+void add_figures(const RuleJudge& judge, ShortForm& form) {
+  form.figures = judge.figures(FormRule(form));
+  form.best = judge.figures(judge.least(FormRule(form)));
+  form.copied = judge.figures([&](const LobeMaterial& material) { return copied(form, material); });
+}
+
 }  // namespace
 
 std::vector<StudyPair> short_pairs() {
@@ -139,49 +169,16 @@ void study_short_forms(const ShortFormsOptions& options,
   for (const StudyPair& pair : options.pairs) {
     if (options.cancelled != nullptr && *options.cancelled)
       throw Error(ErrorKind::kInterrupted, "study: interrupted; finished forms are written");
-    ShortForm form{converter_id(pair.source, pair.target),
-                   pair.source,
-                   pair.target,
-                   kind_of(pair),
-                   ShortStrength::kLine,
-                   {},
-                   {},
-                   {},
-                   {},
-                   {}};
-    const RuleJudge chooser(choosing.lights(), choosing.of(pair.source), choosing.of(pair.target),
-                            materials_of(form, Half::kChoosing));
-    form.constants = start_of(form).constants;
-    // The start lies near enough for the search of the least errors, which is for a width and a strength.
-    const std::vector<LeastError> least = chooser.least(FormRule(form));
-    double lowest = 1e300;
-    ShortForm best = form;
-    for (const auto& strength : kShortStrengths) {
-      if (form.kind != ShortKind::kWidths && strength.value != ShortStrength::kLine) continue;
-      ShortForm tried = form;
-      tried.strength = strength.value;
-      const double value = choose_constants(chooser, least, tried);
-      if (value < lowest) {
-        lowest = value;
-        best = tried;
-      }
-    }
+    const auto known =
+        std::ranges::find(options.known, converter_id(pair.source, pair.target), &ShortForm::id);
+    const bool is_known = known != options.known.end();
+    ShortForm form = is_known ? *known : chosen_form(choosing, pair);
     const RuleJudge judge(judging.lights(), judging.of(pair.source), judging.of(pair.target),
                           materials_of(form, Half::kJudging));
-    best.figures = judge.figures(FormRule(best));
-    best.best = judge.figures(judge.least(FormRule(best)));
-    best.copied = judge.figures([&](const LobeMaterial& material) { return copied(best, material); });
-    if (const Fit* fit = fit_of(options.fits, best))
-      best.compiled = judge.figures([&, own = FormRule(best)](const LobeMaterial& material) {
-        LobeSurface surface = own(material);  // for its diffuse
-        for (std::size_t c = 0; c < 3; ++c) {
-          const SamplePoint point = shipped_point(*fit, material.alpha, material.specular[c]);
-          surface.alpha = point.alpha;
-          surface.specular[c] = std::min(1.0, point.specular);
-        }
-        return surface;
-      });
-    finished(best);
+    if (!is_known) add_figures(judge, form);
+    form.compiled.reset();
+    if (const Fit* fit = fit_of(options.fits, form)) form.compiled = judge.figures(compiled_rule(*fit, form));
+    finished(form);
   }
 }
 

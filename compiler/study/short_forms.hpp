@@ -16,6 +16,7 @@ struct ShortFormsOptions : SphereSampling {
   std::vector<StudyPair> pairs;
   std::vector<Environment> choosing, judging;  // lights of the choice, and of the figures
   std::vector<Fit> fits;                       // compiled converters to compare with
+  std::vector<ShortForm> known;                // forms of which only the converters are judged
 };
 
 // All pairs of hub models, and the lobes of an exponent to `mitsuba/ggx` and back.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
@@ -65,7 +66,8 @@ std::string ranking_plot(const LobeRanking& ranking) {
     for (std::size_t d = 0; d < kDecades; ++d)
       blocks += std::to_string(d) + " " + number_text(rule.rmse[d]) + "\n";
     blocks += "EOD\n";
-    const bool is_own = rule.name.starts_with("short form"), is_best = rule.name == "best possible";
+    const bool is_own = rule.name.starts_with("short form") || rule.name.starts_with("converter"),
+               is_best = rule.name.starts_with("best possible");
     const std::string color = is_best  ? "black"
                               : is_own ? kPlotColors[r % 2 == 0 ? 0 : 2]
                                        : kPlotColors[1 + r % (kPlotColors.size() - 1)];
@@ -103,8 +105,9 @@ void run(const ExponentsCommand& command) {
   set_light_halves(command.environments, options);
   require_folder_for_pictures(command.output);
   prepare_folder(command.output, "exponents");
-  const auto file = fit_folder_of(command.fit_folder) / kShortFormsName;
+  const std::filesystem::path folder = fit_folder_of(command.fit_folder), file = folder / kShortFormsName;
   const std::vector<ShortForm> forms = short_forms_of(read_file(file), file.string());
+  options.fits = load_fits(folder);
   watch_interruptions();
   options.cancelled = &interruption();
   const std::vector<LobeRanking> rankings = rank_exponent_rules(options, forms);

@@ -20,6 +20,7 @@ struct ShortCommand {
   std::vector<std::string> pairs;
   std::vector<std::filesystem::path> environments;
   std::filesystem::path fit_folder, output;
+  bool compiled_only = false;
   ShortFormsOptions study;
 };
 
@@ -52,6 +53,7 @@ void run(const ShortCommand& command) {
   std::vector<ShortForm> forms;
   if (!command.output.empty() && std::filesystem::exists(command.output))
     forms = short_forms_of(read_file(command.output), command.output.string());
+  if (command.compiled_only) options.known = forms;
   study_short_forms(options, [&](const ShortForm& form) {
     std::cout << line_of(form) << std::flush;
     std::erase_if(forms, [&](const ShortForm& known) { return known.id == form.id; });
@@ -80,6 +82,8 @@ void add_short_study(Command& study) {
   command->add_option("-o,--output", options.output,
                       "JSON file of short forms; forms of other pairs in it stay, each form is written as it "
                       "is finished");
+  command->add_flag("--compiled-only", options.compiled_only,
+                    "Judge the compiled converters of the forms in the output file; the rest of them stays");
   command->footer(
       "Example:\n  remap-study short --environment forest.exr --environment city.exr \\\n    -o "
       "fits/short/forms.json");

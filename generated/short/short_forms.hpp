@@ -7,14 +7,14 @@
 
 namespace remap::short_forms {
 
-// legacy/blinn-phong-normalised to mitsuba/ggx. RMSE % of display values under environments 7.0 (best possible 6.5, compiled converter 7.0, copied 15.9), error % under a light 19 (best possible 14, compiled converter 22, copied 58)
+// legacy/blinn-phong-normalised to mitsuba/ggx. RMSE % of display values under environments 7.0 (best possible 6.5, compiled converter 6.7, copied 15.9), error % under a light 19 (best possible 14, compiled converter 18, copied 58)
 // n: exponent. ks, kd: linear, a channel at a time. roughness: square root of alpha. f: the largest f0 of the channels.
 // Constant Fresnel: in glTF KHR_materials_specular with specularFactor = f and specularColorFactor = 25 f0 / f.
 inline float legacy_blinn_phong_normalised_to_mitsuba_ggx_roughness(float n) { return std::pow(0.865f / (n + 1.31f), 0.25f); }
 inline float legacy_blinn_phong_normalised_to_mitsuba_ggx_f0(float ks) { return std::min(1.0f, 0.515f * ks); }
 inline float legacy_blinn_phong_normalised_to_mitsuba_ggx_base(float kd, float ks, float n, float f) { return std::min(1.0f, (kd + ks / (n + 1.0f)) / std::max(0.02f, 1.0f - f)); }
 
-// legacy/blinn-phong to mitsuba/ggx. RMSE % of display values under environments 3.4 (best possible 3.2, compiled converter 4.1, copied 13.4), error % under a light 4 (best possible 4, compiled converter 4, copied 46)
+// legacy/blinn-phong to mitsuba/ggx. RMSE % of display values under environments 3.4 (best possible 3.2, compiled converter 2.7, copied 13.4), error % under a light 4 (best possible 4, compiled converter 4, copied 46)
 // n: exponent. ks, kd: linear, a channel at a time. roughness: square root of alpha. f: the largest f0 of the channels.
 // Constant Fresnel: in glTF KHR_materials_specular with specularFactor = f and specularColorFactor = 25 f0 / f.
 inline float legacy_blinn_phong_to_mitsuba_ggx_roughness(float n) { return std::pow(1.55f / (n + 4.17f), 0.25f); }
@@ -28,7 +28,7 @@ inline float legacy_phong_normalised_to_mitsuba_ggx_roughness(float n) { return 
 inline float legacy_phong_normalised_to_mitsuba_ggx_f0(float ks) { return std::min(1.0f, 0.69f * ks); }
 inline float legacy_phong_normalised_to_mitsuba_ggx_base(float kd, float ks, float n, float f) { return std::min(1.0f, (kd + ks / (7.79f * n + 1.0f)) / std::max(0.02f, 1.0f - f)); }
 
-// legacy/phong to mitsuba/ggx. RMSE % of display values under environments 1.4 (best possible 1.3, compiled converter 2.4, copied 10.4), error % under a light 2 (best possible 2, compiled converter 2, copied 44)
+// legacy/phong to mitsuba/ggx. RMSE % of display values under environments 1.4 (best possible 1.3, compiled converter 1.3, copied 10.4), error % under a light 2 (best possible 2, compiled converter 2, copied 44)
 // n: exponent. ks, kd: linear, a channel at a time. roughness: square root of alpha. f: the largest f0 of the channels.
 // Constant Fresnel: in glTF KHR_materials_specular with specularFactor = f and specularColorFactor = 25 f0 / f.
 inline float legacy_phong_to_mitsuba_ggx_roughness(float n) { return std::pow(1.44f / (2.83f * n + 4.26f), 0.25f); }
@@ -40,22 +40,22 @@ inline float legacy_phong_to_mitsuba_ggx_base(float kd, float f) { return std::m
 inline float mitsuba_as_to_mitsuba_beckmann_alpha(float alpha) { return std::min(1.0f, alpha * (0.994f + 0.109f * alpha)); }
 inline float mitsuba_as_to_mitsuba_beckmann_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.0f - 0.0622f * alpha * alpha)); }
 
-// mitsuba/as to mitsuba/ggx. RMSE % of display values under environments 4.0 (best possible 3.5, compiled converter 4.6, copied 6.5), error % under a light 34 (best possible 32, compiled converter 34, copied 43)
+// mitsuba/as to mitsuba/ggx. RMSE % of display values under environments 4.0 (best possible 3.5, compiled converter 4.3, copied 6.5), error % under a light 34 (best possible 32, compiled converter 34, copied 43)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_as_to_mitsuba_ggx_alpha(float alpha) { return std::min(1.0f, alpha * (0.647f + 0.496f * alpha)); }
 inline float mitsuba_as_to_mitsuba_ggx_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.0f + 0.887f * alpha * alpha)); }
 
-// mitsuba/as to mitsuba/phong. RMSE % of display values under environments 11.9 (best possible 11.2, compiled converter 11.9, copied 16.6), error % under a light 31 (best possible 31, compiled converter 33, copied 71)
+// mitsuba/as to mitsuba/phong. RMSE % of display values under environments 11.9 (best possible 11.2, compiled converter 11.6, copied 16.6), error % under a light 31 (best possible 31, compiled converter 33, copied 71)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_as_to_mitsuba_phong_alpha(float alpha) { return std::min(1.0f, alpha * (1.65f - 0.1f * alpha)); }
 inline float mitsuba_as_to_mitsuba_phong_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.38f - 0.841f * alpha * alpha)); }
 
-// mitsuba/as to mitsuba/ward. RMSE % of display values under environments 12.2 (best possible 11.3, compiled converter 13.2, copied 16.4), error % under a light 10 (best possible 6, compiled converter 10, copied 39)
+// mitsuba/as to mitsuba/ward. RMSE % of display values under environments 12.2 (best possible 11.3, compiled converter 11.7, copied 16.4), error % under a light 10 (best possible 6, compiled converter 10, copied 39)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_as_to_mitsuba_ward_alpha(float alpha) { return std::min(1.0f, alpha * (0.96f + 0.609f * alpha)); }
 inline float mitsuba_as_to_mitsuba_ward_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.38f + 3.86f * alpha * alpha)); }
 
-// mitsuba/as to mitsuba/ward-balanced. RMSE % of display values under environments 5.0 (best possible 4.3, compiled converter 4.9, copied 6.5), error % under a light 5 (best possible 5, compiled converter 5, copied 13)
+// mitsuba/as to mitsuba/ward-balanced. RMSE % of display values under environments 5.0 (best possible 4.3, compiled converter 4.8, copied 6.5), error % under a light 5 (best possible 5, compiled converter 5, copied 13)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_as_to_mitsuba_ward_balanced_alpha(float alpha) { return std::min(1.0f, alpha * (0.976f + 0.381f * alpha)); }
 inline float mitsuba_as_to_mitsuba_ward_balanced_specular(float alpha, float specular) { return std::min(1.0f, specular * (0.967f + 0.644f * alpha)); }
@@ -70,38 +70,38 @@ inline float mitsuba_as_to_mitsuba_ward_duer_specular(float alpha, float specula
 inline float mitsuba_beckmann_to_mitsuba_as_alpha(float alpha) { return std::min(1.0f, alpha * (1.01f - 0.135f * alpha)); }
 inline float mitsuba_beckmann_to_mitsuba_as_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.0f - 0.0214f * alpha * alpha)); }
 
-// mitsuba/beckmann to mitsuba/ggx. RMSE % of display values under environments 4.3 (best possible 3.9, compiled converter 4.9, copied 7.1), error % under a light 38 (best possible 36, compiled converter 37, copied 45)
+// mitsuba/beckmann to mitsuba/ggx. RMSE % of display values under environments 4.3 (best possible 3.9, compiled converter 4.7, copied 7.1), error % under a light 38 (best possible 36, compiled converter 37, copied 45)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_beckmann_to_mitsuba_ggx_alpha(float alpha) { return std::min(1.0f, alpha * (0.684f + 0.206f * alpha)); }
 inline float mitsuba_beckmann_to_mitsuba_ggx_specular(float alpha, float specular) { return std::min(1.0f, specular * (0.965f / (1.0f - 0.359f * alpha))); }
 
-// mitsuba/beckmann to mitsuba/phong. RMSE % of display values under environments 11.6 (best possible 10.9, compiled converter 11.4, copied 16.1), error % under a light 32 (best possible 31, compiled converter 34, copied 69)
+// mitsuba/beckmann to mitsuba/phong. RMSE % of display values under environments 11.6 (best possible 10.9, compiled converter 11.3, copied 16.1), error % under a light 32 (best possible 31, compiled converter 33, copied 69)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_beckmann_to_mitsuba_phong_alpha(float alpha) { return std::min(1.0f, alpha * (1.68f - 0.424f * alpha)); }
 inline float mitsuba_beckmann_to_mitsuba_phong_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.38f - 0.679f * alpha * alpha)); }
 
-// mitsuba/beckmann to mitsuba/ward. RMSE % of display values under environments 11.9 (best possible 11.0, compiled converter 12.0, copied 16.4), error % under a light 5 (best possible 4, compiled converter 9, copied 38)
+// mitsuba/beckmann to mitsuba/ward. RMSE % of display values under environments 11.9 (best possible 11.0, compiled converter 11.4, copied 16.4), error % under a light 5 (best possible 4, compiled converter 9, copied 38)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_beckmann_to_mitsuba_ward_alpha(float alpha) { return std::min(1.0f, alpha * (0.966f + 0.49f * alpha)); }
 inline float mitsuba_beckmann_to_mitsuba_ward_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.38f + 4.13f * alpha * alpha)); }
 
-// mitsuba/beckmann to mitsuba/ward-balanced. RMSE % of display values under environments 4.6 (best possible 4.0, compiled converter 4.6, copied 6.3), error % under a light 4 (best possible 4, compiled converter 4, copied 11)
+// mitsuba/beckmann to mitsuba/ward-balanced. RMSE % of display values under environments 4.6 (best possible 4.0, compiled converter 4.5, copied 6.3), error % under a light 4 (best possible 4, compiled converter 4, copied 11)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_beckmann_to_mitsuba_ward_balanced_alpha(float alpha) { return std::min(1.0f, alpha * (0.986f + 0.225f * alpha)); }
 inline float mitsuba_beckmann_to_mitsuba_ward_balanced_specular(float alpha, float specular) { return std::min(1.0f, specular * (0.963f + 0.682f * alpha)); }
 
-// mitsuba/beckmann to mitsuba/ward-duer. RMSE % of display values under environments 5.1 (best possible 4.2, compiled converter 4.8, copied 6.7), error % under a light 2 (best possible 2, compiled converter 2, copied 14)
+// mitsuba/beckmann to mitsuba/ward-duer. RMSE % of display values under environments 5.1 (best possible 4.2, compiled converter 4.7, copied 6.7), error % under a light 2 (best possible 2, compiled converter 2, copied 14)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_beckmann_to_mitsuba_ward_duer_alpha(float alpha) { return std::min(1.0f, alpha * (0.972f + 0.379f * alpha)); }
 inline float mitsuba_beckmann_to_mitsuba_ward_duer_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.02f + 2.01f * alpha * alpha)); }
 
-// mitsuba/ggx to legacy/blinn-phong. RMSE % of display values under environments 8.7 (best possible 8.0, copied 19.8), error % under a light 31 (best possible 31, copied 35)
+// mitsuba/ggx to legacy/blinn-phong. RMSE % of display values under environments 8.7 (best possible 8.0, compiled converter 12.0, copied 19.8), error % under a light 31 (best possible 31, compiled converter 42, copied 35)
 // roughness: square root of alpha. f0, base: linear, a channel at a time. ks may exceed 1.
 inline float mitsuba_ggx_to_legacy_blinn_phong_n(float roughness) { return 1.52f / std::pow(roughness, 4.0f); }
 inline float mitsuba_ggx_to_legacy_blinn_phong_ks(float roughness, float f0) { return 0.225f * f0 / std::pow(roughness, 4.0f); }
 inline float mitsuba_ggx_to_legacy_blinn_phong_kd(float base, float metallic) { return 0.96f * base * (1.0f - metallic); }
 
-// mitsuba/ggx to legacy/phong. RMSE % of display values under environments 6.1 (best possible 5.6, copied 21.7), error % under a light 33 (best possible 31, copied 54)
+// mitsuba/ggx to legacy/phong. RMSE % of display values under environments 6.1 (best possible 5.6, compiled converter 10.3, copied 21.7), error % under a light 33 (best possible 31, compiled converter 37, copied 54)
 // roughness: square root of alpha. f0, base: linear, a channel at a time. ks may exceed 1.
 inline float mitsuba_ggx_to_legacy_phong_n(float roughness) { return 0.525f / std::pow(roughness, 4.0f); }
 inline float mitsuba_ggx_to_legacy_phong_ks(float roughness, float f0) { return 0.252f * f0 / std::pow(roughness, 4.0f); }
@@ -117,12 +117,12 @@ inline float mitsuba_ggx_to_mitsuba_as_specular(float alpha, float specular) { r
 inline float mitsuba_ggx_to_mitsuba_beckmann_alpha(float alpha) { return std::min(1.0f, alpha * (1.33f - 0.278f * alpha)); }
 inline float mitsuba_ggx_to_mitsuba_beckmann_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.01f / (1.0f + 0.805f * alpha))); }
 
-// mitsuba/ggx to mitsuba/phong. RMSE % of display values under environments 11.9 (best possible 10.4, compiled converter 11.5, copied 16.9), error % under a light 39 (best possible 37, compiled converter 41, copied 78)
+// mitsuba/ggx to mitsuba/phong. RMSE % of display values under environments 11.9 (best possible 10.4, compiled converter 11.4, copied 16.9), error % under a light 39 (best possible 37, compiled converter 40, copied 78)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_ggx_to_mitsuba_phong_alpha(float alpha) { return std::min(1.0f, alpha * (2.21f - 1.01f * alpha)); }
 inline float mitsuba_ggx_to_mitsuba_phong_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.21f / (1.0f + 1.83f * alpha * alpha))); }
 
-// mitsuba/ggx to mitsuba/ward. RMSE % of display values under environments 12.2 (best possible 10.4, compiled converter 12.2, copied 15.5), error % under a light 30 (best possible 29, compiled converter 38, copied 43)
+// mitsuba/ggx to mitsuba/ward. RMSE % of display values under environments 12.2 (best possible 10.4, compiled converter 11.6, copied 15.5), error % under a light 30 (best possible 29, compiled converter 38, copied 43)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_ggx_to_mitsuba_ward_alpha(float alpha) { return std::min(1.0f, alpha * (1.28f + 0.13f * alpha)); }
 inline float mitsuba_ggx_to_mitsuba_ward_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.12f + 1.3f * alpha)); }
@@ -152,7 +152,7 @@ inline float mitsuba_phong_to_mitsuba_beckmann_specular(float alpha, float specu
 inline float mitsuba_phong_to_mitsuba_ggx_alpha(float alpha) { return std::min(1.0f, alpha * (0.345f + 0.325f * alpha)); }
 inline float mitsuba_phong_to_mitsuba_ggx_specular(float alpha, float specular) { return std::min(1.0f, specular * (0.675f / (1.0f - 0.453f * alpha * alpha))); }
 
-// mitsuba/phong to mitsuba/ward. RMSE % of display values under environments 3.9 (best possible 3.7, compiled converter 3.9, copied 8.3), error % under a light 31 (best possible 29, compiled converter 30, copied 86)
+// mitsuba/phong to mitsuba/ward. RMSE % of display values under environments 3.9 (best possible 3.7, compiled converter 3.7, copied 8.3), error % under a light 31 (best possible 29, compiled converter 30, copied 86)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_phong_to_mitsuba_ward_alpha(float alpha) { return std::min(1.0f, alpha * (0.491f + 0.379f * alpha)); }
 inline float mitsuba_phong_to_mitsuba_ward_specular(float alpha, float specular) { return std::min(1.0f, specular * (0.995f / (1.0f - 0.719f * alpha * alpha))); }
@@ -187,7 +187,7 @@ inline float mitsuba_ward_balanced_to_mitsuba_ggx_specular(float alpha, float sp
 inline float mitsuba_ward_balanced_to_mitsuba_phong_alpha(float alpha) { return std::min(1.0f, alpha * (1.7f - 0.649f * alpha)); }
 inline float mitsuba_ward_balanced_to_mitsuba_phong_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.35f / (1.0f + 1.43f * alpha * alpha))); }
 
-// mitsuba/ward-balanced to mitsuba/ward. RMSE % of display values under environments 7.2 (best possible 6.7, compiled converter 7.2, copied 10.7), error % under a light 3 (best possible 3, compiled converter 6, copied 32)
+// mitsuba/ward-balanced to mitsuba/ward. RMSE % of display values under environments 7.2 (best possible 6.7, compiled converter 6.9, copied 10.7), error % under a light 3 (best possible 3, compiled converter 6, copied 32)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_ward_balanced_to_mitsuba_ward_alpha(float alpha) { return std::min(1.0f, alpha * (0.984f + 0.224f * alpha)); }
 inline float mitsuba_ward_balanced_to_mitsuba_ward_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.37f + 1.5f * alpha * alpha)); }
@@ -217,7 +217,7 @@ inline float mitsuba_ward_duer_to_mitsuba_ggx_specular(float alpha, float specul
 inline float mitsuba_ward_duer_to_mitsuba_phong_alpha(float alpha) { return std::min(1.0f, alpha * (1.68f - 0.724f * alpha)); }
 inline float mitsuba_ward_duer_to_mitsuba_phong_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.34f / (1.0f + 1.85f * alpha * alpha))); }
 
-// mitsuba/ward-duer to mitsuba/ward. RMSE % of display values under environments 7.6 (best possible 7.3, compiled converter 7.6, copied 10.6), error % under a light 3 (best possible 3, compiled converter 7, copied 30)
+// mitsuba/ward-duer to mitsuba/ward. RMSE % of display values under environments 7.6 (best possible 7.3, compiled converter 7.4, copied 10.6), error % under a light 3 (best possible 3, compiled converter 7, copied 30)
 // alpha: width of the lobe. specular: F0 or scale, linear, a channel at a time.
 inline float mitsuba_ward_duer_to_mitsuba_ward_alpha(float alpha) { return std::min(1.0f, alpha * (0.991f + 0.121f * alpha)); }
 inline float mitsuba_ward_duer_to_mitsuba_ward_specular(float alpha, float specular) { return std::min(1.0f, specular * (1.37f + 0.769f * alpha * alpha)); }

@@ -1,0 +1,92 @@
+"""The pages of docs/adopting: the constants in their lines, their blocks of code, their tables."""
+import json
+import math
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+PAGES = ROOT / "docs" / "adopting"
+
+WIDTH = re.compile(r"(?P<a>\d+\.\d+)(?P<s>f?) / \((?:(?P<t>\d+\.\d+)f? \* )?(?P<n>n|exponent) \+ (?P<b>\d+\.\d+)f?\)")
+STRENGTH = re.compile(r"(?P<a>\d+\.\d+)(?P<s>f?) \* (?P<k>[\w.\[\]]+) / "
+                      r"\((?:(?P<t>\d+\.\d+)f? \* )?(?P<n>n|exponent) \+ (?P<b>\d+\.\d+)f?\)")
+
+
+def short_forms():
+    forms = {form["id"]: form["constants"] for form in json.loads((ROOT / "fits/short/forms.json").read_text())["forms"]}
+    return {"blinn": forms["legacy_blinn_phong_to_mitsuba_ggx"], "phong": forms["legacy_phong_to_mitsuba_ggx"]}
+
+
+def with_constants(text, forms):
+    """The text with every width and strength at the constants of its form: Phong's has a factor before n."""
+    def replaced(match, first, second):
+        form = forms["phong" if match["t"] else "blinn"]
+        number = lambda value: f"{float(f'{value:.3g}')}{match['s']}"  # noqa: E731
+        head = number(form[first]) + (f" * {match['k']}" if "k" in match.groupdict() else "")
+        times = f"{number(form[4])} * " if match["t"] else ""
+        return f"{head} / ({times}{match['n']} + {number(form[second])})"
+
+    text = STRENGTH.sub(lambda match: replaced(match, 2, 3), text)
+    return WIDTH.sub(lambda match: replaced(match, 0, 1), text)
+
+
+def examples(forms):
+    """What the test of each page states, as it should be printed."""
+    def width(lobe, n):
+        return (forms[lobe][0] / (forms[lobe][4] * n + forms[lobe][1])) ** 0.25
+
+    def strength(lobe, n, ks):
+        return forms[lobe][2] * ks / (forms[lobe][4] * n + forms[lobe][3])
+
+    def ior(f0):
+        return (1 + math.sqrt(f0)) / (1 - math.sqrt(f0))
+
+    ks = ((0.5 + 0.055) / 1.055) ** 2.4  # linear, of the display value 0.5
+    f0, phong = strength("blinn", 96.08, 0.5), strength("phong", 96.08, 0.5)
+    blinn = [f"{width('blinn', 96.08):.3f}", f"{f0:.4f}", f"{0.64 / (1 - f0):.3f}"]
+    return {"assimp.md": [*blinn, f"{width('phong', 96.08):.3f}", f"{phong:.4f}", f"{width('phong', 400):.3f}"],
+            "obj2gltf.md": blinn, "ifcopenshell.md": blinn, "trimesh.md": blinn[:2],
+            "blender-obj.md": [*blinn, f"{ior(f0):.2f}"],
+            "ufbx.md": [f"{width('phong', 96.08):.3f}", f"{phong:.4f}", f"{ior(phong):.2f}"],
+            "mujoco-usd-converter.md": [f"{width('blinn', 64):.3f}", f"{(small := strength('blinn', 64, ks)):.4f}", f"{ior(small):.2f}"],
+            "urdf-usd-converter.md": [blinn[0], f"{(small := strength('blinn', 96.08, ks)):.4f}", f"{ior(small):.2f}"]}
+
+
+def check_constants(record):
+    forms, wrong = short_forms(), 0
+    for page in sorted(PAGES.glob("*.md")):
+        text = page.read_text()
+        now = with_constants(text, forms)
+        for old, new in zip(text.splitlines(), now.splitlines()):
+            if old != new and not record:
+                print(f"{page.relative_to(ROOT)}: has '{old.strip()}', the form gives '{new.strip()}' (--record mends it)")
+                wrong += 1
+        if not (WIDTH.search(text) and STRENGTH.search(text)):
+            print(f"{page.relative_to(ROOT)}: no line with the constants of a short form")
+            wrong += 1
+        stated = re.search(r"\*\*A test\*\*.*", text, re.DOTALL)
+        for value in examples(forms).get(page.name, []):
+            if not stated or value not in stated[0]:
+                print(f"{page.relative_to(ROOT)}: the test of the page does not state {value}")
+                wrong += 1
+        if record:
+            page.write_text(now)
+    return wrong
+
+
+def block(page, name):
+    """The code of a page that stands under the comment <!-- applied: NAME -->."""
+    found = re.search(rf"<!-- applied: {re.escape(name)} -->\n```\w+\n(.*?)```", (PAGES / page).read_text(), re.DOTALL)
+    if not found:
+        sys.exit(f"docs/adopting/{page}: no code block under <!-- applied: {name} -->")
+    return found[1]
+
+
+def record_table(page, name, lines):
+    path = PAGES / page
+    text, count = re.subn(rf"(<!-- measured: {re.escape(name)} -->\n).*?(<!-- end -->)",
+                          lambda match: match[1] + "\n".join(lines) + "\n" + match[2], path.read_text(), flags=re.DOTALL)
+    if count != 1:
+        sys.exit(f"docs/adopting/{page}: {count} places <!-- measured: {name} --> ... <!-- end --> (expected 1)")
+    path.write_text(text)
