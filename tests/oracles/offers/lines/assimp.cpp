@@ -1,13 +1,13 @@
-// The lines for assimp's glTF export. Material and types of the input are assimp's, read from an MTL file by assimp; what is written are
-// members of glTF2Asset.h, which no package has: `vec3` and `vec4` are arrays of float there, too.
+// The lines for assimp's glTF export. Material and types of the input are assimp's, read from an MTL file by
+// assimp; what is written are members of glTF2Asset.h, which no package has: `vec3` and `vec4` are arrays of
+// float there, too.
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-
 #include <assimp/Importer.hpp>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <cmath>
+#include <cstdio>
 
 struct MaterialSpecular {
   float specularFactor;
@@ -29,15 +29,15 @@ int main(int, char** arguments) {
     const aiMaterial& mat = *scene->mMaterials[i];
     aiColor4D specularColor, diffuse;
     float shininess = 0.0f;
-    if (mat.Get(AI_MATKEY_COLOR_SPECULAR, specularColor) != AI_SUCCESS || mat.Get(AI_MATKEY_SHININESS, shininess) != AI_SUCCESS ||
+    if (mat.Get(AI_MATKEY_COLOR_SPECULAR, specularColor) != AI_SUCCESS ||
+        mat.Get(AI_MATKEY_SHININESS, shininess) != AI_SUCCESS ||
         mat.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) != AI_SUCCESS)
       return 1;
     MaterialSpecular specular{};
     Material material{{{diffuse.r, diffuse.g, diffuse.b, 1.0f}, 0.0f}};
     Material* m = &material;
-    @lines 0@
-    if (mat.GetName() == aiString("paint"))
-      std::printf("%.3f %.4f %.0f %.3f\n", m->pbrMetallicRoughness.roughnessFactor, specular.specularFactor,
-                  specular.specularColorFactor[0], m->pbrMetallicRoughness.baseColorFactor[0]);
+    @lines 0 @ if (mat.GetName() == aiString("paint"))
+        std::printf("%.3f %.4f %.0f %.3f\n", m->pbrMetallicRoughness.roughnessFactor, specular.specularFactor,
+                    specular.specularColorFactor[0], m->pbrMetallicRoughness.baseColorFactor[0]);
   }
 }

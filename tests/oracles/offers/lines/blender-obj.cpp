@@ -1,4 +1,5 @@
-// The lines for Blender's OBJ import. No package has its headers: float3 and MTLMaterial have the members that are used here.
+// The lines for Blender's OBJ import. No package has its headers: float3 and MTLMaterial have the members
+// that are used here.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +18,5 @@ struct MTLMaterial {
 int main() {
   const MTLMaterial mtl_mat{96.08f, float3(0.5f)};
   float roughness = 1.0f, ior = 1.5f;
-  @lines 0@
-  std::printf("%.3f %.4f %.2f %.3f\n", roughness, f, ior, 0.64f / (1.0f - f));
+  @lines 0 @std::printf("%.3f %.4f %.2f %.3f\n", roughness, f, ior, 0.64f / (1.0f - f));
 }

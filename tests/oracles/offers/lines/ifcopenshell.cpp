@@ -11,8 +11,9 @@ int main() {
   const std::array<double, 3> ks{0.5, 0.5, 0.5};
   std::array<double, 3> base{0.64, 0.64, 0.64};
   nlohmann::json material;
-  @lines 0@
-  const nlohmann::json specular = material.at("extensions").at("KHR_materials_specular");
-  std::printf("%.3f %.4f %.0f %.3f\n", material.at("pbrMetallicRoughness").at("roughnessFactor").get<double>(),
-              specular.at("specularFactor").get<double>(), specular.at("specularColorFactor").at(2).get<double>(), base[0]);
+  @lines 0 @ const nlohmann::json specular = material.at("extensions").at("KHR_materials_specular");
+  std::printf("%.3f %.4f %.0f %.3f\n",
+              material.at("pbrMetallicRoughness").at("roughnessFactor").get<double>(),
+              specular.at("specularFactor").get<double>(),
+              specular.at("specularColorFactor").at(2).get<double>(), base[0]);
 }
