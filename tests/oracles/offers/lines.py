@@ -25,7 +25,8 @@ def blocks_of(page):
 
 
 def with_lines(program, blocks):
-    return re.sub(r"@lines (\d)@", lambda match: blocks[int(match[1])], program)
+    """The program with a block in place of each comment `lines NUMBER`, which formatting keeps."""
+    return re.sub(r"(?m)^ *(?:// lines (\d)|/\* lines (\d) \*/)$", lambda match: blocks[int(match[1] or match[2])], program)
 
 
 def check(case, compiler, folder):

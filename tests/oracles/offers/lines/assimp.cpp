@@ -36,8 +36,9 @@ int main(int, char** arguments) {
     MaterialSpecular specular{};
     Material material{{{diffuse.r, diffuse.g, diffuse.b, 1.0f}, 0.0f}};
     Material* m = &material;
-    @lines 0 @ if (mat.GetName() == aiString("paint"))
-        std::printf("%.3f %.4f %.0f %.3f\n", m->pbrMetallicRoughness.roughnessFactor, specular.specularFactor,
-                    specular.specularColorFactor[0], m->pbrMetallicRoughness.baseColorFactor[0]);
+    // lines 0
+    if (mat.GetName() == aiString("paint"))
+      std::printf("%.3f %.4f %.0f %.3f\n", m->pbrMetallicRoughness.roughnessFactor, specular.specularFactor,
+                  specular.specularColorFactor[0], m->pbrMetallicRoughness.baseColorFactor[0]);
   }
 }

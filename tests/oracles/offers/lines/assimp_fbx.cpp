@@ -16,7 +16,8 @@ int main() {
         material.Get(AI_MATKEY_SHININESS, ShininessExponent) != AI_SUCCESS)
       return 1;
     const ai_real ks = read.r;
-    @lines 1 @std::printf("%.3f ", roughness);
+    // lines 1
+    std::printf("%.3f ", roughness);
     if (exponent == 96.08f) std::printf("%.4f ", f0);
   }
 }

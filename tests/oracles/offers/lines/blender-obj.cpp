@@ -18,5 +18,6 @@ struct MTLMaterial {
 int main() {
   const MTLMaterial mtl_mat{96.08f, float3(0.5f)};
   float roughness = 1.0f, ior = 1.5f;
-  @lines 0 @std::printf("%.3f %.4f %.2f %.3f\n", roughness, f, ior, 0.64f / (1.0f - f));
+  // lines 0
+  std::printf("%.3f %.4f %.2f %.3f\n", roughness, f, ior, 0.64f / (1.0f - f));
 }
