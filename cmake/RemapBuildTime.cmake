@@ -14,10 +14,9 @@ function(remap_use_precompiled_tests target owner)
   target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()
 
-# remap_unoptimised(TARGET): TARGET checks what others compute, and is itself not worth the time of an optimiser. Sanitizers keep their
-# own flags: the inline functions of a test are those of the whole program, whose loops would become slower by half.
+# remap_unoptimised(TARGET): TARGET checks what others compute, and is itself not worth the time of an optimiser.
 function(remap_unoptimised target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O0>)
+  target_compile_options(${target} PRIVATE -O0)
 endfunction()
 
 # remap_small(TARGET...): what plans, edits texts and reports has no loop over texels, rows or pictures. Half the code, and a third of the
