@@ -18,7 +18,6 @@ libcxx_folder() {
 build_variant() {
   local -r name=$1 targets=$2 folder=build/check/$1
   local -a options=(-DCMAKE_BUILD_TYPE=Release -DREMAP_BUILD_BITS=ON -DREMAP_BUILD_EXAMPLES=OFF -DREMAP_INSTALL=OFF "${@:3}")
-  ! type -P ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   # shellcheck disable=SC2086 # the targets are words
   cmake -S . -B "$folder" -G Ninja "${options[@]}" && cmake --build "$folder" --target $targets
 }

