@@ -242,7 +242,7 @@ std::string row_label(const std::vector<double>& specular, const PreviewFigure& 
          short_list(figure.target_specular);
 }
 
-// The shapes that `light` shows.
+// Those of `shapes` that `light` shows.
 std::vector<Shape> lit_shapes(const PreviewLight& light, const std::vector<Shape>& shapes) {
   if (std::holds_alternative<Light>(light.light)) return shapes;
   if (std::ranges::find(shapes, Shape::kSphere) == shapes.end())
@@ -253,13 +253,11 @@ std::vector<Shape> lit_shapes(const PreviewLight& light, const std::vector<Shape
 // Fills a preview row by row.
 class SheetFiller {
  public:
-  SheetFiller(const Fit& fit, const PreviewOptions& options) : fit_(fit), options_(options) {
+  SheetFiller(const Fit& fit, const PreviewOptions& options, std::size_t rows)
+      : fit_(fit), options_(options) {
     preview_.specular = options.specular;
     preview_.labels.columns = {"source\n" + fit.source.model, "copied\n" + fit.target.model,
                                "converted\n" + fit.target.model};
-    std::size_t rows = 0;
-    for (const PreviewLight& light : options.lights)
-      rows += lit_shapes(light, options.shapes).size() * options.alphas.size();
     preview_.sheet = contact_sheet(rows, kColumns, cell());
   }
 
@@ -346,10 +344,17 @@ Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOpti
   if (options.alphas.empty()) options.alphas = preview_alphas(fit.domain);
   if (options.specular.empty()) options.specular = {0.5 * fit.domain.specular.max};
   require_options(options);
-  SheetFiller sheet(fit, options);
+  std::vector<std::vector<Shape>> shapes;  // of each light
+  std::size_t rows = 0;
   for (const PreviewLight& light : options.lights) {
+    shapes.push_back(lit_shapes(light, options.shapes));
+    rows += shapes.back().size() * options.alphas.size();
+  }
+  SheetFiller sheet(fit, options, rows);
+  for (std::size_t i = 0; i < options.lights.size(); ++i) {
+    const PreviewLight& light = options.lights[i];
     const auto show = [&](const auto& studio) {
-      for (const Shape shape : lit_shapes(light, options.shapes)) sheet.add_rows(light.name, shape, studio);
+      for (const Shape shape : shapes[i]) sheet.add_rows(light.name, shape, studio);
     };
     if (const auto* environment = std::get_if<Environment>(&light.light))
       show(EnvironmentStudio(fit, options, *environment));

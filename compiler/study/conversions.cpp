@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "emit/emit.hpp"
+#include "lower/interpreter.hpp"
 #include "measure/sweep.hpp"
 #include "renderer/image_similarity.hpp"
 #include "study/golden_section.hpp"
@@ -41,7 +41,12 @@ Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer,
 
 Parameters shipped(const EnvironmentsOptions& options, const Fit& fit) {
   Parameters parameters;
-  for (const double alpha : options.alphas) parameters.push_back(shipped_point(fit, alpha, options.specular));
+  for (const double alpha : options.alphas) {
+    double specular = 0.0;
+    const double roughness = evaluate_texel(fit, from_alpha(fit.source.roughness, alpha),
+                                            std::span(&options.specular, 1), std::span(&specular, 1));
+    parameters.push_back({to_alpha(fit.target.roughness, roughness), specular});
+  }
   return parameters;
 }
 
@@ -142,17 +147,6 @@ Search search_of(const SpherePictures& pictures, std::span<const SphereMaterial>
 }
 
 }  // namespace
-
-SamplePoint shipped_point(const Fit& fit, double alpha, double specular) {
-  const Lowered& lowered = require_converter(fit).lowered;
-  const double clamped_specular = std::min(specular, fit.domain.specular.max);
-  const double scale = clamped_specular > 0.0 ? specular / clamped_specular : 1.0;
-  const auto width = static_cast<float>(std::clamp(alpha, fit.domain.alpha.min, fit.domain.alpha.max));
-  const auto inside = static_cast<float>(clamped_specular);
-  const double target_specular = static_cast<double>(value(lowered.specular.polynomial, width, inside));
-  return {static_cast<double>(value(lowered.alpha.polynomial, width, inside)),
-          std::max(0.0, target_specular * scale)};
-}
 
 std::string pair_name(const StudyPair& pair) { return pair.source + " -> " + pair.target; }
 

@@ -20,10 +20,6 @@ struct StudyPair {
   std::string source, target;
 };
 
-// Evaluates the fit as generated headers and texremap do: as polynomials in floats, after the domain rule
-// (lower/interpreter.hpp).
-SamplePoint shipped_point(const Fit& fit, double alpha, double specular);
-
 // Returns `source -> target`.
 std::string pair_name(const StudyPair& pair);
 
@@ -32,7 +28,7 @@ enum class Method {
   kPaper,     // match by the objective `paper`
   kNatural1,  // match by the objective `natural-1`
   kNatural2,  // match by the objective `natural-2`
-  kShipped,   // a fit, evaluated as generated headers and texremap do
+  kShipped,   // a texel by a fit (lower/interpreter.hpp)
   kBest,      // least mean RMSE over the given environments; no conversion can be better
 };
 std::string method_name(Method method);

@@ -34,29 +34,6 @@ void add_decades(const std::vector<LobeMaterial>& materials, const std::vector<R
   }
 }
 
-double mean_rmse(const std::vector<RuleError>& errors) {
-  double sum = 0.0;
-  for (const RuleError& error : errors) sum += error.rmse / static_cast<double>(errors.size());
-  return sum;
-}
-
-struct Judged {
-  ShortFigures figures;
-  std::vector<RuleError> errors;
-};
-
-Judged by_rule(const RuleJudge& judge, const LobeRule& rule) {
-  return {judge.figures(rule), judge.errors(rule)};
-}
-
-// With the diffuse of the rule.
-Judged by_least(const RuleJudge& judge, const LobeRule& rule) {
-  const std::vector<LeastError> least = judge.least(rule);
-  Judged judged{judge.figures(least), {}};
-  for (const LeastError& entry : least) judged.errors.push_back(entry.error);
-  return judged;
-}
-
 // A base color is at most 1, and diffuse is base color times 1 - F (appendix B of glTF 2.0).
 LobeRule in_gltf(const LobeRule& rule) {
   return [rule](const LobeMaterial& material) {
@@ -141,26 +118,26 @@ std::vector<LobeRanking> rank_exponent_rules(const ShortFormsOptions& options,
 
     LobeRanking ranking{form.source, {}};
     const auto add = [&](const char* name, const std::string& formula, const LobeRule& rule,
-                         Judged judged_by(const RuleJudge&, const LobeRule&)) {
-      const Judged judged = judged_by(judge, rule);
+                         Judged (RuleJudge::*judged_by)(const LobeRule&) const) {
+      const Judged judged = (judge.*judged_by)(rule);
       RankedRule ranked{name, formula, judged.figures, {}, {}, std::numeric_limits<double>::quiet_NaN()};
       add_decades(judge.materials(), judged.errors, ranked);
-      if (is_opengl) ranked.opengl = mean_rmse(judged_by(courses, rule).errors);
+      if (is_opengl) ranked.opengl = (courses.*judged_by)(rule).figures.rmse;
       ranking.rules.push_back(std::move(ranked));
     };
-    for (const ExponentRule& rule : exponent_rules())
-      add(rule.name.c_str(), rule.formula, rule_of(rule, form), by_rule);
     const Fit* fit = fit_of(options.fits, form);
-    if (fit != nullptr) {
-      add("converter", "the compiled one, Kd kept", compiled_rule(*fit, form), by_rule);
-      add("converter, glTF", "the same, diffuse at most 1 - F", in_gltf(compiled_rule(*fit, form)), by_rule);
+    const LobeRule compiled = fit == nullptr ? nullptr : compiled_rule(*fit, form);
+    add("best possible", "any alpha and strength, diffuse of the form", FormRule(form), &RuleJudge::by_least);
+    if (compiled) add("best possible, Kd kept", "any alpha and strength", compiled, &RuleJudge::by_least);
+    const auto first_rule = static_cast<std::ptrdiff_t>(ranking.rules.size());
+    for (const ExponentRule& rule : exponent_rules())
+      add(rule.name.c_str(), rule.formula, rule_of(rule, form), &RuleJudge::by_rule);
+    if (compiled) {
+      add("converter", "the compiled one, Kd kept", compiled, &RuleJudge::by_rule);
+      add("converter, glTF", "the same, diffuse at most 1 - F", in_gltf(compiled), &RuleJudge::by_rule);
     }
-    std::ranges::stable_sort(ranking.rules, {}, [](const RankedRule& rule) { return rule.all.rmse; });
-    const auto first_least = static_cast<std::ptrdiff_t>(ranking.rules.size());
-    add("best possible", "any alpha and strength, diffuse of the form", FormRule(form), by_least);
-    if (fit != nullptr)
-      add("best possible, Kd kept", "any alpha and strength", compiled_rule(*fit, form), by_least);
-    std::rotate(ranking.rules.begin(), ranking.rules.begin() + first_least, ranking.rules.end());
+    std::stable_sort(ranking.rules.begin() + first_rule, ranking.rules.end(),
+                     [](const RankedRule& a, const RankedRule& b) { return a.all.rmse < b.all.rmse; });
     rankings.push_back(std::move(ranking));
   }
   return rankings;

@@ -157,13 +157,10 @@ std::vector<LeastError> RuleJudge::least(const LobeRule& rule) const {
   return all;
 }
 
-ShortFigures RuleJudge::figures(const std::vector<LobeSurface>& surfaces) const {
-  std::vector<RuleError> errors(materials_.size());
-  std::vector<double> similarities(materials_.size()), relative;
-  run_parallel(materials_.size(), lights_.sampling().jobs, [&](std::size_t m) {
-    errors[m] = error_of(m, surfaces[m]);
-    similarities[m] = similarity_of(m, surfaces[m]);
-  });
+Judged RuleJudge::judged(std::vector<RuleError> errors, const std::vector<LobeSurface>& surfaces) const {
+  std::vector<double> similarities(surfaces.size()), relative;
+  run_parallel(surfaces.size(), lights_.sampling().jobs,
+               [&](std::size_t m) { similarities[m] = similarity_of(m, surfaces[m]); });
   ShortFigures figures;
   for (std::size_t m = 0; m < errors.size(); ++m) {
     figures.rmse += errors[m].rmse / static_cast<double>(errors.size());
@@ -171,25 +168,23 @@ ShortFigures RuleJudge::figures(const std::vector<LobeSurface>& surfaces) const 
     relative.push_back(errors[m].relative);
   }
   figures.relative = median(std::move(relative));
-  return figures;
+  return {std::move(errors), figures};
 }
 
-ShortFigures RuleJudge::figures(const LobeRule& rule) const {
+Judged RuleJudge::by_rule(const LobeRule& rule) const {
   std::vector<LobeSurface> surfaces;
   for (const LobeMaterial& material : materials_) surfaces.push_back(rule(material));
-  return figures(surfaces);
+  return judged(errors(rule), surfaces);
 }
 
-ShortFigures RuleJudge::figures(const std::vector<LeastError>& least) const {
+Judged RuleJudge::by_least(const LobeRule& rule) const {
   std::vector<LobeSurface> surfaces;
-  std::vector<double> relative;
-  for (const LeastError& entry : least) {
-    surfaces.push_back(entry.by_rmse);
-    relative.push_back(entry.error.relative);
+  std::vector<RuleError> errors;
+  for (const LeastError& least : this->least(rule)) {
+    surfaces.push_back(least.by_rmse);
+    errors.push_back(least.error);
   }
-  ShortFigures all = figures(surfaces);
-  all.relative = median(std::move(relative));
-  return all;
+  return judged(std::move(errors), surfaces);
 }
 
 }  // namespace remap

@@ -36,6 +36,12 @@ struct LeastError {
   LobeSurface by_rmse, by_relative;
 };
 
+// The error of each material; of all, mean RMSE and SSIM and the median relative error.
+struct Judged {
+  std::vector<RuleError> errors;
+  ShortFigures figures;
+};
+
 // The upper one of two in the middle; 0 of none.
 double median(std::vector<double> values);
 
@@ -50,13 +56,12 @@ class RuleJudge {
   // The least errors of surfaces whose specular is that of the material times a number, whose diffuse is the
   // rule's, and whose alpha is within a factor of 2.5 of that of the rule. Alpha and the number are searched.
   std::vector<LeastError> least(const LobeRule& rule) const;
-  // Mean RMSE and SSIM, and the median relative error.
-  ShortFigures figures(const std::vector<LobeSurface>& surfaces) const;
-  ShortFigures figures(const LobeRule& rule) const;
-  // Of the least errors.
-  ShortFigures figures(const std::vector<LeastError>& least) const;
+  Judged by_rule(const LobeRule& rule) const;
+  // By the least errors that start from the rule.
+  Judged by_least(const LobeRule& rule) const;
 
  private:
+  Judged judged(std::vector<RuleError> errors, const std::vector<LobeSurface>& surfaces) const;
   RuleError error_of(std::size_t material, const LobeSurface& surface) const;
   double rmse_of(std::size_t material, const LobeSurface& surface) const;
   double relative_of(std::size_t material, const LobeSurface& surface) const;

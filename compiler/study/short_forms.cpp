@@ -139,9 +139,9 @@ ShortForm chosen_form(LobeBank& bank, const StudyPair& pair) {
 
 // Of the form, the best possible parameters and copied numbers.
 void add_figures(const RuleJudge& judge, ShortForm& form) {
-  form.figures = judge.figures(FormRule(form));
-  form.best = judge.figures(judge.least(FormRule(form)));
-  form.copied = judge.figures([&](const LobeMaterial& material) { return copied(form, material); });
+  form.figures = judge.by_rule(FormRule(form)).figures;
+  form.best = judge.by_least(FormRule(form)).figures;
+  form.copied = judge.by_rule([&](const LobeMaterial& material) { return copied(form, material); }).figures;
 }
 
 }  // namespace
@@ -177,7 +177,8 @@ void study_short_forms(const ShortFormsOptions& options,
                           materials_of(form, Half::kJudging));
     if (!is_known) add_figures(judge, form);
     form.compiled.reset();
-    if (const Fit* fit = fit_of(options.fits, form)) form.compiled = judge.figures(compiled_rule(*fit, form));
+    if (const Fit* fit = fit_of(options.fits, form))
+      form.compiled = judge.by_rule(compiled_rule(*fit, form)).figures;
     finished(form);
   }
 }

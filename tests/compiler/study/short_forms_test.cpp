@@ -96,17 +96,21 @@ TEST_CASE("Rules are judged by pictures", "[short][slow]") {
   LobeBank bank(builtin_environments(32), small_sampling());
   const LobePictures& ggx = bank.of("mitsuba/ggx");
   const RuleJudge judge(bank.lights(), ggx, ggx, width_materials("mitsuba/ggx", Half::kJudging));
-  const auto same = judge.figures([](const LobeMaterial& material) {
-    return LobeSurface{material.alpha, material.specular, material.diffuse, false};
-  });
+  const auto same = judge
+                        .by_rule([](const LobeMaterial& material) {
+                          return LobeSurface{material.alpha, material.specular, material.diffuse, false};
+                        })
+                        .figures;
   CHECK(same.rmse < 1e-3);
   CHECK(same.relative < 1e-5);
   CHECK(same.ssim == Approx(1.0));
-  const auto darker = judge.figures([](const LobeMaterial& material) {
-    Rgb half = material.specular;
-    for (double& value : half) value *= 0.5;
-    return LobeSurface{material.alpha, half, material.diffuse, false};
-  });
+  const auto darker = judge
+                          .by_rule([](const LobeMaterial& material) {
+                            Rgb half = material.specular;
+                            for (double& value : half) value *= 0.5;
+                            return LobeSurface{material.alpha, half, material.diffuse, false};
+                          })
+                          .figures;
   CHECK(darker.rmse > 2.0);
   CHECK(darker.relative > 0.2);
 }
