@@ -12,8 +12,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array kColumns = {"converter",      "fit",   "materials", "mean_excess",
-                                 "largest_excess", "alpha", "specular"};
+constexpr std::array kReachColumns = {"converter",      "fit",   "materials", "mean_excess",
+                                      "largest_excess", "alpha", "specular"};
 
 }  // namespace
 
@@ -23,11 +23,11 @@ ReachRecords read_reach(const fs::path& folder) {
   if (!fs::exists(path)) return records;
   const std::string text = read_file(path);
   const Csv csv = parse_csv(text, path.string());
-  for (std::size_t c = 0; c < kColumns.size(); ++c)
-    if (c >= csv.header.cells.size() || csv.header.cells[c].text != kColumns[c])
-      csv.fail(csv.header.number, 1, std::string("column ") + kColumns[c] + " is missing");
+  for (std::size_t c = 0; c < kReachColumns.size(); ++c)
+    if (c >= csv.header.cells.size() || csv.header.cells[c].text != kReachColumns[c])
+      csv.fail(csv.header.number, 1, std::string("column ") + kReachColumns[c] + " is missing");
   for (const CsvLine& line : csv.lines) {
-    const auto number = [&](std::size_t c) { return csv.number(line, line.cells[c], kColumns[c]); };
+    const auto number = [&](std::size_t c) { return csv.number(line, line.cells[c], kReachColumns[c]); };
     records[std::string(line.cells[0].text)] = {std::string(line.cells[1].text),
                                                 static_cast<std::size_t>(number(2)),
                                                 number(3),
@@ -48,7 +48,7 @@ ReachRecords current_reach(const fs::path& folder) {
 
 void write_reach(const fs::path& folder, const ReachRecords& records) {
   std::string text;
-  for (const char* column : kColumns) text += (text.empty() ? "" : ",") + std::string(column);
+  for (const char* column : kReachColumns) text += (text.empty() ? "" : ",") + std::string(column);
   text += "\n";
   for (const auto& [id, record] : records) {
     text += id + "," + record.fit + "," + std::to_string(record.materials);

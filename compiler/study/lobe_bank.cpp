@@ -9,7 +9,7 @@ namespace remap {
 namespace {
 
 constexpr std::size_t kWidthCount = 64, kExponentCount = 36, kMaterialCount = 40;
-constexpr Range kWidths{0.01, 1.0}, kJudgedWidths{0.05, 1.0}, kExponents{0.1, 10000.0};
+constexpr Range kWidthRange{0.01, 1.0}, kJudgedWidths{0.05, 1.0}, kExponents{0.1, 10000.0};
 // Below, a lobe is wider than any of a target, and nobody writes it.
 constexpr double kLeastJudgedExponent = 1.0;
 constexpr double kCoreF0 = 0.04;
@@ -100,7 +100,7 @@ const LobePictures& LobeBank::of(const std::string& model) {
 }
 
 std::vector<double> LobeBank::alphas(const std::string& model) {
-  if (!has_exponent(model)) return spread(kWidths, kWidthCount);
+  if (!has_exponent(model)) return spread(kWidthRange, kWidthCount);
   std::vector<double> alphas;
   for (const double exponent : spread(kExponents, kExponentCount))
     alphas.push_back(to_alpha(RoughnessConvention::kExponent, exponent));

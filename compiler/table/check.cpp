@@ -14,7 +14,7 @@ namespace {
 
 // Section 7 fits a quartic, and five coefficients of k, to one value for each width.
 constexpr std::size_t kFewestAlphas = 6;
-constexpr std::size_t kFewestRows = 12;
+constexpr std::size_t kFewestGridRows = 12;
 // Rows of the same sample contradict each other if they differ by more, in alpha or relative in specular.
 constexpr double kSameValue = 1e-6;
 // A step of the grid is a gap if it is this many times the median step.
@@ -114,10 +114,10 @@ class TableCheck : Findings {
   void check_row_count() {
     std::size_t rows = 0;
     for (const auto& [alpha, group] : by_alpha_) rows += group.size();
-    if (by_alpha_.size() < kFewestAlphas || rows < kFewestRows)
+    if (by_alpha_.size() < kFewestAlphas || rows < kFewestGridRows)
       add(Severity::kError, "rows", 0,
           std::to_string(rows) + " usable rows with " + std::to_string(by_alpha_.size()) +
-              " different alpha1 (at least " + std::to_string(kFewestRows) + " and " +
+              " different alpha1 (at least " + std::to_string(kFewestGridRows) + " and " +
               std::to_string(kFewestAlphas) + " are needed)");
   }
 

@@ -12,7 +12,6 @@
 
 using namespace remap;
 using Catch::Matchers::Contains;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -30,9 +29,9 @@ ProcessResult convert(const std::string& from, const std::string& to, const Word
                           more);
 }
 
-Json json_of(const ProcessResult& result) {
+nlohmann::json json_of(const ProcessResult& result) {
   require_success(result);
-  return Json::parse(result.output);
+  return nlohmann::json::parse(result.output);
 }
 
 std::string error_text(const std::string& from, const std::string& to) {
@@ -68,7 +67,7 @@ TEST_CASE("texremap convert: notes in one line that the match looks different an
 }
 
 TEST_CASE("texremap convert: --json says how close the target is, and which model is closer") {
-  const Json json = json_of(convert("mitsuba/ward", "cycles-5/ggx", "--json"));
+  const nlohmann::json json = json_of(convert("mitsuba/ward", "cycles-5/ggx", "--json"));
   CHECK(json["looks_different"] == true);
   CHECK("SSIM " + number_text(json["worst_step_ssim"].get<double>()) ==
         ssim_text_of("mitsuba_ward_to_mitsuba_ggx"));
@@ -84,7 +83,7 @@ TEST_CASE("texremap: a good match is not remarked on") {
   CHECK(converted.errors.empty());
   const ProcessResult printed = require_success(path("mitsuba/ggx", "cycles-5/ggx"));
   CHECK_THAT(printed.output, !Contains("note: "));
-  const Json json = json_of(path("mitsuba/ward", "mitsuba/as", "--json"));
+  const nlohmann::json json = json_of(path("mitsuba/ward", "mitsuba/as", "--json"));
   CHECK(json["looks_different"] == false);
   CHECK(json["closer_model"].is_null());
 }
@@ -96,7 +95,7 @@ TEST_CASE("texremap convert: --to RENDERER takes the closest of its models and s
   CHECK(result.errors == "texremap: note: cycles-5/beckmann is the closest model of cycles-5 (" +
                              error_text("mitsuba/ward", "cycles-5/beckmann") + ")\n");
   CHECK(convert("mitsuba/ward", "cycles-5", "--quiet").errors.empty());
-  const Json json = json_of(convert("mitsuba/ward", "cycles-5", "--json"));
+  const nlohmann::json json = json_of(convert("mitsuba/ward", "cycles-5", "--json"));
   CHECK(json["closest_of"] == "cycles-5");
   CHECK(json["target"] == "cycles-5/beckmann");
 }
@@ -107,7 +106,7 @@ TEST_CASE("texremap path: --to RENDERER is a part of the plan") {
                                   error_text("mitsuba/ward", "cycles-5/beckmann") + ")\nmitsuba/ward -> "));
   CHECK_THAT(path("mitsuba/ward", "cycles-5/ggx").output,
              Contains("note: cycles-5/ggx " + kDifferent) && Contains("; cycles-5/beckmann " + kCloser));
-  const Json json = json_of(path("mitsuba/ward", "cycles-5", "--json"));
+  const nlohmann::json json = json_of(path("mitsuba/ward", "cycles-5", "--json"));
   CHECK(json["closest_of"] == "cycles-5");
   CHECK(json["models"].back() == "cycles-5/beckmann");
   CHECK(json_of(path("cycles-5/ggx", "mitsuba", "--json"))["models"].back() == "mitsuba/ggx");
@@ -115,14 +114,14 @@ TEST_CASE("texremap path: --to RENDERER is a part of the plan") {
 
 TEST_CASE("texremap path: --to RENDERER takes no model of dielectrics alone") {
   for (const std::string renderer : {"cycles-5", "mitsuba3", "threejs-r187"}) {
-    const Json json = json_of(path("mitsuba/ggx", renderer, "--json"));
+    const nlohmann::json json = json_of(path("mitsuba/ggx", renderer, "--json"));
     INFO(renderer << ": " << json["models"].back());
     CHECK(json["domain"]["specular"][1] >= 0.5);
   }
 }
 
 TEST_CASE("texremap path: --to RENDERER with --via chooses among the paths that lead there") {
-  const Json json = json_of(path("mitsuba/ward", "cycles-5", "--via mitsuba/ggx --json"));
+  const nlohmann::json json = json_of(path("mitsuba/ward", "cycles-5", "--via mitsuba/ggx --json"));
   CHECK(json["models"][1] == "mitsuba/ggx");
   CHECK_THAT(json["models"].back().get<std::string>(), !Contains("beckmann"));
 }
@@ -154,7 +153,7 @@ TEST_CASE("texremap list: marks what looks different and names what is closer") 
   CHECK_THAT(session.texremap("list --models").output,
              Contains("cycles-5/ggx, " + error_text("mitsuba/ward", "cycles-5/ggx") +
                       ", in 2 steps, will look different, cycles-5/beckmann would look closer\n"));
-  for (const Json& converter : json_of(session.texremap("list --json")))
+  for (const nlohmann::json& converter : json_of(session.texremap("list --json")))
     if (converter["rms_error"]["image"].is_null()) {
       CHECK(converter["looks_different"] == false);
       CHECK(converter["closer_model"].is_null());
@@ -164,9 +163,9 @@ TEST_CASE("texremap list: marks what looks different and names what is closer") 
 TEST_CASE("texremap list: every closer model is one of the same renderer, at least twice as close") {
   const Session session;
   std::size_t closer_count = 0;
-  for (const Json& source : json_of(session.texremap("list --models --json")))
-    for (const Json& reached : source["reaches"]) {
-      const Json& closer = reached["closer_model"];
+  for (const nlohmann::json& source : json_of(session.texremap("list --models --json")))
+    for (const nlohmann::json& reached : source["reaches"]) {
+      const nlohmann::json& closer = reached["closer_model"];
       if (closer.is_null()) continue;
       ++closer_count;
       const std::string model = reached["model"], other = closer["model"];
@@ -175,7 +174,7 @@ TEST_CASE("texremap list: every closer model is one of the same renderer, at lea
       CHECK(model.substr(0, model.find('/')) == other.substr(0, other.find('/')));
       CHECK(2.0 * closer["expected_error"].get<double>() <= reached["expected_error"].get<double>());
       const auto same = std::find_if(source["reaches"].begin(), source["reaches"].end(),
-                                     [&](const Json& entry) { return entry["model"] == other; });
+                                     [&](const nlohmann::json& entry) { return entry["model"] == other; });
       REQUIRE(same != source["reaches"].end());
       CHECK((*same)["expected_error"] == closer["expected_error"]);
     }

@@ -10,10 +10,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kSize = 24;
+constexpr int kCopySize = 24;
 
 void write_map(const Session& session, const std::string& name, const std::vector<std::string>& channels,
-               int size = kSize) {
+               int size = kCopySize) {
   fs::create_directories(fs::path(session.path(name)).parent_path());
   session.make(name, test_spec(size, size, channels, OIIO::TypeUInt8), noise);
 }
@@ -22,12 +22,12 @@ void write_map(const Session& session, const std::string& name, const std::vecto
 void write_set(const Session& session, const std::string& folder) {
   write_map(session, folder + "/wood_Roughness.png", {"Y"});
   write_map(session, folder + "/wood_Specular.png", {"R", "G", "B"});
-  write_map(session, folder + "/wood_BaseColor.png", {"R", "G", "B", "A"}, 2 * kSize);
+  write_map(session, folder + "/wood_BaseColor.png", {"R", "G", "B", "A"}, 2 * kCopySize);
   write_map(session, folder + "/wood_Normal.png", {"R", "G", "B"});
   write_map(session, folder + "/wood_AmbientOcclusion.png", {"Y"});
 }
 
-ProcessResult convert(const Session& session, Words words) {
+ProcessResult convert_copies(const Session& session, Words words) {
   return session.texremap(Words("convert") + words + "--from mitsuba/ward --to mitsuba/as -o out");
 }
 
@@ -41,9 +41,9 @@ TEST_CASE("texremap copies: base color of any size is copied under its name") {
   const Session session;
   write_set(session, "in");
   const ProcessResult result = require_success(
-      convert(session,
-              "--roughness in/wood_Roughness.png --specular 0.04 --only roughness --base-color "
-              "in/wood_BaseColor.png --occlusion in/wood_AmbientOcclusion.png --json"));
+      convert_copies(session,
+                     "--roughness in/wood_Roughness.png --specular 0.04 --only roughness --base-color "
+                     "in/wood_BaseColor.png --occlusion in/wood_AmbientOcclusion.png --json"));
   CHECK(session.file_count() == 3);
   CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/wood_BaseColor.png"));
   CHECK(same_bytes(session, "in/wood_AmbientOcclusion.png", "out/wood_AmbientOcclusion.png"));
@@ -55,8 +55,9 @@ TEST_CASE("texremap copies: layouts that name their files name the copies, too",
   write_set(session, "in");
   const std::string layout = GENERATE("separate", "orm", "specgloss");
   const std::string option = GENERATE("--diffuse", "--base-color");
-  require_success(convert(session, "--roughness in/wood_Roughness.png --specular in/wood_Specular.png " +
-                                       option + " in/wood_BaseColor.png --layout " + layout));
+  require_success(
+      convert_copies(session, "--roughness in/wood_Roughness.png --specular in/wood_Specular.png " + option +
+                                  " in/wood_BaseColor.png --layout " + layout));
   const std::string name = option == "--diffuse" ? "diffuse" : "base_color";
   CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/" + name + ".png"));
 }
@@ -64,9 +65,10 @@ TEST_CASE("texremap copies: layouts that name their files name the copies, too",
 TEST_CASE("texremap copies: specgloss writes separate files for parameters without a channel") {
   const Session session;
   write_set(session, "in");
-  require_success(convert(session,
-                          "--roughness in/wood_Roughness.png --specular in/wood_Specular.png --occlusion "
-                          "in/wood_AmbientOcclusion.png --metallic 0.5 --layout specgloss"));
+  require_success(
+      convert_copies(session,
+                     "--roughness in/wood_Roughness.png --specular in/wood_Specular.png --occlusion "
+                     "in/wood_AmbientOcclusion.png --metallic 0.5 --layout specgloss"));
   CHECK(session.file_count() == 3);
   const TestImage occlusion = session.image("in/wood_AmbientOcclusion.png"),
                   copied = session.image("out/occlusion.png"), metallic = session.image("out/metallic.png");
@@ -79,7 +81,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
   write_set(session, "in/a");
   write_set(session, "in/b/c");
   const Words words = "in --recursive --copy-others";
-  require_success(convert(session, words));
+  require_success(convert_copies(session, words));
   for (const std::string folder : {"a", "b/c"}) {
     for (const std::string map : {"BaseColor", "Normal", "AmbientOcclusion"}) {
       const std::string name = folder + "/wood_" + map + ".png";
@@ -90,7 +92,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
   }
 
   const auto states = [&] {
-    return set_states(require_success(convert(session, words + "--resume --json")).output);
+    return set_states(require_success(convert_copies(session, words + "--resume --json")).output);
   };
   CHECK(states() == "dd");
   fs::remove(session.path("out/a/wood_Normal.png"));
@@ -101,7 +103,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
 TEST_CASE("texremap copies: a packed map is not copied as well") {
   const Session session;
   write_set(session, "in");
-  require_success(convert(session, "in --copy-others --layout orm"));
+  require_success(convert_copies(session, "in --copy-others --layout orm"));
   CHECK(fs::exists(session.path("out/wood_orm.png")));
   CHECK(fs::exists(session.path("out/wood_Normal.png")));
   CHECK_FALSE(fs::exists(session.path("out/wood_AmbientOcclusion.png")));
@@ -114,9 +116,10 @@ TEST_CASE("texremap copies: each tile copies the same tile of other maps") {
     write_map(session, "ao." + tile + ".png", {"Y"});
     write_map(session, "d." + tile + ".png", {"R", "G", "B"});
   }
-  require_success(convert(session,
-                          "--roughness r.<UDIM>.png --specular 0.04 --occlusion ao.<UDIM>.png --diffuse "
-                          "d.<UDIM>.png --layout orm"));
+  require_success(
+      convert_copies(session,
+                     "--roughness r.<UDIM>.png --specular 0.04 --occlusion ao.<UDIM>.png --diffuse "
+                     "d.<UDIM>.png --layout orm"));
   CHECK(same_bytes(session, "d.1002.png", "out/diffuse.1002.png"));
   CHECK(session.image("out/orm.1002.png").at(2, 3, 0) == session.image("ao.1002.png").at(2, 3, 0));
 }

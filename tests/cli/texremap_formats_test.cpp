@@ -26,24 +26,24 @@ struct Case {
   enum { kPlain, kWindowed, kAssociated } special = kPlain;
 };
 
-const std::vector<std::string> kColor = {"R", "G", "B"};
-const std::vector<std::string> kWithAlpha = {"R", "G", "B", "A"};
+const std::vector<std::string> kRgbNames = {"R", "G", "B"};
+const std::vector<std::string> kRgbaNames = {"R", "G", "B", "A"};
 const std::vector<std::string> kWithMask = {"R", "G", "B", "A", "mask"};
 
 std::vector<Case> cases() {
   return {{"exr", OIIO::TypeHalf, 0, "zip", kWithMask},
           {"exr", OIIO::TypeHalf, 32, "piz", kWithMask},
           {"exr", OIIO::TypeFloat, 0, "piz", kWithMask, Case::kWindowed},
-          {"exr", OIIO::TypeFloat, 16, "zips", kWithAlpha},
-          {"exr", OIIO::TypeHalf, 0, "none", kColor},
+          {"exr", OIIO::TypeFloat, 16, "zips", kRgbaNames},
+          {"exr", OIIO::TypeHalf, 0, "none", kRgbNames},
           {"tif", OIIO::TypeUInt8, 0, "lzw", kWithMask},
-          {"tif", OIIO::TypeUInt16, 32, "zip", kWithAlpha},
-          {"tif", OIIO::TypeUInt16, 0, "zip", kWithAlpha, Case::kAssociated},
+          {"tif", OIIO::TypeUInt16, 32, "zip", kRgbaNames},
+          {"tif", OIIO::TypeUInt16, 0, "zip", kRgbaNames, Case::kAssociated},
           {"tif", OIIO::TypeFloat, 0, "zip", kWithMask},
-          {"png", OIIO::TypeUInt8, 0, "", kWithAlpha},
-          {"png", OIIO::TypeUInt16, 0, "", kWithAlpha},
-          {"tga", OIIO::TypeUInt8, 0, "", kWithAlpha},
-          {"bmp", OIIO::TypeUInt8, 0, "", kColor}};
+          {"png", OIIO::TypeUInt8, 0, "", kRgbaNames},
+          {"png", OIIO::TypeUInt16, 0, "", kRgbaNames},
+          {"tga", OIIO::TypeUInt8, 0, "", kRgbaNames},
+          {"bmp", OIIO::TypeUInt8, 0, "", kRgbNames}};
 }
 
 OIIO::ImageSpec spec_of(const Case& format, const std::vector<std::string>& channels) {
@@ -161,7 +161,7 @@ TEST_CASE("texremap: another format uses its least lossy type") {
 TEST_CASE("texremap: --type chooses the pixel type, and clipped values are counted") {
   const Session session;
   session.make("r.exr", test_spec(64, 64, {"Y"}, OIIO::TypeFloat), noise);
-  session.make("s.exr", test_spec(64, 64, kColor, OIIO::TypeFloat),
+  session.make("s.exr", test_spec(64, 64, kRgbNames, OIIO::TypeFloat),
                [](int x, int y, int c) { return x == 5 && y == 6 ? 9.0f : 0.3f * noise(x, y, c); });
   const ProcessResult result =
       require_success(session.convert("r.exr", "s.exr", "--format tif --type uint8"));
@@ -204,7 +204,7 @@ TEST_CASE("texremap: a constant specular becomes a map of the same size") {
   require_success(session.convert("r.exr", constant));
   const TestImage in = session.image("r.exr"), out = session.image("out/specular.exr");
   CHECK(out.spec.width == 64);
-  CHECK(out.spec.channelnames == (constant == "0.5" ? std::vector<std::string>{"Y"} : kColor));
+  CHECK(out.spec.channelnames == (constant == "0.5" ? std::vector<std::string>{"Y"} : kRgbNames));
   const std::array<float, 3> specular =
       constant == "0.5" ? std::array{0.5f, 0.5f, 0.5f} : std::array{0.9f, 0.6f, 0.2f};
   for (int x = 0; x < 64; ++x) {
@@ -233,7 +233,7 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
 TEST_CASE("texremap: idiff finds the passed-through alpha unchanged", "[needs]") {
   const Session session;
   session.make("r.png", test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
-  session.make("s.png", test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16), noise);
+  session.make("s.png", test_spec(kWidth, kHeight, kRgbaNames, OIIO::TypeUInt16), noise);
   require_success(session.convert("r.png", "s.png"));
   const std::string tool = REMAP_OIIOTOOL;
   if (!fs::exists(tool)) return skip("oiiotool", "not installed");

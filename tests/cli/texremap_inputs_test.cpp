@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kSize = 40;
+constexpr int kInputSize = 40;
 
 // From mitsuba/ward to mitsuba/as, into `out`.
-ProcessResult convert(const Session& session, Words words) {
+ProcessResult convert_ward(const Session& session, Words words) {
   return session.texremap(Words("convert --from mitsuba/ward --to mitsuba/as") + words);
 }
 
@@ -36,13 +36,13 @@ bool same_channel(const TestImage& a, const TestImage& b, int channel) {
 
 TEST_CASE("texremap inputs: one channel of a packed map is converted, the others keep every bit") {
   const Session session;
-  session.make("orm.png", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
-  require_success(convert(session, "--roughness orm.png:G --specular 0.4 --only roughness -o out"));
+  session.make("orm.png", test_spec(kInputSize, kInputSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  require_success(convert_ward(session, "--roughness orm.png:G --specular 0.4 --only roughness -o out"));
   CHECK(session.file_count() == 1);
   const TestImage in = session.image("orm.png"), out = session.image("out/orm.png");
   CHECK(same_channel(in, out, 0));
   CHECK(same_channel(in, out, 2));
-  for (int x = 0; x < kSize; ++x)
+  for (int x = 0; x < kInputSize; ++x)
     CHECK(out.at(x, 7, 1) ==
           as_stored(converted_texel(in.at(x, 7, 1), {0.4f, 0.4f, 0.4f})[0], OIIO::TypeUInt8));
 }
@@ -51,15 +51,16 @@ TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data t
   const Session session;
   const std::string name = "sg." + std::string(GENERATE("png", "tga", "tif", "exr"));
   // Alpha far below the colors, and 0, so that a multiplication or division by it would show.
-  session.make(name, test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8), [](int x, int y, int c) {
-    return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
-  });
+  session.make(name, test_spec(kInputSize, kInputSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
+               [](int x, int y, int c) {
+                 return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
+               });
   const std::string path = session.path(name);
-  require_success(convert(session, "--glossiness " + path + ":A --specular " + path +
-                                       " --color-space linear --output-encoding glossiness -o out"));
+  require_success(convert_ward(session, "--glossiness " + path + ":A --specular " + path +
+                                            " --color-space linear --output-encoding glossiness -o out"));
   const TestImage in = read_image(path), out = session.image("out/" + name);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kInputSize; ++y)
+    for (int x = 0; x < kInputSize; ++x) {
       const float roughness = 1.0f - in.at(x, y, 3);
       const std::array<float, 4> expected =
           converted_texel(roughness * roughness, {in.at(x, y, 0), in.at(x, y, 1), in.at(x, y, 2)});
@@ -72,12 +73,12 @@ TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data t
 
 TEST_CASE("texremap inputs: a constant roughness becomes a map of the size of the specular map") {
   const Session session;
-  session.write_pair("exr", kSize);
-  require_success(convert(session, "--roughness 0.3 --specular s.exr -o out"));
+  session.write_pair("exr", kInputSize);
+  require_success(convert_ward(session, "--roughness 0.3 --specular s.exr -o out"));
   const TestImage in = session.image("s.exr"), out = session.image("out/s.exr"),
                   roughness = session.image("out/roughness.exr");
   CHECK(roughness.spec.channelnames == std::vector<std::string>{"Y"});
-  for (int x = 0; x < kSize; ++x) {
+  for (int x = 0; x < kInputSize; ++x) {
     const auto expected = converted_texel(0.3f, {in.at(x, 2, 0), in.at(x, 2, 1), in.at(x, 2, 2)});
     CHECK(roughness.at(x, 2, 0) == as_stored(expected[0], OIIO::TypeHalf));
     CHECK(out.at(x, 2, 1) == as_stored(expected[2], OIIO::TypeHalf));
@@ -87,27 +88,29 @@ TEST_CASE("texremap inputs: a constant roughness becomes a map of the size of th
 TEST_CASE("texremap inputs: numbers alone are converted and printed", "[slow]") {
   const Session session;
   const auto expected = converted_texel(0.3f, {0.04f, 0.5f, 0.2f});
-  const ProcessResult text = require_success(convert(session, "--roughness 0.3 --specular 0.04,0.5,0.2"));
+  const ProcessResult text =
+      require_success(convert_ward(session, "--roughness 0.3 --specular 0.04,0.5,0.2"));
   CHECK_THAT(text.output, Contains("alpha 0.") && Contains("\nf0 0."));
-  const ProcessResult result = convert(session, "--roughness 0.3 --specular 0.04,0.5,0.2 --json");
+  const ProcessResult result = convert_ward(session, "--roughness 0.3 --specular 0.04,0.5,0.2 --json");
   const auto values = nlohmann::json::parse(result.output)["values"];
   CHECK(values["alpha"].get<float>() == expected[0]);
   CHECK(values["f0"].get<std::vector<float>>() == std::vector<float>{expected[1], expected[2], expected[3]});
-  const ProcessResult squared = convert(session,
-                                        "--roughness 0.09 --roughness-encoding squared --output-encoding "
-                                        "roughness --specular 0.04,0.5,0.2 --json");
+  const ProcessResult squared =
+      convert_ward(session,
+                   "--roughness 0.09 --roughness-encoding squared --output-encoding "
+                   "roughness --specular 0.04,0.5,0.2 --json");
   CHECK(nlohmann::json::parse(squared.output)["values"]["roughness"].get<double>() ==
         Approx(std::sqrt(static_cast<double>(expected[0]))).epsilon(1e-6));
 }
 
 TEST_CASE("texremap inputs: factors are applied once") {
   const Session session;
-  session.write_pair("exr", kSize);
+  session.write_pair("exr", kInputSize);
   require_success(
-      convert(session, maps("r.exr", "s.exr") + "--roughness-factor 0.5 --specular-factor 1,0.5,0.25"));
+      convert_ward(session, maps("r.exr", "s.exr") + "--roughness-factor 0.5 --specular-factor 1,0.5,0.25"));
   const TestImage r = session.image("r.exr"), s = session.image("s.exr"), out = session.image("out/s.exr"),
                   width = session.image("out/r.exr");
-  for (int x = 0; x < kSize; ++x) {
+  for (int x = 0; x < kInputSize; ++x) {
     const auto expected =
         converted_texel(0.5f * r.at(x, 3, 0), {s.at(x, 3, 0), 0.5f * s.at(x, 3, 1), 0.25f * s.at(x, 3, 2)});
     CHECK(width.at(x, 3, 0) == as_stored(expected[0], OIIO::TypeHalf));
@@ -118,25 +121,26 @@ TEST_CASE("texremap inputs: factors are applied once") {
 
 TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
   const Session session;
-  session.write_pair("exr", kSize);
-  session.make("s.exr", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat), [](int x, int y, int c) {
-    if (y == 4 && c == 1) return x == 6 ? NAN : x == 7 ? INFINITY : x == 8 ? -2.0f : 0.2f;
-    return 0.2f;
-  });
+  session.write_pair("exr", kInputSize);
+  session.make("s.exr", test_spec(kInputSize, kInputSize, {"R", "G", "B"}, OIIO::TypeFloat),
+               [](int x, int y, int c) {
+                 if (y == 4 && c == 1) return x == 6 ? NAN : x == 7 ? INFINITY : x == 8 ? -2.0f : 0.2f;
+                 return 0.2f;
+               });
   const Words words = maps("r.exr", "s.exr") + "--json --force --bad-texels";
-  const ProcessResult kept = require_success(convert(session, words + "keep"));
+  const ProcessResult kept = require_success(convert_ward(session, words + "keep"));
   CHECK(nlohmann::json::parse(kept.output)["first_bad"] == std::vector<int>{6, 4});
   CHECK_THAT(kept.errors, Contains("1 texel with NaN; first bad texel: (6, 4)"));
   CHECK(std::isnan(session.image("out/s.exr").at(6, 4, 1)));
 
-  require_success(convert(session, words + "clamp"));
+  require_success(convert_ward(session, words + "clamp"));
   const TestImage out = session.image("out/s.exr"), r = session.image("r.exr");
   const float edge = static_cast<float>(find_converter("mitsuba/ward", "mitsuba/as").info().specular.max);
   for (const auto& [x, green] : {std::pair{6, 0.0f}, {7, edge}, {8, 0.0f}})
     CHECK(out.at(x, 4, 1) == converted_texel(r.at(x, 4, 0), {0.2f, green, 0.2f})[2]);
 
   fs::remove_all(session.path("out"));
-  const ProcessResult failed = convert(session, words + "fail");
+  const ProcessResult failed = convert_ward(session, words + "fail");
   CHECK(failed.exit_code == 1);
   CHECK_THAT(failed.last_error(),
              Contains("s.exr: G of texel (6, 4) is nan (--bad-texels clamp replaces such values)"));
@@ -145,16 +149,16 @@ TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
 
 TEST_CASE("texremap inputs: the mask marks the texels that were counted") {
   const Session session;
-  session.write_pair("exr", kSize);
-  session.make("r.exr", test_spec(kSize, kSize, {"Y"}, OIIO::TypeHalf),
+  session.write_pair("exr", kInputSize);
+  session.make("r.exr", test_spec(kInputSize, kInputSize, {"Y"}, OIIO::TypeHalf),
                [](int x, int y, int c) { return 1.3f * noise(x, y, c); });
   const ProcessResult result =
-      require_success(convert(session, maps("r.exr", "s.exr") + "--json --diagnose checks"));
+      require_success(convert_ward(session, maps("r.exr", "s.exr") + "--json --diagnose checks"));
   const TestImage mask = session.image("checks/mask.exr"), in = session.image("r.exr");
   const Range covered = find_converter("mitsuba/ward", "mitsuba/as").info().roughness;
   std::size_t marked = 0;
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kInputSize; ++y)
+    for (int x = 0; x < kInputSize; ++x) {
       REQUIRE(mask.at(x, y, 0) == (covered.contains(static_cast<double>(in.at(x, y, 0))) ? 0.0f : 1.0f));
       marked += mask.at(x, y, 0) == 1.0f;
     }
@@ -165,12 +169,12 @@ TEST_CASE("texremap inputs: the mask marks the texels that were counted") {
 TEST_CASE("texremap inputs: a converted map is not converted again", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "tif");
-  session.write_pair(extension, kSize);
+  session.write_pair(extension, kInputSize);
   const std::string r = "r." + extension, s = "s." + extension;
   require_success(session.convert(r, s));
   Words again = maps("out/" + r, "out/" + s);
   again.back() = "again";
-  const ProcessResult refused = convert(session, again);
+  const ProcessResult refused = convert_ward(session, again);
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.last_error(),
              Contains("already converted to mitsuba/as, but the source is mitsuba/ward"));
@@ -178,7 +182,7 @@ TEST_CASE("texremap inputs: a converted map is not converted again", "[slow]") {
   // Converting from the current model is allowed.
   CHECK(session.texremap("convert --from mitsuba/as --to mitsuba/ggx" + again).exit_code == 0);
   again.push_back("--force");
-  CHECK(convert(session, again).exit_code == 0);
+  CHECK(convert_ward(session, again).exit_code == 0);
 }
 
 TEST_CASE("texremap inputs: grey in a JPEG may be a step from grey") {
@@ -189,9 +193,9 @@ TEST_CASE("texremap inputs: grey in a JPEG may be a step from grey") {
   };
   const Words words = "--roughness r.jpg --specular 0.5 -o out --force";
   write(1.0f / 255.0f);
-  CHECK(convert(session, words).exit_code == 0);
+  CHECK(convert_ward(session, words).exit_code == 0);
   write(0.2f);
-  const ProcessResult refused = convert(session, words);
+  const ProcessResult refused = convert_ward(session, words);
   CHECK(refused.exit_code == 1);
   CHECK_THAT(refused.last_error(), Contains("is not grey"));
 }

@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr int kSize = 48;
+constexpr int kLayoutSize = 48;
 
 ProcessResult convert(const Session& session, const std::string& from, const std::string& to, Words words,
                       const std::string& folder) {
@@ -35,7 +35,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
   const std::string extension = GENERATE("png", "tif", "exr", "tga");
   const OIIO::TypeDesc type = extension == "exr" ? OIIO::TypeHalf : OIIO::TypeUInt8;
   const auto named = [&](const std::string& name) { return name + "." + extension; };
-  session.make(named("in"), test_spec(kSize, kSize, {"R", "G", "B"}, type), noise);
+  session.make(named("in"), test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, type), noise);
   Words words = packed(named("in"));
   words += "--layout separate";
   require_success(convert(session, "mitsuba/ward", "mitsuba/as", words, "apart"));
@@ -66,8 +66,8 @@ TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every 
   const Session session;
   const std::string extension = GENERATE("png", "tif", "exr", "tga");
   const auto named = [&](const std::string& name) { return name + "." + extension; };
-  session.make(named("r"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
-  session.make(named("s"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8),
+  session.make(named("r"), test_spec(kLayoutSize, kLayoutSize, {"Y"}, OIIO::TypeUInt8), noise);
+  session.make(named("s"), test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8),
                [](int x, int y, int c) { return noise(x, y, c + 1); });
   const bool grey = GENERATE(false, true);
   require_success(convert(
@@ -77,8 +77,8 @@ TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every 
   const TestImage r = session.image(named("r")), s = session.image(named("s")),
                   out = session.image(named("out/specular_glossiness"));
   CHECK(out.spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kLayoutSize; ++y)
+    for (int x = 0; x < kLayoutSize; ++x) {
       const std::array<float, 3> specular = grey ? std::array{0.3f, 0.3f, 0.3f}
                                                  : std::array{color_read(s.at(x, y, 0), s.spec.format),
                                                               color_read(s.at(x, y, 1), s.spec.format),
@@ -92,13 +92,13 @@ TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every 
 
 TEST_CASE("texremap layouts: missing maps give a warning") {
   const Session session;
-  session.make("r.png", test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
+  session.make("r.png", test_spec(kLayoutSize, kLayoutSize, {"Y"}, OIIO::TypeUInt8), noise);
   const ProcessResult result = require_success(
       convert(session, "mitsuba/ward", "mitsuba/as", "--roughness r.png --specular 0.4 --layout orm", "out"));
   CHECK_THAT(result.errors, Contains("no occlusion map; occlusion is set to 1") &&
                                 Contains("no metallic map; metallic is set to 0"));
-  CHECK(channel(session, "out/orm.png", 0) == std::vector<float>(kSize * kSize, 1.0f));
-  CHECK(channel(session, "out/orm.png", 2) == std::vector<float>(kSize * kSize, 0.0f));
+  CHECK(channel(session, "out/orm.png", 0) == std::vector<float>(kLayoutSize * kLayoutSize, 1.0f));
+  CHECK(channel(session, "out/orm.png", 2) == std::vector<float>(kLayoutSize * kLayoutSize, 0.0f));
 }
 
 namespace {
@@ -112,11 +112,12 @@ float base_value(int x, int y, int c) { return noise(x, y, 3 + c); }
 void write_orm_set(const Session& session) {
   const OIIO::TypeDesc type = OIIO::TypeUInt8;
   std::filesystem::create_directory(session.path("in"));
-  session.make("in/wood_occlusionRoughnessMetallic.png", test_spec(kSize, kSize, {"R", "G", "B"}, type),
-               [](int x, int y, int c) {
+  session.make("in/wood_occlusionRoughnessMetallic.png",
+               test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, type), [](int x, int y, int c) {
                  return c == 0 ? occlusion_value(x, y) : c == 1 ? width_value(x, y) : metallic_value(x, y);
                });
-  session.make("in/wood_baseColor.png", test_spec(kSize, kSize, {"R", "G", "B"}, type), base_value);
+  session.make("in/wood_baseColor.png", test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, type),
+               base_value);
 }
 
 std::vector<float> complement(std::vector<float> values) {
@@ -192,15 +193,17 @@ TEST_CASE("texremap presets: the same material is arranged anew, and no stored v
 TEST_CASE("texremap layouts: in words, with a constant, and a channel without a role that is named") {
   const Session session;
   write_orm_set(session);
-  session.make("in/stone_MaskMap.png", test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
-  session.make("in/stone_BaseMap.png", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  session.make("in/stone_MaskMap.png",
+               test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
+  session.make("in/stone_BaseMap.png", test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8),
+               noise);
   const ProcessResult result = require_success(session.texremap(
       Words("convert in --from unity --to gltf -o out --layout") +
       Words(std::vector<std::string>{"Packed=smoothness,1,metallic,occlusion; *_c=base_color"})));
   CHECK_THAT(result.errors, Contains("stone_MaskMap.png: channel B has no role and is left out"));
   CHECK(channel(session, "out/wood_Packed.png", 0) ==
         complement(channel(session, "in/wood_occlusionRoughnessMetallic.png", 1)));
-  CHECK(channel(session, "out/wood_Packed.png", 1) == std::vector<float>(kSize * kSize, 1.0f));
+  CHECK(channel(session, "out/wood_Packed.png", 1) == std::vector<float>(kLayoutSize * kLayoutSize, 1.0f));
   CHECK(channel(session, "out/wood_Packed.png", 3) ==
         channel(session, "in/wood_occlusionRoughnessMetallic.png", 0));
   CHECK(channel(session, "out/stone_Packed.png", 0) == channel(session, "in/stone_MaskMap.png", 3));
@@ -245,7 +248,7 @@ TEST_CASE("texremap: the maps of a folder tell the source, and what was taken is
 TEST_CASE("texremap: of several maps of one parameter, one is taken and named, or --prefer chooses") {
   const Session session;
   write_orm_set(session);
-  const OIIO::ImageSpec grey = test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8);
+  const OIIO::ImageSpec grey = test_spec(kLayoutSize, kLayoutSize, {"Y"}, OIIO::TypeUInt8);
   session.make("in/wood_rough.png", grey, noise);
   session.make("in/wood_Gloss.png", grey, [](int x, int y, int) { return noise(x, y, 7); });
   const Words words = "convert in --to gltf --preset unity -o ";
@@ -263,7 +266,7 @@ TEST_CASE("texremap: of several maps of one parameter, one is taken and named, o
 TEST_CASE("texremap: maps of a folder by a name with * for that of the set") {
   const Session session;
   write_orm_set(session);
-  const OIIO::ImageSpec spec = test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8);
+  const OIIO::ImageSpec spec = test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8);
   session.make("in/wood_mine.png", spec, noise);
   const Words words = Words("convert in --to gltf --preset unity -o out --roughness") +
                       Words(std::vector<std::string>{"*_mine.png:B", "--occlusion", "*_mine.png:R"});
@@ -280,7 +283,8 @@ TEST_CASE("texremap: layers of an EXR by their names, factors of every parameter
   const Session session;
   std::filesystem::create_directory(session.path("in"));
   session.make("in/wood_maps.exr",
-               test_spec(kSize, kSize, {"rough.Y", "metal.Y", "base.R", "base.G", "base.B"}, OIIO::TypeHalf),
+               test_spec(kLayoutSize, kLayoutSize, {"rough.Y", "metal.Y", "base.R", "base.G", "base.B"},
+                         OIIO::TypeHalf),
                noise);
   const std::string all =
       "convert --from gltf --to gltf --roughness in/wood_maps.exr --metallic in/wood_maps.exr "
@@ -310,13 +314,14 @@ TEST_CASE("texremap: WebP is read, and written as PNG", "[needs]") {
   const Session session;
   if (OIIO::ImageOutput::create("x.webp") == nullptr) return skip("webp", "OpenImageIO writes no WebP");
   std::filesystem::create_directory(session.path("web"));
-  session.make("web/wood_Roughness.webp", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8),
+  session.make("web/wood_Roughness.webp",
+               test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8),
                [](int x, int y, int) { return noise(x, y, 1); });
   require_success(
       session.texremap("convert web --from mitsuba/ward --to mitsuba/as --specular 0.04 --quiet -o webout"));
-  CHECK(session.image("webout/wood_Roughness.png").spec.width == kSize);
+  CHECK(session.image("webout/wood_Roughness.png").spec.width == kLayoutSize);
   // OpenImageIO multiplies colors by alpha, and the loss of 8 bits cannot be taken back.
-  session.make("half.webp", test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
+  session.make("half.webp", test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
                [](int x, int y, int c) { return c == 3 ? 0.5f : noise(x, y, c); });
   const ProcessResult spoiled = session.texremap(
       "convert --from mitsuba/ward --to mitsuba/as --roughness 0.3 --specular half.webp -o halfout");

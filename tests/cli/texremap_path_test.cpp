@@ -13,7 +13,6 @@
 
 using namespace remap;
 using Catch::Matchers::Contains;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -60,9 +59,10 @@ TEST_CASE("texremap path: prints steps, errors, domain and reason") {
 
 TEST_CASE("texremap path: --json holds what the text says") {
   const Session session;
-  const auto json = Json::parse(session.texremap(path_words("mitsuba/ward", "mitsuba/as", "--json")).output);
-  CHECK(json["models"] == Json({"mitsuba/ward", "mitsuba/as"}));
-  CHECK(json["path"] == Json::array({kId}));
+  const auto json =
+      nlohmann::json::parse(session.texremap(path_words("mitsuba/ward", "mitsuba/as", "--json")).output);
+  CHECK(json["models"] == nlohmann::json({"mitsuba/ward", "mitsuba/as"}));
+  CHECK(json["path"] == nlohmann::json::array({kId}));
   CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
   CHECK(json["assumed_image_error"] == kAssumedImageError);
   REQUIRE(json["steps"].size() == 1);
@@ -76,11 +76,11 @@ TEST_CASE("texremap path: --json holds what the text says") {
 TEST_CASE("texremap list: shows image errors, and with --models what each model reaches") {
   const Session session;
   CHECK_THAT(session.texremap({"list"}).output, Contains("error  " + ward_to_as_errors()));
-  CHECK(Json::parse(session.texremap("list --json").output)[0]["rms_error"].contains("image"));
+  CHECK(nlohmann::json::parse(session.texremap("list --json").output)[0]["rms_error"].contains("image"));
   CHECK_THAT(
       session.texremap("list --models").output,
       Contains("mitsuba/ward\n  takes    alpha and specular\n") && Contains("  reaches  mitsuba/as, "));
-  const auto models = Json::parse(session.texremap("list --models --json").output);
+  const auto models = nlohmann::json::parse(session.texremap("list --models --json").output);
   const ConverterGraph graph = shipped_graph();
   REQUIRE(models.size() == graph.models().size());
   for (std::size_t i = 0; i < models.size(); ++i) {
@@ -93,8 +93,8 @@ TEST_CASE("texremap convert: says which path it took, in JSON and in metadata") 
   const Session session;
   session.write_pair("exr", 16);
   const ProcessResult result = require_success(session.convert("r.exr", "s.exr", "--json"));
-  const auto json = Json::parse(result.output);
-  CHECK(json["path"] == Json::array({kId}));
+  const auto json = nlohmann::json::parse(result.output);
+  CHECK(json["path"] == nlohmann::json::array({kId}));
   CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
   CHECK_THAT(result.errors, Contains(" s by " + kId + ": "));
   CHECK(session.image("out/r.exr").spec.get_string_attribute("remap:converter") == kId);
@@ -115,7 +115,7 @@ TEST_CASE("texremap convert: a path of several steps writes what they give one a
     ids += (ids.empty() ? "" : " ") + step->info().id;
     models += " -> " + step->info().target.model;
   }
-  CHECK(Json::parse(result.output)["path"].size() == path.steps.size());
+  CHECK(nlohmann::json::parse(result.output)["path"].size() == path.steps.size());
   CHECK_THAT(result.errors, Contains(models + " (expected error "));
   const TestImage r = session.image("r.exr"), s = session.image("s.exr"), r_out = session.image("out/r.exr"),
                   s_out = session.image("out/s.exr");
@@ -142,8 +142,8 @@ TEST_CASE("texremap convert: from one real renderer to another, through the hub"
   session.make("s.exr", spec, [](int, int, int) { return 0.5f; });
   const ProcessResult result = require_success(session.texremap(
       "convert --from " + from + " --to " + to + " --roughness r.exr --specular s.exr -o out --json"));
-  CHECK(Json::parse(result.output)["path"] ==
-        Json({"cycles_5_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_threejs_r187_standard_metal"}));
+  CHECK(nlohmann::json::parse(result.output)["path"] ==
+        nlohmann::json({"cycles_5_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_threejs_r187_standard_metal"}));
   const TestImage r = session.image("out/r.exr"), s = session.image("out/s.exr");
   // All three are GGX with alpha = roughness^2. They differ in masking, multiple scattering and the Fresnel
   // rise at the rim, which Three.js has and the other two do not: visible on rough surfaces, where it costs
@@ -179,9 +179,9 @@ TEST_CASE("texremap: names that people use stand for models, in every command") 
   CHECK_THAT(named, Contains("unity means gltf: ") && Contains("blender means cycles-5/principled: "));
   CHECK(named.ends_with(plain));
   const std::string values = " --roughness 0.5 --base-color 0.8,0.4,0.2 --metallic 1 --json";
-  const Json a =
-      Json::parse(require_success(session.texremap("convert --from unity --to threejs" + values)).output);
-  const Json b = Json::parse(
+  const nlohmann::json a = nlohmann::json::parse(
+      require_success(session.texremap("convert --from unity --to threejs" + values)).output);
+  const nlohmann::json b = nlohmann::json::parse(
       require_success(session.texremap("convert --from gltf --to threejs/standard" + values)).output);
   CHECK(a["values"] == b["values"]);
   CHECK_THAT(require_success(session.texremap("list --workflows")).output,

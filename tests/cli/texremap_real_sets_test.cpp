@@ -41,7 +41,7 @@ std::pair<double, double> difference(const TestImage& in, const TestImage& out, 
   return {largest, sum / static_cast<double>(in.bytes.size() / channels)};
 }
 
-bool same_channel(const TestImage& in, const TestImage& out, std::size_t channel) {
+bool equal_channel(const TestImage& in, const TestImage& out, std::size_t channel) {
   const auto channels = static_cast<std::size_t>(in.spec.nchannels);
   if (in.bytes.size() != out.bytes.size()) return false;
   for (std::size_t i = channel; i < in.bytes.size(); i += channels)
@@ -85,8 +85,8 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   const auto out = [&](const char* name) { return tree.image(std::string("out/") + name); };
   const char* box = "BoomBox_occlusionRoughnessMetallic.png";
   const TestImage packed = in(box), packed_out = out(box);
-  CHECK(same_channel(packed, packed_out, 0));
-  CHECK(same_channel(packed, packed_out, 2));
+  CHECK(equal_channel(packed, packed_out, 0));
+  CHECK(equal_channel(packed, packed_out, 2));
   CHECK(difference(packed, packed_out, 1).first <= kHalfStep);
   // JPEG at quality 100 rounds 64 coefficients of 8 x 8 cosines by half a step with random sign, together at
   // most 4 steps.
@@ -130,8 +130,8 @@ TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile", "
     const TestImage in = read_image(entry.path()),
                     out = tree.image("out/" + entry.path().filename().string());
     CHECK(difference(in, out, 0).first <= kHalfStep);
-    CHECK(same_channel(in, out, 1));
-    CHECK(same_channel(in, out, 2));
+    CHECK(equal_channel(in, out, 1));
+    CHECK(equal_channel(in, out, 2));
   }
 }
 

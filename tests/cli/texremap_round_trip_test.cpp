@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // The arguments of `convert` for a metallic material.
-struct Material {
+struct MaterialMaps {
   std::string name, base_color, metallic, roughness, occlusion;
 };
 
@@ -124,7 +124,7 @@ std::string thinned(const fs::path& folder, const std::string& word) {
 }
 
 // `type` is the pixel type of the specular maps between.
-RoundTrip round_trip(const Material& material, const std::vector<std::string>& models,
+RoundTrip round_trip(const MaterialMaps& material, const std::vector<std::string>& models,
                      const std::string& type) {
   const Session session;
   const auto at = [&](const char* name) { return session.path(name); };
@@ -205,11 +205,11 @@ TEST_CASE("texremap round trips: BoomBox and a chess king return from the specul
   const TemporaryFolder thin;
   const auto file = [&](const std::string& name) { return thinned(thin.path(), (folder / name).string()); };
   const std::string orm = "BoomBox_occlusionRoughnessMetallic.png";
-  const Material box{"BoomBox", file("BoomBox_baseColor.png"), file(orm + ":B"), file(orm + ":G"),
-                     file(orm + ":R")};
-  const Material king{"chess king", file("king_black_base_color.jpg"), file("king_shared_metallic.jpg"),
-                      file("king_black_roughness.jpg"), "1"};
-  for (const Material* given : {&box, &king})
+  const MaterialMaps box{"BoomBox", file("BoomBox_baseColor.png"), file(orm + ":B"), file(orm + ":G"),
+                         file(orm + ":R")};
+  const MaterialMaps king{"chess king", file("king_black_base_color.jpg"), file("king_shared_metallic.jpg"),
+                          file("king_black_roughness.jpg"), "1"};
+  for (const MaterialMaps* given : {&box, &king})
     for (const std::vector<std::string>& models :
          {std::vector<std::string>{"gltf", "gltf-specgloss"}, {"metallic", "specular"}})
       for (const char* type : {"uint8", "uint16"}) {

@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr int kSize = 50;
+constexpr int kWarpSize = 50;
 
 // A folder with a set and a warp; roughness is the square root of alpha.
 struct WarpSession : Session {
@@ -25,11 +25,12 @@ struct WarpSession : Session {
     fit.tool_version = "1.0.0";
     write_file(path("stony.json"), fit_to_json(fit));
     std::filesystem::create_directories(path("wood"));
-    write_image(path("wood/oak_diffuse.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
-                noise);
-    write_image(path("wood/oak_specular.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
+    write_image(path("wood/oak_diffuse.exr"),
+                test_spec(kWarpSize, kWarpSize, {"R", "G", "B"}, OIIO::TypeFloat), noise);
+    write_image(path("wood/oak_specular.exr"),
+                test_spec(kWarpSize, kWarpSize, {"R", "G", "B"}, OIIO::TypeFloat),
                 [](int x, int y, int c) { return 0.5f * noise(x, y, c + 3); });
-    write_image(path("wood/oak_roughness.exr"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeFloat),
+    write_image(path("wood/oak_roughness.exr"), test_spec(kWarpSize, kWarpSize, {"Y"}, OIIO::TypeFloat),
                 [](int x, int y, int) { return 0.2f + 0.8f * noise(x, y, 6); });
   }
 };
@@ -48,8 +49,8 @@ TEST_CASE("texremap warps: every texel of a folder equals the warp", "[needs][sl
   const TestImage found_diffuse = image("out/oak_diffuse.exr"),
                   found_specular = image("out/oak_specular.exr"),
                   found_roughness = image("out/oak_roughness.exr");
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kWarpSize; ++y)
+    for (int x = 0; x < kWarpSize; ++x) {
       WarpTexel texel{};
       for (int c = 0; c < 3; ++c) {
         texel[static_cast<std::size_t>(c)] = diffuse.at(x, y, c);
@@ -68,14 +69,14 @@ TEST_CASE("texremap warps: every texel of a folder equals the warp", "[needs][sl
 
 TEST_CASE("texremap warps: grey maps become colors under their names") {
   const WarpSession session;
-  session.make("wood/oak_specular.exr", test_spec(kSize, kSize, {"Y"}, OIIO::TypeFloat),
+  session.make("wood/oak_specular.exr", test_spec(kWarpSize, kWarpSize, {"Y"}, OIIO::TypeFloat),
                [](int x, int y, int) { return 0.5f * noise(x, y, 3); });
   require_success(session.texremap("convert wood --fit stony.json -o out"));
   const TestImage diffuse = session.image("wood/oak_diffuse.exr"),
                   roughness = session.image("wood/oak_roughness.exr"),
                   found = session.image("out/oak_specular.exr");
   REQUIRE(found.spec.nchannels == 3);
-  for (int x = 0; x < kSize; ++x) {
+  for (int x = 0; x < kWarpSize; ++x) {
     WarpTexel texel{};
     for (int c = 0; c < 3; ++c) {
       texel[static_cast<std::size_t>(c)] = diffuse.at(x, 7, c);
@@ -91,10 +92,11 @@ TEST_CASE("texremap warps: grey maps become colors under their names") {
 TEST_CASE("texremap warps: a set converted to the source of the warp needs no --force", "[slow]") {
   const WarpSession session("mitsuba/ggx");
   std::filesystem::create_directories(session.path("metal"));
-  session.make("metal/oak_basecolor.exr", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat), noise);
+  session.make("metal/oak_basecolor.exr", test_spec(kWarpSize, kWarpSize, {"R", "G", "B"}, OIIO::TypeFloat),
+               noise);
   for (const char* name : {"metallic", "roughness"})
-    session.make(std::string("metal/oak_") + name + ".exr", test_spec(kSize, kSize, {"Y"}, OIIO::TypeFloat),
-                 noise);
+    session.make(std::string("metal/oak_") + name + ".exr",
+                 test_spec(kWarpSize, kWarpSize, {"Y"}, OIIO::TypeFloat), noise);
   const auto convert = [&](const std::string& from, const Words& more, const std::string& to) {
     return session.texremap("convert " + from + " -o " + to + more);
   };
@@ -145,8 +147,8 @@ TEST_CASE("texremap warps: a diffuse map alone becomes a set of three maps", "[s
                   roughness = session.image(stem + "roughness.exr");
   REQUIRE(specular.spec.nchannels == 3);
   REQUIRE(roughness.spec.nchannels == 1);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kWarpSize; ++y)
+    for (int x = 0; x < kWarpSize; ++x) {
       const WarpTexel texel = {diffuse.at(x, y, 0), diffuse.at(x, y, 1), diffuse.at(x, y, 2), 0, 0, 0, 1};
       const WarpTexel expected = evaluate_warp(session.fit.warp, texel);
       for (int c = 0; c < 3; ++c) {
@@ -171,14 +173,14 @@ TEST_CASE("texremap warps: a warp of a diffuse map alone converts tiles") {
 
 TEST_CASE("texremap warps: texels that are not finite do not change other texels") {
   const WarpSession session("mitsuba/ggx");
-  session.make("wood/oak_diffuse.exr", test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
+  session.make("wood/oak_diffuse.exr", test_spec(kWarpSize, kWarpSize, {"R", "G", "B"}, OIIO::TypeFloat),
                [](int x, int y, int c) { return x == 7 && y < 9 ? std::nanf("") : noise(x, y, c); });
   const ProcessResult result = require_success(session.texremap("convert wood --fit stony.json -o out"));
   CHECK_THAT(result.errors, Contains("NaN"));
   for (const char* name : {"diffuse", "specular", "roughness"}) {
     const TestImage image = session.image("out/oak_" + std::string(name) + ".exr");
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x)
+    for (int y = 0; y < kWarpSize; ++y)
+      for (int x = 0; x < kWarpSize; ++x)
         for (int c = 0; c < image.spec.nchannels; ++c)
           REQUIRE((std::isfinite(image.at(x, y, c)) || (x == 7 && y < 9)));
   }

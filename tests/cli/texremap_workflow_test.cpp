@@ -18,14 +18,14 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr int kSize = 40;
+constexpr int kWorkflowSize = 40;
 
 void write_colors(const Session& session, const std::string& name, const TexelFunction& texel,
-                  OIIO::TypeDesc type = OIIO::TypeFloat, int size = kSize) {
+                  OIIO::TypeDesc type = OIIO::TypeFloat, int size = kWorkflowSize) {
   session.make(name, test_spec(size, size, {"R", "G", "B"}, type), texel);
 }
 void write_grey(const Session& session, const std::string& name, const TexelFunction& texel,
-                OIIO::TypeDesc type = OIIO::TypeFloat, int size = kSize) {
+                OIIO::TypeDesc type = OIIO::TypeFloat, int size = kWorkflowSize) {
   session.make(name, test_spec(size, size, {"Y"}, type), texel);
 }
 
@@ -77,8 +77,8 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
                   width = session.image("checks/metallic_width.exr");
   const WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   std::size_t guesses = 0;
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kWorkflowSize; ++y)
+    for (int x = 0; x < kWorkflowSize; ++x) {
       const SpecularMaterial material{{d.at(x, y, 0), d.at(x, y, 1), d.at(x, y, 2)},
                                       {s.at(x, y, 0), s.at(x, y, 1), s.at(x, y, 2)},
                                       r.at(x, y, 0)};
@@ -111,8 +111,8 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   // The layer over Ward leaves its diffuse open and takes the meaning that glTF has: the reflectance comes
   // first.
   CHECK_THAT(result.errors, Contains("diffuse of mitsuba/ward is assumed to be scaled, as in gltf"));
-  for (int y = 0; y < kSize; y += 3)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kWorkflowSize; y += 3)
+    for (int x = 0; x < kWorkflowSize; ++x) {
       const float alpha = r.at(x, y, 0);
       const std::array<float, 3> given = {s.at(x, y, 0), s.at(x, y, 1), s.at(x, y, 2)};
       const float left = 1.0f - std::clamp(*std::max_element(given.begin(), given.end()), 0.0f, 1.0f);
@@ -143,17 +143,17 @@ TEST_CASE("texremap workflows: metallic to metallic of another BRDF keeps the fi
 TEST_CASE("texremap workflows: alpha of diffuse is kept, and transparent texels do not count") {
   const Session session;
   write_specular(session);
-  session.make("d.exr", test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeFloat),
+  session.make("d.exr", test_spec(kWorkflowSize, kWorkflowSize, {"R", "G", "B", "A"}, OIIO::TypeFloat),
                [](int x, int, int c) { return x < 10 ? (c == 3 ? 0.0f : 5.0f) : 0.3f; });
   const ProcessResult result =
       require_success(convert(session, specular_words("specular", "metallic") + "--json"));
   const auto json = nlohmann::json::parse(result.output);
-  CHECK(json["masked"] == 10 * kSize);
+  CHECK(json["masked"] == 10 * kWorkflowSize);
   CHECK(json["above_one"] == 0);
-  CHECK(json["metallic_confidence"]["texels"] == 30 * kSize);
+  CHECK(json["metallic_confidence"]["texels"] == 30 * kWorkflowSize);
   const TestImage base = session.image("out/base_color.exr");
   REQUIRE(base.spec.nchannels == 4);
-  for (int x = 0; x < kSize; ++x) REQUIRE(base.at(x, 3, 3) == (x < 10 ? 0.0f : 0.3f));
+  for (int x = 0; x < kWorkflowSize; ++x) REQUIRE(base.at(x, 3, 3) == (x < 10 ? 0.0f : 0.3f));
 }
 
 TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") {
@@ -217,7 +217,7 @@ TEST_CASE("texremap workflows: a folder of sets goes from one workflow to anothe
   CHECK_THAT(result.errors, Contains("bare: no specular map found (or use --specular VALUE"));
   const TestImage orm = session.image("out/wood_orm.png"), gloss = session.image("in/wood_glossiness.png"),
                   occlusion = session.image("in/wood_ao.png");
-  for (int x = 0; x < kSize; ++x) {
+  for (int x = 0; x < kWorkflowSize; ++x) {
     REQUIRE(orm.at(x, 2, 1) == Approx(1.0f - gloss.at(x, 2, 0)).margin(1e-6));
     REQUIRE(orm.at(x, 2, 0) == occlusion.at(x, 2, 0));
   }
@@ -245,7 +245,7 @@ TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate
       [](int x, int, int c) { return c == 0 ? static_cast<float>(x) / 255.0f : 0.5f; }, OIIO::TypeUInt8);
   require_success(convert(session, "sets --from gltf --to gltf-specgloss"));
   const TestImage occlusion = session.image("out/box_occlusion.png");
-  for (int x = 0; x < kSize; ++x) REQUIRE(occlusion.at(x, 5, 0) == static_cast<float>(x) / 255.0f);
+  for (int x = 0; x < kWorkflowSize; ++x) REQUIRE(occlusion.at(x, 5, 0) == static_cast<float>(x) / 255.0f);
 }
 
 TEST_CASE("texremap workflows: list and path show them", "[slow]") {
@@ -273,8 +273,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   const TestImage base = session.image("b.exr"), metal = session.image("m.exr"),
                   rough = session.image("r.exr");
   std::size_t compared = 0;
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kWorkflowSize; ++y)
+    for (int x = 0; x < kWorkflowSize; ++x) {
       const float n = exponents.at(x, y, 0), m = metal.at(x, y, 0),
                   fourth = std::pow(rough.at(x, y, 0), 4.0f);
       float most = 0.0f;
@@ -301,7 +301,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   CHECK_FALSE(std::filesystem::exists(session.path("none")));
   REQUIRE(session.texremap(whole + "--output-roughness-factor 1000 -o whole").exit_code == 0);
   const TestImage stored = session.image("whole/exponent.png");
-  for (int i = 0; i < kSize; ++i)
+  for (int i = 0; i < kWorkflowSize; ++i)
     CHECK(stored.at(i, i, 0) * 1000.0f ==
           Approx(exponents.at(i, i, 0)).margin(0.5 * 1000.0 / 65535.0 + 1e-3));
   const std::string back =

@@ -121,7 +121,7 @@ TEST_CASE("shipped headers: templates wrap those of each kind, without a warning
 
 TEST_CASE("shipped headers: the flags of texels out of domain are those that are counted") {
   for (const auto& converter : shipped_converters()) {
-    const TexelRows texels = odd_and_random_texels(converter->info(), 701);
+    const TestTexels texels = odd_and_random_texels(converter->info(), 701);
     const std::size_t count = texels.roughness.size();
     std::vector<float> width(count), red(count), green(count), blue(count);
     std::vector<std::uint8_t> flags(count, 7);

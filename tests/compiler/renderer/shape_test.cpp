@@ -13,7 +13,7 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr int kSide = 96;
+constexpr int kShapeSide = 96;
 
 // Distance from the torus by its definition, with the axis (0, sin, cos) of the tilt.
 double from_torus(const SurfacePoint& p) {
@@ -27,12 +27,12 @@ double from_torus(const SurfacePoint& p) {
 
 TEST_CASE("shape: every point of the torus lies on it and on its ray, with the normal of its tube") {
   std::size_t hits = 0;
-  for (int row = 0; row < kSide; ++row)
-    for (int column = 0; column < kSide; ++column) {
+  for (int row = 0; row < kShapeSide; ++row)
+    for (int column = 0; column < kShapeSide; ++column) {
       SurfaceHit hit{};
-      if (!shape_point(Shape::kTorus, kSide, column + 0.5, row + 0.5, &hit)) continue;
+      if (!shape_point(Shape::kTorus, kShapeSide, column + 0.5, row + 0.5, &hit)) continue;
       ++hits;
-      const SurfacePoint ray = camera_ray(kSide, column + 0.5, row + 0.5);
+      const SurfacePoint ray = camera_ray(kShapeSide, column + 0.5, row + 0.5);
       const double t = kCameraDistance - hit.position.z;
       CHECK(std::fabs(from_torus(hit.position)) < 1e-9);
       CHECK(hit.position.x == Approx(t * ray.x).margin(1e-9));
@@ -45,11 +45,11 @@ TEST_CASE("shape: every point of the torus lies on it and on its ray, with the n
       CHECK(moved(0.1) == Approx(0.1).margin(1e-8));
       CHECK(moved(-0.1) == Approx(-0.1).margin(1e-8));
     }
-  CHECK(hits == shape_pixels(Shape::kTorus, kSide).size());
-  CHECK(hits > kSide * kSide / 5);
+  CHECK(hits == shape_pixels(Shape::kTorus, kShapeSide).size());
+  CHECK(hits > kShapeSide * kShapeSide / 5);
   SurfaceHit hit{};
-  CHECK_FALSE(shape_point(Shape::kTorus, kSide, 0.5 * kSide, 0.5 * kSide, &hit));  // the hole
-  CHECK(shape_pixels(Shape::kSphere, kSide).size() > shape_pixels(Shape::kTorus, kSide).size());
+  CHECK_FALSE(shape_point(Shape::kTorus, kShapeSide, 0.5 * kShapeSide, 0.5 * kShapeSide, &hit));  // the hole
+  CHECK(shape_pixels(Shape::kSphere, kShapeSide).size() > shape_pixels(Shape::kTorus, kShapeSide).size());
 }
 
 TEST_CASE(
@@ -57,19 +57,19 @@ TEST_CASE(
   const auto renderer = make_builtin_renderer();
   const Material paint{"mitsuba/ggx", {{"alpha", {0.3}}, {"f0", {0.5}}, {"diffuse", {0.5}}}};
   const auto picture = [&](double angle) {
-    return renderer->render(paint, {kSide, 1, {angle, 3.0}, 0, Shape::kTorus}).values;
+    return renderer->render(paint, {kShapeSide, 1, {angle, 3.0}, 0, Shape::kTorus}).values;
   };
   const auto front = picture(0.0), side = picture(75.0);
-  for (std::size_t row = 0; row < kSide; ++row)
-    for (std::size_t column = 0; column < kSide / 2; ++column)
-      REQUIRE(front[row * kSide + column] ==
-              Approx(front[row * kSide + kSide - 1 - column]).epsilon(1e-5).margin(1e-9));
+  for (std::size_t row = 0; row < kShapeSide; ++row)
+    for (std::size_t column = 0; column < kShapeSide / 2; ++column)
+      REQUIRE(front[row * kShapeSide + column] ==
+              Approx(front[row * kShapeSide + kShapeSide - 1 - column]).epsilon(1e-5).margin(1e-9));
   // Where the light is above the horizon but the picture is black, the ring casts its shadow.
   std::size_t shadowed = 0;
   const double x = 3.0 * std::sin(75.0 * pi / 180.0), z = 3.0 * std::cos(75.0 * pi / 180.0);
-  for (const std::uint32_t pixel : shape_pixels(Shape::kTorus, kSide)) {
+  for (const std::uint32_t pixel : shape_pixels(Shape::kTorus, kShapeSide)) {
     SurfaceHit hit{};
-    REQUIRE(shape_point(Shape::kTorus, kSide, pixel % kSide + 0.5, pixel / kSide + 0.5, &hit));
+    REQUIRE(shape_point(Shape::kTorus, kShapeSide, pixel % kShapeSide + 0.5, pixel / kShapeSide + 0.5, &hit));
     const double cosine = (x - hit.position.x) * hit.normal.x - hit.position.y * hit.normal.y +
                           (z - hit.position.z) * hit.normal.z;
     CHECK((side[pixel] == 0.0f) == (cosine <= 0.0 || is_shadowed(Shape::kTorus, hit, {x, 0.0, z})));

@@ -17,7 +17,7 @@ const std::string kMark = "\xef\xbb\xbf";
 
 std::string decoded(const std::string& bytes) { return utf8_text(MemorySource(bytes), "file"); }
 
-std::string refusal_of(const std::string& bytes) {
+std::string decoding_refusal(const std::string& bytes) {
   try {
     (void)decoded(bytes);
   } catch (const Error& error) {
@@ -63,14 +63,14 @@ TEST_CASE("Half a character of UTF-16 is refused with its place", "[assets]") {
   const auto refusal = [](int byte) {
     return "file: has half a character of UTF-16 at byte " + std::to_string(byte) + " (save it as UTF-8)";
   };
-  CHECK(refusal_of(std::string("\xff\xfen\0x", 5)) == refusal(4));
-  CHECK(refusal_of(std::string("\xfe\xff\0n\xd8\x3d\0n", 8)) == refusal(4));
-  CHECK(refusal_of(std::string("\xfe\xff\0n\xd8\x3d", 6)) == refusal(4));
-  CHECK(refusal_of(std::string("\xfe\xff\0n\xde\x00\0n", 8)) == refusal(4));
-  CHECK(refusal_of(std::string("\xfe\xff\xd8\x3d\xd8\x3d\xde\x00", 8)) == refusal(2));
+  CHECK(decoding_refusal(std::string("\xff\xfen\0x", 5)) == refusal(4));
+  CHECK(decoding_refusal(std::string("\xfe\xff\0n\xd8\x3d\0n", 8)) == refusal(4));
+  CHECK(decoding_refusal(std::string("\xfe\xff\0n\xd8\x3d", 6)) == refusal(4));
+  CHECK(decoding_refusal(std::string("\xfe\xff\0n\xde\x00\0n", 8)) == refusal(4));
+  CHECK(decoding_refusal(std::string("\xfe\xff\xd8\x3d\xd8\x3d\xde\x00", 8)) == refusal(2));
   const std::string edge =
       "\xff\xfe" + std::string((std::size_t{1} << 20) - 4, 'x') + std::string("\x3d\xd8x\0", 4);
-  CHECK(refusal_of(edge) == refusal((1 << 20) - 2));
+  CHECK(decoding_refusal(edge) == refusal((1 << 20) - 2));
   CHECK_THROWS_WITH(encoded("caf\xe9", TextEncoding::kUtf16Big, "file"),
                     "file: names a file whose name UTF-16 cannot hold (rename the file)");
 }

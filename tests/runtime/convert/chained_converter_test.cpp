@@ -111,7 +111,7 @@ TEST_CASE("chained converter: rows around the length of its blocks, grey and RGB
   const SteppedFits chain(three_fits());
   const auto chained = make_chained_converter(chain.steps);
   const InTurn in_turn(chain.steps);
-  const TexelRows texels = odd_and_random_texels(chain.steps.front()->info(), 2000);
+  const TestTexels texels = odd_and_random_texels(chain.steps.front()->info(), 2000);
   for (const std::size_t count : {511u, 512u, 513u, 1023u, 1024u, 1025u, 2047u, 2049u})
     for (const std::size_t channels : {1u, 3u})
       for (const bool in_place : {false, true}) {
@@ -127,7 +127,7 @@ TEST_CASE("chained converter: rows around the length of its blocks, grey and RGB
 TEST_CASE("chained converter: every instruction set computes the same bits") {
   const SteppedFits baseline(three_fits(), InstructionSet::kBaseline);
   const auto expected = make_chained_converter(baseline.steps);
-  const TexelRows texels = odd_and_random_texels(expected->info(), 1500);
+  const TestTexels texels = odd_and_random_texels(expected->info(), 1500);
   for (const InstructionSet set : instruction_sets()) {
     const SteppedFits chain(three_fits(), set);
     const auto chained = make_chained_converter(chain.steps);

@@ -12,7 +12,7 @@ using Names = std::vector<std::string>;
 
 namespace {
 
-class Converters : public NamedConverters {
+class RatedConverters : public NamedConverters {
  public:
   void add(const std::string& source, const std::string& target, std::optional<double> image_error,
            std::optional<double> ssim = {}, double largest_specular = 1.0) {
@@ -48,7 +48,7 @@ TEST_CASE("closeness: the renderer of a model is what stands before the first sl
   CHECK(renderer_of("cycles-5/ggx") == "cycles-5");
   CHECK(renderer_of("studio/cycles/ggx") == "studio");
   CHECK(renderer_of("metallic").empty());
-  Converters converters;
+  RatedConverters converters;
   converters.add("r/a", "r/b", 0.1);
   converters.add("r/a", "r2/c", 0.1);
   converters.add("r/a", "alone", 0.1);
@@ -62,7 +62,7 @@ TEST_CASE("closeness: the renderer of a model is what stands before the first sl
 }
 
 TEST_CASE("closeness: paths to a renderer leave out the source, models between, and what is not reached") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("r/a", "r/b", 0.1);
   converters.add("r/b", "r/c", 0.1);
   converters.add("r/d", "r/a", 0.1);
@@ -80,7 +80,7 @@ TEST_CASE("closeness: paths to a renderer leave out the source, models between, 
 }
 
 TEST_CASE("closeness: a renderer in the place of a model is refused with its models") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("r/a", "s/b", 0.1);
   converters.add("r/c", "s/b", 0.1);
   const ConverterGraph graph = converters.graph();
@@ -93,7 +93,7 @@ TEST_CASE("closeness: a renderer in the place of a model is refused with its mod
 }
 
 TEST_CASE("closeness: the closest model of a renderer has the least expected error, at any number of steps") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/source", "b/direct", 0.2);
   converters.add("a/source", "a/hub", 0.05);
   converters.add("a/hub", "b/far", 0.06);
@@ -102,7 +102,7 @@ TEST_CASE("closeness: the closest model of a renderer has the least expected err
 }
 
 TEST_CASE("closeness: of models whose errors agree in three digits the first by name is the closest") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/source", "b/y", 0.05001);
   converters.add("a/source", "b/x", 0.05009);
   CHECK(converters.closest("a/source", "b") == "b/x");
@@ -111,7 +111,7 @@ TEST_CASE("closeness: of models whose errors agree in three digits the first by 
 }
 
 TEST_CASE("closeness: a model that covers few materials is not the closest, nor called closer") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/source", "b/dielectric", 0.01, {}, 0.08);
   converters.add("a/source", "b/metal", 0.2);
   CHECK(converters.closest("a/source", "b") == "b/metal");
@@ -127,7 +127,7 @@ TEST_CASE("closeness: a model that covers few materials is not the closest, nor 
 }
 
 TEST_CASE("closeness: what a later step does not cover counts as not covered") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/source", "a/hub", 0.0);
   converters.add("a/hub", "b/dielectric", 0.01, {}, 0.08);
   converters.add("a/hub", "b/metal", 0.2);
@@ -136,7 +136,7 @@ TEST_CASE("closeness: what a later step does not cover counts as not covered") {
 }
 
 TEST_CASE("closeness: a model of the same renderer with at most half the error looks closer") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/source", "b/x", 0.25);
   converters.add("a/source", "b/y", 0.126);
   converters.add("a/source", "c/z", 0.01);
@@ -151,14 +151,14 @@ TEST_CASE("closeness: a model of the same renderer with at most half the error l
 }
 
 TEST_CASE("closeness: names without a renderer have no other models") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/source", "x", 0.5);
   converters.add("a/source", "y", 0.1);
   CHECK(converters.closer("a/source", "x") == "none");
 }
 
 TEST_CASE("closeness: where nobody sees a difference no model is called closer") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/source", "b/x", kUnseenError);
   converters.add("a/source", "b/y", 0.001);
   CHECK(converters.closer("a/source", "b/x") == "none");
@@ -167,7 +167,7 @@ TEST_CASE("closeness: where nobody sees a difference no model is called closer")
 }
 
 TEST_CASE("closeness: pictures that were never compared are not judged") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/source", "b/formula", {});
   converters.add("a/source", "b/far", 0.5);
   converters.add("a/source", "c/x", 0.01);
@@ -181,7 +181,7 @@ TEST_CASE("closeness: pictures that were never compared are not judged") {
 }
 
 TEST_CASE("closeness: a conversion looks different above a tenth, by the steps that were compared") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/a", "a/b", 0.06);
   converters.add("a/b", "a/c", 0.05);
   converters.add("a/b", "a/d", {});
@@ -197,7 +197,7 @@ TEST_CASE("closeness: a conversion looks different above a tenth, by the steps t
 }
 
 TEST_CASE("closeness: the SSIM of a path is that of its worst step") {
-  Converters converters;
+  RatedConverters converters;
   converters.add("a/a", "a/b", 0.1, 0.9);
   converters.add("a/b", "a/c", 0.1, 0.8);
   converters.add("a/c", "a/d", 0.1, 0.95);

@@ -44,7 +44,7 @@ const std::vector<Fit>& fits() {
 // Four units in the last place, twice: of the parameters as floats, and of the scale of a texel.
 constexpr double kRounding = 1e-6;
 
-void check_texel(const Fit& fit, const TexelRows& in, const TexelRows& out, std::size_t i) {
+void check_texel(const Fit& fit, const TestTexels& in, const TestTexels& out, std::size_t i) {
   const Lowered& lowered = fit.converter->lowered;
   std::array<double, 3> specular{}, expected{};
   double largest = 0.0;
@@ -77,7 +77,7 @@ TEST_CASE("lowered converter: stays within its proven bound of the interpreter, 
   for (const Fit& fit : fits()) {
     INFO(kind_name(fit.mapping) << " of " << convention_name(fit.source.roughness));
     const auto converter = make_lowered_converter(fit);
-    TexelRows in = odd_and_random_texels(converter->info(), 2000);
+    TestTexels in = odd_and_random_texels(converter->info(), 2000);
     // Beyond 1e30 a channel is left as it is, by converters in floats alone.
     for (auto& row : in.specular)
       for (float& value : row)
@@ -95,7 +95,7 @@ TEST_CASE("lowered converter: every instruction set computes the same bits") {
   for (const Fit& fit : fits()) {
     INFO(kind_name(fit.mapping) << " of " << convention_name(fit.source.roughness));
     const auto baseline = make_lowered_converter(fit, InstructionSet::kBaseline);
-    const TexelRows texels = odd_and_random_texels(baseline->info(), 1000);
+    const TestTexels texels = odd_and_random_texels(baseline->info(), 1000);
     for (const InstructionSet set : instruction_sets()) {
       INFO(instruction_set_name(set));
       const auto converter = make_lowered_converter(fit, set);

@@ -16,7 +16,7 @@ using Names = std::vector<std::string>;
 
 namespace {
 
-class Converters : public NamedConverters {
+class PathConverters : public NamedConverters {
  public:
   void add(const std::string& source, const std::string& target, std::optional<double> image_error,
            const std::string& suffix = "") {
@@ -33,11 +33,11 @@ Names ids(const ConverterPath& path) {
   return names;
 }
 
-Names least(const Converters& converters, const PathRequest& request) {
+Names least(const PathConverters& converters, const PathRequest& request) {
   return ids(converters.graph().find_paths(request).front());
 }
 
-std::string refusal(const Converters& converters, const PathRequest& request) {
+std::string refusal(const PathConverters& converters, const PathRequest& request) {
   try {
     converters.graph().find_paths(request);
   } catch (const Error& error) {
@@ -71,7 +71,7 @@ void walk_on(const std::vector<const Converter*>& converters, const PathRequest&
 }  // namespace
 
 TEST_CASE("path: the least expected error wins over the fewest steps") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/a", "r/c", 0.5);
   converters.add("r/a", "r/b", 0.125);
   converters.add("r/b", "r/c", 0.25);
@@ -100,7 +100,7 @@ TEST_CASE(
 }
 
 TEST_CASE("path: a formula without image error counts with the stated one") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/a", "r/c", {});
   converters.add("r/a", "r/b", 0.04);
   converters.add("r/b", "r/c", 0.04);
@@ -113,7 +113,7 @@ TEST_CASE("path: a formula without image error counts with the stated one") {
 }
 
 TEST_CASE("path: of two converters between the same models the better is taken") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/a", "r/b", {}, "_published");
   converters.add("r/a", "r/b", 0.06);
   const auto paths = converters.graph().find_paths({"r/a", "r/b", {}}, 3);
@@ -123,7 +123,7 @@ TEST_CASE("path: of two converters between the same models the better is taken")
 }
 
 TEST_CASE("path: ties go to fewer steps, then to the first ids, whatever the order of the converters") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/a", "r/z", 0.3);
   converters.add("r/a", "r/b", 0.1);
   converters.add("r/b", "r/z", 0.2);
@@ -145,7 +145,7 @@ TEST_CASE("path: the best of a random graph are the best of all there are") {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> model(0, 6), error(0, 8);
   for (int trial = 0; trial < 60; ++trial) {
-    Converters converters;
+    PathConverters converters;
     for (int i = 0; i < 16; ++i) {
       const int from = model(random), to = model(random);
       if (from != to)
@@ -177,7 +177,7 @@ TEST_CASE("path: the best of a random graph are the best of all there are") {
 }
 
 TEST_CASE("path: a graph of many models is searched at once, also where no second path exists") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/in", "r/0", 0.1);
   converters.add("r/0", "r/out", 0.1);
   for (int i = 0; i < 20; ++i)
@@ -189,7 +189,7 @@ TEST_CASE("path: a graph of many models is searched at once, also where no secon
 }
 
 TEST_CASE("path: --via leads through models in their order") {
-  Converters converters;
+  PathConverters converters;
   for (const char* from : {"r/a", "r/b", "r/c", "r/d"})
     for (const char* to : {"r/a", "r/b", "r/c", "r/d"})
       if (std::string(from) != to) converters.add(from, to, 0.1);
@@ -199,7 +199,7 @@ TEST_CASE("path: --via leads through models in their order") {
 }
 
 TEST_CASE("path: a model that would be visited twice is wrong usage") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/a", "r/hub", 0.1);
   converters.add("r/hub", "r/a", 0.1);
   converters.add("r/hub", "r/b", 0.1);
@@ -217,7 +217,7 @@ TEST_CASE("path: a model that would be visited twice is wrong usage") {
 }
 
 TEST_CASE("path: a missing link is named from both sides, with the nearest model that is reached") {
-  Converters converters;
+  PathConverters converters;
   converters.add("mitsuba/ward", "mitsuba/as", 0.1);
   converters.add("mitsuba/as", "mitsuba/ggx", 0.1);
   converters.add("cycles/beckmann", "cycles/ggx", 0.1);
@@ -232,7 +232,7 @@ TEST_CASE("path: a missing link is named from both sides, with the nearest model
 }
 
 TEST_CASE("path: an unknown model is answered with the nearest") {
-  Converters converters;
+  PathConverters converters;
   converters.add("mitsuba/ward", "mitsuba/as", 0.1);
   CHECK(refusal(converters, {"mitsuba/wrad", "mitsuba/as", {}}) ==
         "unknown source model 'mitsuba/wrad' (did you mean mitsuba/ward?)");
@@ -254,7 +254,7 @@ TEST_CASE("path: of what ships, one step is what one converter gives") {
 }
 
 TEST_CASE("path: without detours no path goes round a converter, but through what it is led through") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/a", "r/c", 0.5);
   converters.add("r/a", "r/b", 0.125);
   converters.add("r/b", "r/c", 0.25);
@@ -274,7 +274,7 @@ TEST_CASE("path: without detours no path goes round a converter, but through wha
 }
 
 TEST_CASE("path: between the same models a measured match wins over a formula that nobody compared") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/a", "r/c", 0.5);
   converters.add("r/a", "r/c", std::nullopt, "_published");
   converters.add("r/c", "r/d", std::nullopt);
@@ -288,7 +288,7 @@ TEST_CASE("path: between the same models a measured match wins over a formula th
 }
 
 TEST_CASE("path: a converter that was composed of others is taken in their place") {
-  Converters converters;
+  PathConverters converters;
   converters.add("r/a", "r/b", 0.25);
   converters.add("r/b", "r/c", 0.5);
   converters.add("r/a", "r/c", std::nullopt, "_chain");

@@ -12,13 +12,13 @@
 
 namespace remap {
 
-struct TexelRows {
+struct TestTexels {
   std::vector<float> roughness;
   std::array<std::vector<float>, 3> specular;
 };
 
 // Every pair of special values in roughness and channel, then random texels inside and outside the domain.
-inline TexelRows odd_and_random_texels(const ConverterInfo& info, std::size_t random_count) {
+inline TestTexels odd_and_random_texels(const ConverterInfo& info, std::size_t random_count) {
   const auto odd_values = [](const Range& range) {
     const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
     return std::vector<float>{low,
@@ -39,7 +39,7 @@ inline TexelRows odd_and_random_texels(const ConverterInfo& info, std::size_t ra
                               NAN,
                               -NAN};
   };
-  TexelRows rows;
+  TestTexels rows;
   const auto add = [&rows](float roughness, float red, float green, float blue) {
     rows.roughness.push_back(roughness);
     rows.specular[0].push_back(red);
@@ -64,12 +64,12 @@ inline TexelRows odd_and_random_texels(const ConverterInfo& info, std::size_t ra
 // Converts `count` texels from the texel `first` on, with the first `channels` channels, in place in a copy
 // or into other rows.
 struct Converted {
-  TexelRows rows;
+  TestTexels rows;
   std::size_t out_of_domain = 0;
 };
 // `converter`: a Converter, or what has its convert() of width and specular.
 template <class Convert>
-Converted converted(const Convert& converter, const TexelRows& given, std::size_t first, std::size_t count,
+Converted converted(const Convert& converter, const TestTexels& given, std::size_t first, std::size_t count,
                     std::size_t channels, bool in_place) {
   const auto cut = [&](const std::vector<float>& row) {
     const auto begin = row.begin() + static_cast<std::ptrdiff_t>(first);
@@ -101,7 +101,7 @@ inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) 
 // Whether `converter` gives the bits of `expected` for all of `texels`, for rows of many lengths, one and
 // three channels, in place and not.
 template <class Expected>
-bool same_bits(const Converter& converter, const Expected& expected, const TexelRows& texels) {
+bool same_bits(const Converter& converter, const Expected& expected, const TestTexels& texels) {
   const std::size_t all = texels.roughness.size();
   for (const std::size_t count :
        {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{15}, std::size_t{127}, std::size_t{128},

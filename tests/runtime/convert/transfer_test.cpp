@@ -86,7 +86,7 @@ TEST_CASE("transfer: values of 8 and 16 bits and halves are decoded to the neare
   for (int i = 0; i < 256; ++i) check(static_cast<float>(i) / 255.0f);
   for (int i = 0; i < 65536; ++i) check(static_cast<float>(i) / 65535.0f);
   for (int i = 0; i < 65536; ++i)
-    if (const float half = half_to_float(static_cast<std::uint16_t>(i)); std::isfinite(half)) check(half);
+    if (const float value = half_to_float(static_cast<std::uint16_t>(i)); std::isfinite(value)) check(value);
 }
 
 TEST_CASE("transfer: the table of 8 bits holds what the curve gives") {

@@ -14,7 +14,7 @@ using namespace remap;
 
 namespace {
 
-std::string complaint(const std::string& name) {
+std::string tile_complaint(const std::string& name) {
   try {
     tile_pattern(name);
   } catch (const Error& error) {
@@ -63,7 +63,7 @@ TEST_CASE("tile pattern: names without a placeholder") {
 }
 
 TEST_CASE("tile pattern: two placeholders are refused, by name") {
-  CHECK(complaint("a.<UDIM>.####.exr") ==
+  CHECK(tile_complaint("a.<UDIM>.####.exr") ==
         "a.<UDIM>.####.exr: has two placeholders, <UDIM> and #### (use one)");
 }
 

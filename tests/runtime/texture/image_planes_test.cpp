@@ -65,7 +65,8 @@ void write_levels(const fs::path& path, const std::vector<std::string>& channels
                                            config));
 }
 
-std::array<float, 4> converted(const Converter& converter, float roughness, std::array<float, 3> specular) {
+std::array<float, 4> converted_texel(const Converter& converter, float roughness,
+                                     std::array<float, 3> specular) {
   std::array<float, 4> result{};
   const std::array<const float*, 3> in = {&specular[0], &specular[1], &specular[2]};
   const std::array<float*, 3> out = {&result[1], &result[2], &result[3]};
@@ -111,8 +112,8 @@ TEST_CASE("image planes: every mip level is converted separately") {
     if (rough.values.empty()) break;
     for (int y = 0; y < rough.spec.height; ++y)
       for (int x = 0; x < rough.spec.width; ++x) {
-        const auto expected =
-            converted(*converter, rough.at(x, y, 0), {spec.at(x, y, 0), spec.at(x, y, 1), spec.at(x, y, 2)});
+        const auto expected = converted_texel(*converter, rough.at(x, y, 0),
+                                              {spec.at(x, y, 0), spec.at(x, y, 1), spec.at(x, y, 2)});
         REQUIRE(rough_out.at(x, y, 0) == Approx(expected[0]).epsilon(1e-3));
         for (int c = 0; c < 3; ++c)
           REQUIRE(spec_out.at(x, y, c) ==
@@ -164,8 +165,8 @@ TEST_CASE("image planes: parts with parameters are converted, the others are unc
   CHECK(read_plane(out, 3, 0).values.empty());
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
-      const auto expected = converted(*converter, is_exr ? rough.at(x, y, 0) : 0.5f,
-                                      {base.at(x, y, 0), base.at(x, y, 1), base.at(x, y, 2)});
+      const auto expected = converted_texel(*converter, is_exr ? rough.at(x, y, 0) : 0.5f,
+                                            {base.at(x, y, 0), base.at(x, y, 1), base.at(x, y, 2)});
       REQUIRE(rough_out.at(x, y, 0) == (is_exr ? expected[0] : rough.at(x, y, 0)));
       for (int c = 0; c < 3; ++c) REQUIRE(base_out.at(x, y, c) == expected[static_cast<std::size_t>(c) + 1]);
       REQUIRE(base_out.at(x, y, 3) == base.at(x, y, 3));

@@ -43,7 +43,7 @@ MaterialTable family_table(std::size_t count, double f0) {
   return table;
 }
 
-MaterialNetworkOptions quick_options() {
+MaterialNetworkOptions quick_material_options() {
   MaterialNetworkOptions options;
   options.id = "back";
   options.hidden = {24};
@@ -54,7 +54,7 @@ MaterialNetworkOptions quick_options() {
 }  // namespace
 
 TEST_CASE("material network: learns the way back, says how well, and returns from its file", "[slow]") {
-  const WorkflowFit fit = fit_material_network(family_table(1000, 0.03), "bytes", quick_options());
+  const WorkflowFit fit = fit_material_network(family_table(1000, 0.03), "bytes", quick_material_options());
   CHECK(fit.id == "back");
   CHECK(fit.conversion.source_model() == "mitsuba/ggx");
   CHECK(fit.conversion.target_model() == "mitsuba/ggx-metallic");
@@ -76,20 +76,23 @@ TEST_CASE("material network: learns the way back, says how well, and returns fro
   REQUIRE(std::holds_alternative<WorkflowFit>(read));
   CHECK(std::get<WorkflowFit>(read) == fit);
   CHECK_THROWS_WITH(fit_from_json(fit_to_json(fit), "x"), Contains("converts whole materials"));
-  CHECK(fit_material_network(family_table(1000, 0.03), "bytes", quick_options()) == fit);
+  CHECK(fit_material_network(family_table(1000, 0.03), "bytes", quick_material_options()) == fit);
 }
 
 TEST_CASE("material network: tables of other columns, or not of equation (2), are refused") {
   MaterialTable table = family_table(200, 0.04);
   table.target_columns[1] = "specular_r2";
-  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("missing column f0_r2"));
+  CHECK_THROWS_WITH(fit_material_network(table, "", quick_material_options()),
+                    Contains("missing column f0_r2"));
   table = family_table(200, 0.04);
   for (NamedRow& row : table.rows) row.target[4] *= 0.9;
-  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("differ from equation (2)"));
+  CHECK_THROWS_WITH(fit_material_network(table, "", quick_material_options()),
+                    Contains("differ from equation (2)"));
   table = family_table(200, 0.04);
   for (NamedRow& row : table.rows) row.status = RowStatus::kFlat;
-  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("no row has status ok"));
-  MaterialNetworkOptions options = quick_options();
+  CHECK_THROWS_WITH(fit_material_network(table, "", quick_material_options()),
+                    Contains("no row has status ok"));
+  MaterialNetworkOptions options = quick_material_options();
   options.id = "a b";
   CHECK_THROWS_WITH(fit_material_network(family_table(200, 0.04), "", options), Contains("identifier"));
 }

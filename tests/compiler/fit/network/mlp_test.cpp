@@ -33,7 +33,7 @@ std::vector<TableRow> smooth_rows() {
   return rows;
 }
 
-MlpOptions quick_options() {
+MlpOptions quick_mlp_options() {
   MlpOptions options;
   options.hidden = {5};
   options.starts = 3;
@@ -78,7 +78,7 @@ TEST_CASE("mlp: errors on unseen rows of the published table", "[slow][campaign]
 }
 
 TEST_CASE("mlp: method records how the networks were trained") {
-  const Regression regression = fit_mlp(smooth_rows(), quick_options());
+  const Regression regression = fit_mlp(smooth_rows(), quick_mlp_options());
   const auto& method = regression.method;
   CHECK(method.at("hidden") == "5");
   CHECK(method.at("activation") == "tanh");
@@ -94,7 +94,7 @@ TEST_CASE("mlp: method records how the networks were trained") {
 TEST_CASE("mlp: target alpha that depends on specular is fitted from both") {
   std::vector<TableRow> rows = smooth_rows();
   for (TableRow& row : rows) row.alpha2 *= 1.0 - 0.2 * row.specular1;
-  const Regression regression = fit_mlp(rows, quick_options());
+  const Regression regression = fit_mlp(rows, quick_mlp_options());
   const Mlp& mlp = std::get<Mlp>(regression.mapping);
   REQUIRE(mlp.alpha.inputs.size() == 2);
   for (const TableRow& row : rows)
@@ -102,7 +102,7 @@ TEST_CASE("mlp: target alpha that depends on specular is fitted from both") {
 }
 
 TEST_CASE("mlp: numbers depend on the seed") {
-  MlpOptions options = quick_options();
+  MlpOptions options = quick_mlp_options();
   const Regression one = fit_mlp(smooth_rows(), options);
   options.seed = 2;
   CHECK_FALSE(fit_mlp(smooth_rows(), options).mapping == one.mapping);
@@ -134,7 +134,7 @@ TEST_CASE("mlp: 100000 rows are fitted on a subset, and method says so", "[slow]
     row.alpha2 = row.alpha1 * (1.0 - 0.3 * row.alpha1);
     row.specular2 = row.specular1 * (0.6 + 0.4 * std::exp(-3.0 * row.alpha1));
   }
-  MlpOptions options = quick_options();
+  MlpOptions options = quick_mlp_options();
   options.starts = 2;
   Regression regression;
   const double seconds = seconds_of([&] { regression = fit_mlp(rows, options); });
