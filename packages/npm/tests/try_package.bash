@@ -27,6 +27,10 @@ if (made.roughness.length !== 2 || made.specular.length !== 6 || ![...made.rough
 PROGRAM
 node five_lines.mjs
 
+npm install --silent --global --prefix "$work/global" "$tgz"
+[[ -s $work/global/share/man/man1/texremap-convert.1 ]]
+[[ -s $work/global/lib/node_modules/texremap/completions/bash/texremap ]]
+
 seconds() { awk -v ns="$(($2 - $1))" 'BEGIN { printf "%.1f", ns / 1e9 }'; }
 echo "$(stat -c %s "$tgz") bytes packed, $(du -sb node_modules | cut -f 1) installed ($(du -sb node_modules/texremap | cut -f 1) of texremap)"
 echo "$(seconds "$start" "$installed") s to install, $(seconds "$start" "$converted") s to the first converted set"

@@ -3,6 +3,7 @@
 REMAP_TEXREMAP: the program; without it, and without OpenImageIO, these tests are skipped.
 """
 
+import importlib.metadata
 import json
 import os
 import re
@@ -117,3 +118,9 @@ def test_case(case, inputs, tmp_path):
             assert_same_glb(*pair, tmp_path)
         else:
             assert pair[0].read_bytes() == pair[1].read_bytes(), file
+
+
+def test_manual_pages_and_completion_are_installed():
+    installed = {path.as_posix().rpartition("share/")[2] for path in importlib.metadata.files("texremap")}
+    assert {"man/man1/texremap.1", "man/man1/texremap-convert.1", "bash-completion/completions/texremap",
+            "zsh/site-functions/_texremap", "fish/vendor_completions.d/texremap.fish"} <= installed
