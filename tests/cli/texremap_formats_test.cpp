@@ -171,7 +171,8 @@ TEST_CASE("texremap: --type chooses the pixel type, and clipped values are count
   check_converted(session.image("r.exr"), session.image("s.exr"), session.image("out/r.tif"), out);
 }
 
-TEST_CASE("texremap: --compression changes sizes and no texel, and is refused where nothing has a level") {
+TEST_CASE("texremap: --compression changes sizes and no texel, and is refused where nothing has a level",
+          "[slow]") {
   const Session session;
   for (const std::string extension : {"png", "tif", "exr"}) {
     session.write_pair(extension);

@@ -163,7 +163,7 @@ const std::vector<Arrangement> kArrangements = {
 
 }  // namespace
 
-TEST_CASE("texremap presets: the same material is arranged anew, and no stored value changes") {
+TEST_CASE("texremap presets: the same material is arranged anew, and no stored value changes", "[slow]") {
   const Session session;
   write_orm_set(session);
   for (const Arrangement& to : kArrangements) {

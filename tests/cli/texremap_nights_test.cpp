@@ -76,7 +76,7 @@ TEST_CASE("texremap nights: --resume makes anew what changed, without --force", 
   CHECK(states(tree, "--copy-others") == "dd");
 }
 
-TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their own") {
+TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their own", "[slow]") {
   const Tree tree;
   for (const std::string name : {"wood", "deep/wall"}) {
     tree.map("in/" + name + "_diffuse.png", kColor);
@@ -139,7 +139,7 @@ TEST_CASE("texremap nights: --force makes another conversion in a folder") {
   CHECK(states(tree, {}, "mitsuba/ggx") == "d");
 }
 
-TEST_CASE("texremap nights: maps without metadata are not converted twice") {
+TEST_CASE("texremap nights: maps without metadata are not converted twice", "[slow]") {
   const Tree tree;
   const std::string extension = GENERATE("tga", "bmp");
   write_sets(tree, 1, extension);

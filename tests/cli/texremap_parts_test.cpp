@@ -62,7 +62,7 @@ nlohmann::json merged(const Tree& tree, int exit_code) {
 
 }  // namespace
 
-TEST_CASE("texremap parts: the union of the parts is what one process makes") {
+TEST_CASE("texremap parts: the union of the parts is what one process makes", "[slow]") {
   const Tree tree;
   write_library(tree);
   index(tree);
@@ -116,7 +116,7 @@ TEST_CASE("texremap parts: a manifest is the same however the tree is listed, an
   CHECK(head["bytes"] == bytes);
 }
 
-TEST_CASE("texremap parts: a part goes on where it ended, and finds what another part has done") {
+TEST_CASE("texremap parts: a part goes on where it ended, and finds what another part has done", "[slow]") {
   const Tree tree;
   write_library(tree);
   index(tree);
@@ -147,7 +147,7 @@ TEST_CASE("texremap parts: a part goes on where it ended, and finds what another
   CHECK_THAT(other.errors, Contains("belongs to another conversion"));
 }
 
-TEST_CASE("texremap parts: a part that is not run, or is of another run, is named") {
+TEST_CASE("texremap parts: a part that is not run, or is of another run, is named", "[slow]") {
   const Tree tree;
   write_library(tree);
   index(tree);
@@ -181,7 +181,7 @@ TEST_CASE("texremap parts: a part that is not run, or is of another run, is name
   CHECK_THAT(tree.texremap("merge-reports in").errors, Contains("holds no report of a part"));
 }
 
-TEST_CASE("texremap parts: schedulers tell the part by their variables") {
+TEST_CASE("texremap parts: schedulers tell the part by their variables", "[slow]") {
   const Tree tree;
   write_library(tree);
   index(tree);
@@ -272,7 +272,7 @@ TEST_CASE("texremap parts: files that are gone or have another size fail their s
   CHECK(states == "ccccccff");
 }
 
-TEST_CASE("texremap parts: storage that does not answer is asked again, a full one ends with 75") {
+TEST_CASE("texremap parts: storage that does not answer is asked again, a full one ends with 75", "[slow]") {
   const Tree tree;
   write_library(tree);
   index(tree);
@@ -364,7 +364,7 @@ void write_assets(const Tree& tree) {
 
 }  // namespace
 
-TEST_CASE("texremap parts: the union of the parts of assets is what one process makes") {
+TEST_CASE("texremap parts: the union of the parts of assets is what one process makes", "[slow]") {
   const Tree tree;
   write_assets(tree);
   const ProcessResult index = tree.texremap("index in --assets -o assets.jsonl --json");

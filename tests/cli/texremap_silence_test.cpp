@@ -46,7 +46,7 @@ ProcessResult convert(const Tree& tree, Words words) { return tree.texremap(Word
 
 }  // namespace
 
-TEST_CASE("texremap silence: a color that is made from numbers or EXR is sRGB in whole numbers") {
+TEST_CASE("texremap silence: a color that is made from numbers or EXR is sRGB in whole numbers", "[slow]") {
   const Tree tree;
   write_flat(tree, "r.png", {0.5f});
   write_flat(tree, "b.exr", {0.5f, 0.2f, 0.05f}, OIIO::TypeHalf);

@@ -53,7 +53,7 @@ TEST_CASE("worker: the error for one that dies has its request and the end of it
   CHECK(session.nobody_is_left());
 }
 
-TEST_CASE("worker: one that hangs is killed after the timeout, with its children") {
+TEST_CASE("worker: one that hangs is killed after the timeout, with its children", "[slow]") {
   const FakeSession session;
   CHECK_THAT(render_error(session, "hang", 1.5), Contains(kPlace + "no answer within 1.5 s"));
   CHECK_THAT(render_error(session, "launcher", 1.5), Contains("no answer within 1.5 s"));
@@ -103,7 +103,7 @@ std::vector<Image> twelve_pictures(const Renderer& renderer) {
 
 }  // namespace
 
-TEST_CASE("worker: those that are lost cost nothing but their processes") {
+TEST_CASE("worker: those that are lost cost nothing but their processes", "[slow]") {
   const FakeSession good;
   const std::vector<Image> expected = twelve_pictures(WorkerRenderer(good.entry(), good.settings()));
   for (const std::string fault : {"die", "exit", "half", "hang", "deaf"}) {
