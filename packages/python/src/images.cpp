@@ -238,14 +238,14 @@ class PythonCodec : public ImageCodec {
     });
   }
   std::string encode_png(const ImagePixels& pixels, int level) const override {
-    return encoded(pixels, "encode_png", nb::int_(level));
+    return encoded(pixels, "encode_png", level);
   }
   std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
-    return encoded(pixels, "encode_jpeg", nb::int_(quality));
+    return encoded(pixels, "encode_jpeg", quality);
   }
 
  private:
-  std::string encoded(const ImagePixels& pixels, const char* method, const nb::object& setting) const {
+  std::string encoded(const ImagePixels& pixels, const char* method, int setting) const {
     return in_python(ErrorKind::kOutput, [&] {
       const nb::object bytes =
           images_->attr(method)(pixels.width, pixels.height, pixels.channels, name_of_type(pixels.type),
