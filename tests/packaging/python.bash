@@ -17,8 +17,9 @@ skip() {
 "$work/venv/bin/pip" install --quiet --disable-pip-version-check -c "$source_folder/packages/python/pinned.txt" scikit-build-core nanobind numpy pytest hypothesis OpenImageIO \
   usd-core >"$work/pip.log" 2>&1 || skip "packages cannot be installed: $(tail -n 1 "$work/pip.log")"
 
+# Without optimiser nanobind also checks that objects of Python are touched under the interpreter's lock alone.
 expect_exit 0 env SKBUILD_BUILD_DIR="$work/module" "$work/venv/bin/pip" install --disable-pip-version-check --no-build-isolation \
-  --no-deps -C cmake.define.REMAP_CORE="$build" "$source_folder"
+  --no-deps --config-settings=cmake.build-type=Debug --config-settings=cmake.define.REMAP_CORE="$build" "$source_folder"
 # The tests of the repository, with the installed package.
 cp -r "$source_folder/packages" "$work/packages"
 rm -r "$work/packages/python/texremap"
