@@ -1,5 +1,5 @@
-"""scripts/bench headers REVISION [--json]: evaluate_batch<3> of the generated headers here against those of another revision, which has the
-same interface of headers.
+"""scripts/bench headers REVISION [--json]: evaluate_batch<3> of the generated headers here against those of another revision, in its interface
+of today or in the one before, of five arguments.
 
 Both are built by g++ -O3 for x86-64-v3 and run in turns in one process on random texels: 4096 at a time, which stay in the cache, so
 that arithmetic counts. A figure is the best of some rounds.
@@ -22,8 +22,9 @@ PROGRAM = """
 #include "remap/%(id)s.hpp"
 // Least and largest width, least and largest specular.
 extern "C" void domain(float* ends) {
-  constexpr auto kMin = remap::%(id)s::kDomainMin, kMax = remap::%(id)s::kDomainMax;
-  ends[0] = kMin.width, ends[1] = kMax.width, ends[2] = kMin.specular, ends[3] = kMax.specular;
+  const auto [width, specular] = remap::%(id)s::kDomainMin;
+  const auto [last_width, last_specular] = remap::%(id)s::kDomainMax;
+  ends[0] = width, ends[1] = last_width, ends[2] = specular, ends[3] = last_specular;
 }
 extern "C" double seconds(const float* ends, std::size_t count, unsigned repeats) {
   std::vector<float> in[4], out[4];
@@ -36,11 +37,14 @@ extern "C" double seconds(const float* ends, std::size_t count, unsigned repeats
   }
   const auto start = std::chrono::steady_clock::now();
   for (unsigned r = 0; r < repeats; ++r)
-    remap::%(id)s::evaluate_batch(count, {in[0].data(), {in[1].data(), in[2].data(), in[3].data()}},
-                                  {out[0].data(), {out[1].data(), out[2].data(), out[3].data()}});
+    remap::%(id)s::%(call)s;
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 """
+CALL = """evaluate_batch(count, {in[0].data(), {in[1].data(), in[2].data(), in[3].data()}},
+                                  {out[0].data(), {out[1].data(), out[2].data(), out[3].data()}})"""
+CALL_BEFORE = """evaluate_batch<3>(count, in[0].data(), {in[1].data(), in[2].data(), in[3].data()},
+                                     out[0].data(), {out[1].data(), out[2].data(), out[3].data()})"""
 TEXELS, ROUNDS, REPEATS = 4096, 15, 24
 
 
@@ -58,7 +62,7 @@ def library(folder, identifier, header):
     headers.mkdir(parents=True)
     (headers / f"{identifier}.hpp").write_text(header)
     source = folder / "rows.cpp"
-    source.write_text(PROGRAM % {"id": identifier})
+    source.write_text(PROGRAM % {"id": identifier, "call": CALL if "InputRows" in header else CALL_BEFORE})
     subprocess.run(["g++", *FLAGS, "-I", folder, source, "-o", folder / "rows.so"], check=True)
     rows = ctypes.CDLL(str(folder / "rows.so"))
     rows.seconds.restype = ctypes.c_double
