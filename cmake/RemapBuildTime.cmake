@@ -1,5 +1,12 @@
 # What keeps builds short: headers that many sources read are compiled once, and what has no long loops is not optimised.
 
+# remap_compile_together(TARGET): its files are compiled some at a time, sixteen in half the processor time of six (decision 071).
+option(REMAP_UNITY "Compile the files of a folder together" ON)
+set(REMAP_UNITY_FILES 16 CACHE STRING "How many files of a folder are compiled together")
+function(remap_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${REMAP_UNITY} UNITY_BUILD_BATCH_SIZE ${REMAP_UNITY_FILES})
+endfunction()
+
 # remap_precompile_tests(OWNER), remap_use_precompiled_tests(TARGET OWNER): Catch2 compiled once, for all test programs.
 # They must have the same flags as OWNER; definitions may differ.
 function(remap_precompile_tests owner)

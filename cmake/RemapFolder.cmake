@@ -1,13 +1,10 @@
 # remap_folder(TARGET FOLDER [PUBLIC LIBRARY...] [PRIVATE LIBRARY...]): the library TARGET of every .cpp file in FOLDER but main.cpp, without
 # its subfolders. A folder is one library; the order of folders in HACKING.md is the order of what they link.
-# With REMAP_UNITY its files are compiled sixteen at a time, which takes a third of the processor time.
 # New files are found without configuring again, but for a project that has remap as a subfolder.
 set(REMAP_GLOB "")
 if(PROJECT_IS_TOP_LEVEL)
   set(REMAP_GLOB CONFIGURE_DEPENDS)
 endif()
-option(REMAP_UNITY "Compile the files of a folder together" ON)
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 16 CACHE STRING "Files of a folder that are compiled together")
 function(remap_folder target folder)
   cmake_parse_arguments(PARSE_ARGV 2 LINK "" "" "PUBLIC;PRIVATE")
   file(GLOB sources ${REMAP_GLOB} ${folder}/*.cpp)
@@ -15,7 +12,7 @@ function(remap_folder target folder)
   add_library(${target} STATIC ${sources})
   target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC ${LINK_PUBLIC} PRIVATE ${LINK_PRIVATE})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${REMAP_UNITY})
+  remap_compile_together(${target})
 endfunction()
 
 # remap_find(PACKAGE DEBIAN_PACKAGE): find_package(), which says what to install where it finds nothing.

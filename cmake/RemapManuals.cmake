@@ -1,9 +1,9 @@
-# remap_install_manuals(TOOL SHARE): the manual pages of TOOL and its completion for bash, zsh and fish, below the folder SHARE of
-# an installation.
-function(remap_install_manuals tool share)
+# remap_install_manuals(TOOL MAN SHARE): the manual pages of TOOL below the folder MAN of an installation, its completion for bash, zsh
+# and fish below SHARE.
+function(remap_install_manuals tool man share)
   file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/man/${tool}*.1)
   set(completions ${PROJECT_SOURCE_DIR}/docs/completions)
-  install(FILES ${pages} DESTINATION ${share}/man/man1)
+  install(FILES ${pages} DESTINATION ${man}/man1)
   install(FILES ${completions}/bash/${tool} DESTINATION ${share}/bash-completion/completions)
   install(FILES ${completions}/zsh/_${tool} DESTINATION ${share}/zsh/site-functions)
   install(FILES ${completions}/fish/${tool}.fish DESTINATION ${share}/fish/vendor_completions.d)
