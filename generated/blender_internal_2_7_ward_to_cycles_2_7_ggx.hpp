@@ -85,7 +85,7 @@ inline constexpr float kAlphaTable[32][38] = {
     {0.58206564f, 0.025997749f, -0.0035630832f, -0.00037537626f, 0.00064840144f, -0.0380894f, 0.0034434365f, 2.046802e-05f, -0.0006144128f, 0.8456423f, 0.48875394f, -0.09381379f, 0.023838932f, 33.190346f, -2.436542f, -0.016277984f, -0.015561189f, -961.5015f, -938.8315f, 81.30563f, -41517.66f, 2870.3105f, 244.7743f, 965399.75f, 630917.25f, -24524.32f, 13323403.0f, -2953621.0f, -78670.21f, -368587680.0f, -177395904.0f, 2423073.5f, -613028608.0f, 1166003840.0f, 53204959232.0f, 17875281920.0f, -289675542528.0f, -150228336640.0f},
     {0.6049556f, 0.021484733f, 0.0019632783f, 0.0056323316f, 0.0026766614f, -0.03482029f, -0.0007299231f, -0.009744563f, -0.0036168052f, 1.3413213f, 0.4996534f, -0.030815322f, 0.11396054f, 25.26643f, -10.24772f, 6.860846f, 1.1155434f, -1959.2938f, -1033.6831f, 127.44531f, -31432.418f, 16284.638f, -1786.2863f, 1657183.0f, 744965.6f, -39891.46f, 7017421.0f, -9548747.0f, 140519.4f, -564336128.0f, -212901040.0f, 4822870.5f, 1211026048.0f, 2482105344.0f, 72857591808.0f, 21429979136.0f, -4.8777e+11f, -245960540160.0f},
 };
-inline float target_alpha(float alpha, float specular) noexcept {
+[[gnu::always_inline]] inline float target_alpha(float alpha, float specular) noexcept {
   const float x = alpha * 46.065327f - 0.6258488f;
   const std::int32_t cell = cell_of(x, 31);
   const float u = x - (static_cast<float>(cell) + 0.5f);
@@ -206,7 +206,7 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   }
 }
 
-inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+[[gnu::always_inline]] inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
   return sum;
@@ -281,13 +281,14 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{0.01358616f, 0.7082502f, 0.0f, 0.13855854f, 7.2171664f};
-  static float alpha_of(float own) noexcept { return own; }
-  static float own_of(float alpha) noexcept { return alpha; }
+  static constexpr bool source_root = false, target_root = false;  // whether roots are taken
+  [[gnu::always_inline]] static float alpha_of(float own) noexcept { return own; }
+  [[gnu::always_inline]] static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
-  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+  [[gnu::always_inline]] static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
-  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::target_specular(terms, i, specular);
   }
   template <class Count>
@@ -360,7 +361,26 @@ inline Bits look_at_texels(Count count, const Mapping& mapping, const float* wid
     store(block.outside + i, clamped.outside | outside);
     channels = channels | outside;
   }
+  if constexpr (Mapping::source_root) take_roots(count, block.terms.alpha);
   return channels;
+}
+
+// A row of target alphas as the target's own parameter.
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* alphas, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  if constexpr (Mapping::target_root) take_roots(count, alphas);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(alphas + i)), nan));
+  }
 }
 
 // The largest channel.
@@ -413,9 +433,9 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    store(out + i, mapping.target_alpha(block.terms, i, top));
   }
+  store_widths(count, mapping, out, out, block);
 }
 
 template <bool kInside, class Count>

@@ -48,7 +48,7 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float specular) noexcept {
+[[gnu::always_inline]] inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.48185757f;
   const float u_2 = u * u;
   float c0 = -0.04401856f;
@@ -117,14 +117,14 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   }
 }
 
-inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+[[gnu::always_inline]] inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
   return sum;
 }
 
 // Target specular where target alpha is at its limit.
-inline float wide_specular(float alpha, float specular) noexcept {
+[[gnu::always_inline]] inline float wide_specular(float alpha, float specular) noexcept {
   const float t = alpha / (alpha + 0.3f);
   const float u = t - 0.7643865f;
   float c0 = 6.228583f;
@@ -139,7 +139,7 @@ inline float wide_specular(float alpha, float specular) noexcept {
 }
 
 // Target alpha where target specular is at its limit.
-inline float bright_alpha(float alpha, float specular) noexcept {
+[[gnu::always_inline]] inline float bright_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
   float c0 = -0.75532585f;
@@ -254,13 +254,14 @@ inline Float between(Float from, Float to, Float share) noexcept { return from +
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{0.1f, 1.0f, 0.0f, 1.0f, 1.0f};
-  static float alpha_of(float own) noexcept { return own * own; }
-  static float own_of(float alpha) noexcept { return alpha; }
+  static constexpr bool source_root = false, target_root = false;  // whether roots are taken
+  [[gnu::always_inline]] static float alpha_of(float own) noexcept { return own * own; }
+  [[gnu::always_inline]] static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
-  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+  [[gnu::always_inline]] static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
-  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::target_specular(terms, i, specular);
   }
   template <class Count>
@@ -271,10 +272,10 @@ struct Mapping {
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
   static constexpr float mapping_to = 0.9537131f;  // the mapping has reached the limit of alpha before
-  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::wide_specular(clamped_above(terms.source_alpha[i], 0.94762f), clamped_above(specular, 0.0f));
   }
-  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.01f), clamped_above(specular, 0.8714825f));
   }
   template <class Count>
@@ -347,7 +348,26 @@ inline Bits look_at_texels(Count count, const Mapping& mapping, const float* wid
     store(block.outside + i, clamped.outside | outside);
     channels = channels | outside;
   }
+  if constexpr (Mapping::source_root) take_roots(count, block.terms.alpha);
   return channels;
+}
+
+// A row of target alphas as the target's own parameter.
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* alphas, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  if constexpr (Mapping::target_root) take_roots(count, alphas);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(alphas + i)), nan));
+  }
 }
 
 // The largest channel.
@@ -483,22 +503,6 @@ inline void use_bright_widths(Count count, const Mapping& mapping, Block& block)
   }
 }
 
-template <class Count>
-inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
-  }
-}
-
 template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
@@ -524,7 +528,7 @@ inline void convert_regimes(Count count, const Mapping& mapping, const float* co
                             float* const* specular_out, Block& block) noexcept {
   if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
     use_bright_widths(count, mapping, block);
-  store_widths(count, mapping, width_out, block);
+  store_widths(count, mapping, block.terms.width, width_out, block);
   for (std::size_t c = 0; c < Channels; ++c)
     convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }

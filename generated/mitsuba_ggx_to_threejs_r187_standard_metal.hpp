@@ -20,6 +20,9 @@
 #include <cstring>
 #include <type_traits>
 #include <utility>
+#if defined(__SSE__) || defined(_M_X64)
+#include <xmmintrin.h>
+#endif
 
 #if defined(__clang__)  // silences the warning about loops that cannot be vectorised
 #pragma clang diagnostic push
@@ -87,7 +90,7 @@ inline constexpr float kAlphaTable[32][12] = {
     {0.9242065f, 0.030876223f, 0.00035155597f, -0.0014575361f, -0.0010019952f, -0.00030962043f, -0.025508141f, -0.009485354f, 0.0040325355f, 0.008263295f, 0.0045199245f, 0.0012908613f},
     {0.95262396f, 0.021353524f, -0.0139945485f, -0.0098985005f, -0.003757435f, -0.0008631677f, -0.016721634f, 0.049096078f, 0.072322786f, 0.04461381f, 0.015814632f, 0.003508796f},
 };
-inline float target_alpha(float alpha, float specular) noexcept {
+[[gnu::always_inline]] inline float target_alpha(float alpha, float specular) noexcept {
   const float x = alpha * 32.323162f - 0.32323048f;
   const std::int32_t cell = cell_of(x, 31);
   const float u = x - (static_cast<float>(cell) + 0.5f);
@@ -209,7 +212,7 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   }
 }
 
-inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+[[gnu::always_inline]] inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   const float w = specular - 0.500001f;
   float sum = terms.c4[i];
   sum = sum * w + terms.c3[i];
@@ -285,16 +288,30 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// Square roots of a row, four at once: compilers make no vectors of std::sqrt, which may report an error, unless told that
+// nobody asks (-fno-math-errno).
+template <class Count>
+inline void take_roots(Count count, float* row) noexcept {
+  const std::size_t size = count;
+  std::size_t done = 0;
+#if defined(__SSE__) || defined(_M_X64)
+  done = size / 4 * 4;
+  for (std::size_t i = 0; i < done; i += 4) _mm_storeu_ps(row + i, _mm_sqrt_ps(_mm_loadu_ps(row + i)));
+#endif
+  for (std::size_t i = done; i < size; ++i) row[i] = std::sqrt(row[i]);
+}
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{0.01f, 1.0f, 0.0f, 1.0f, 1.0f};
-  static float alpha_of(float own) noexcept { return own; }
-  static float own_of(float alpha) noexcept { return std::sqrt(alpha); }
+  static constexpr bool source_root = false, target_root = true;  // whether roots are taken
+  [[gnu::always_inline]] static float alpha_of(float own) noexcept { return own; }
+  [[gnu::always_inline]] static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
-  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+  [[gnu::always_inline]] static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
-  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::target_specular(terms, i, specular);
   }
   template <class Count>
@@ -367,7 +384,26 @@ inline Bits look_at_texels(Count count, const Mapping& mapping, const float* wid
     store(block.outside + i, clamped.outside | outside);
     channels = channels | outside;
   }
+  if constexpr (Mapping::source_root) take_roots(count, block.terms.alpha);
   return channels;
+}
+
+// A row of target alphas as the target's own parameter.
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* alphas, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  if constexpr (Mapping::target_root) take_roots(count, alphas);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(alphas + i)), nan));
+  }
 }
 
 // The largest channel.
@@ -420,9 +456,9 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    store(out + i, mapping.target_alpha(block.terms, i, top));
   }
+  store_widths(count, mapping, out, out, block);
 }
 
 template <bool kInside, class Count>

@@ -22,6 +22,9 @@
 #include <cstring>
 #include <type_traits>
 #include <utility>
+#if defined(__SSE__) || defined(_M_X64)
+#include <xmmintrin.h>
+#endif
 
 #if defined(__clang__)  // silences the warning about loops that cannot be vectorised
 #pragma clang diagnostic push
@@ -48,7 +51,7 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float specular) noexcept {
+[[gnu::always_inline]] inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
   float c0 = 329.78226f;
@@ -207,14 +210,14 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   }
 }
 
-inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+[[gnu::always_inline]] inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
   return sum;
 }
 
 // Target alpha where target specular is at its limit.
-inline float bright_alpha(float alpha, float specular) noexcept {
+[[gnu::always_inline]] inline float bright_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.8975864f;
   float c0 = 1.1721429f;
   c0 = c0 * u + -0.15303321f;
@@ -300,6 +303,19 @@ inline Float clamped_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// Square roots of a row, four at once: compilers make no vectors of std::sqrt, which may report an error, unless told that
+// nobody asks (-fno-math-errno).
+template <class Count>
+inline void take_roots(Count count, float* row) noexcept {
+  const std::size_t size = count;
+  std::size_t done = 0;
+#if defined(__SSE__) || defined(_M_X64)
+  done = size / 4 * 4;
+  for (std::size_t i = 0; i < done; i += 4) _mm_storeu_ps(row + i, _mm_sqrt_ps(_mm_loadu_ps(row + i)));
+#endif
+  for (std::size_t i = done; i < size; ++i) row[i] = std::sqrt(row[i]);
+}
+
 // A number from 0, clamped to the least and at the largest that it may be.
 inline Float clamped_above(Float value, Float least) noexcept {
   return float_from_bits(larger(bits(value), bits(least)));
@@ -319,13 +335,14 @@ inline Float between(Float from, Float to, Float share) noexcept { return from +
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{0.0f, 19998.0f, 0.0f, 1.0f, 1.0f};
-  static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
-  static float own_of(float alpha) noexcept { return alpha; }
+  static constexpr bool source_root = true, target_root = false;  // whether roots are taken
+  [[gnu::always_inline]] static float alpha_of(float own) noexcept { return 2.0f / (own + 2.0f); }
+  [[gnu::always_inline]] static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
-  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+  [[gnu::always_inline]] static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
-  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::target_specular(terms, i, specular);
   }
   template <class Count>
@@ -336,10 +353,10 @@ struct Mapping {
   static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
   static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
   static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
-  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::target_specular(terms, i, specular);
   }
-  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::bright_alpha(clamped_above(terms.source_alpha[i], 0.7951724f), clamped_above(specular, 0.63610727f));
   }
   template <class Count>
@@ -412,7 +429,26 @@ inline Bits look_at_texels(Count count, const Mapping& mapping, const float* wid
     store(block.outside + i, clamped.outside | outside);
     channels = channels | outside;
   }
+  if constexpr (Mapping::source_root) take_roots(count, block.terms.alpha);
   return channels;
+}
+
+// A row of target alphas as the target's own parameter.
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* alphas, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  if constexpr (Mapping::target_root) take_roots(count, alphas);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(alphas + i)), nan));
+  }
 }
 
 // The largest channel.
@@ -548,22 +584,6 @@ inline void use_bright_widths(Count count, const Mapping& mapping, Block& block)
   }
 }
 
-template <class Count>
-inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
-  }
-}
-
 template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
@@ -589,7 +609,7 @@ inline void convert_regimes(Count count, const Mapping& mapping, const float* co
                             float* const* specular_out, Block& block) noexcept {
   if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
     use_bright_widths(count, mapping, block);
-  store_widths(count, mapping, width_out, block);
+  store_widths(count, mapping, block.terms.width, width_out, block);
   for (std::size_t c = 0; c < Channels; ++c)
     convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }

@@ -45,7 +45,7 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float specular) noexcept {
+[[gnu::always_inline]] inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
   float c0 = -872.5809f;
@@ -206,7 +206,7 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   }
 }
 
-inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+[[gnu::always_inline]] inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
   return sum;
@@ -281,13 +281,14 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{0.01f, 1.0f, 0.0f, 1.0f, 1.0f};
-  static float alpha_of(float own) noexcept { return own; }
-  static float own_of(float alpha) noexcept { return alpha; }
+  static constexpr bool source_root = false, target_root = false;  // whether roots are taken
+  [[gnu::always_inline]] static float alpha_of(float own) noexcept { return own; }
+  [[gnu::always_inline]] static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
-  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+  [[gnu::always_inline]] static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
-  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  [[gnu::always_inline]] static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
     return detail::target_specular(terms, i, specular);
   }
   template <class Count>
@@ -360,7 +361,26 @@ inline Bits look_at_texels(Count count, const Mapping& mapping, const float* wid
     store(block.outside + i, clamped.outside | outside);
     channels = channels | outside;
   }
+  if constexpr (Mapping::source_root) take_roots(count, block.terms.alpha);
   return channels;
+}
+
+// A row of target alphas as the target's own parameter.
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* alphas, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  if constexpr (Mapping::target_root) take_roots(count, alphas);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(alphas + i)), nan));
+  }
 }
 
 // The largest channel.
@@ -413,9 +433,9 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    store(out + i, mapping.target_alpha(block.terms, i, top));
   }
+  store_widths(count, mapping, out, out, block);
 }
 
 template <bool kInside, class Count>

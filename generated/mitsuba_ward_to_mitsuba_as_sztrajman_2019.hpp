@@ -47,7 +47,7 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
+[[gnu::always_inline]] inline float target_alpha(float alpha) noexcept {
   const float u = alpha - 0.5000011f;
   const float u_2 = u * u;
   float c0 = 0.25f;
@@ -60,7 +60,7 @@ inline float target_alpha(float alpha) noexcept {
 }
 
 // The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
+[[gnu::always_inline]] inline float specular_slope(float alpha) noexcept {
   const float u = alpha - 0.5000011f;
   const float u_2 = u * u;
   float c1 = 0.9890077f;
@@ -143,10 +143,11 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{0.01f, 0.99f, 0.0f, 0.2324f, 4.302926f};
-  static float alpha_of(float own) noexcept { return own; }
-  static float own_of(float alpha) noexcept { return alpha; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool source_root = false, target_root = false;  // whether roots are taken
+  [[gnu::always_inline]] static float alpha_of(float own) noexcept { return own; }
+  [[gnu::always_inline]] static float own_of(float alpha) noexcept { return alpha; }
+  [[gnu::always_inline]] static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
+  [[gnu::always_inline]] static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
 };
 
 template <class Count>
@@ -171,6 +172,18 @@ template <class Count>
 inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  if constexpr (Mapping::source_root) {
+    #if defined(__clang__)
+    #pragma clang loop vectorize(assume_safety)
+    #elif defined(__GNUC__)
+    #pragma GCC ivdep
+    #elif defined(_MSC_VER)
+    #pragma loop(ivdep)
+    #endif
+    for (std::size_t i = 0; i < size; i += kLanes)
+      store(block.slope + i, mapping.alpha_of(clamped_width(domain, load(in + i)).own));
+    take_roots(count, block.slope);
+  }
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -180,10 +193,25 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const ClampedWidth clamped = clamped_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(clamped.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), clamped.nan));
+    const Float alpha = Mapping::source_root ? load(block.slope + i) : mapping.alpha_of(clamped.own);
+    const Float target = mapping.target_alpha(alpha, i);
+    store(out + i, Mapping::target_root ? target : with_nan(mapping.own_of(target), clamped.nan));
     store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), clamped.nan));
     store(block.outside + i, clamped.outside);
+  }
+  if constexpr (Mapping::target_root) {
+    take_roots(count, out);
+    #if defined(__clang__)
+    #pragma clang loop vectorize(assume_safety)
+    #elif defined(__GNUC__)
+    #pragma GCC ivdep
+    #elif defined(_MSC_VER)
+    #pragma loop(ivdep)
+    #endif
+    for (std::size_t i = 0; i < size; i += kLanes) {
+      const Bits nan = above(bits(load(block.slope + i)) & 0x7fffffffu, 0x7f800000u);
+      store(out + i, with_nan(mapping.own_of(load(out + i)), nan));
+    }
   }
 }
 

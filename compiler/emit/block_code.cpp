@@ -15,23 +15,24 @@ constexpr std::string_view kMapping = R"(
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{@width_min@, @width_max@, @specular_min@, @specular_max@, @inverse_edge@};
-  static float alpha_of(float own) noexcept { return @to_alpha@; }
-  static float own_of(float alpha) noexcept { return @from_alpha@; }
+  static constexpr bool source_root = @source_root@, target_root = @target_root@;  // whether roots are taken
+  [[gnu::always_inline]] static float alpha_of(float own) noexcept { return @to_alpha@; }
+  [[gnu::always_inline]] static float own_of(float alpha) noexcept { return @from_alpha@; }
   @functions@
 };
 )";
 
 constexpr std::string_view kProportionalFunctions =
-    R"(static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-static float specular_slope(float alpha, std::size_t) noexcept { return @slope@; }
+    R"([[gnu::always_inline]] static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
+[[gnu::always_inline]] static float specular_slope(float alpha, std::size_t) noexcept { return @slope@; }
 )";
 
 constexpr std::string_view kTermsFunctions =
     R"(static constexpr bool alpha_by_specular = @alpha_by_specular@;  // whether target alpha depends on specular
-static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+[[gnu::always_inline]] static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
   return detail::target_alpha(terms.alpha[i], top);
 }
-static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+[[gnu::always_inline]] static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   return detail::target_specular(terms, i, specular);
 }
 template <class Count>
@@ -45,10 +46,10 @@ constexpr std::string_view kRegimeFunctions =
 static constexpr float alpha_limit = @alpha_limit@, specular_limit = @specular_limit@;
 static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
 static constexpr float mapping_to = @mapping_to@;  // the mapping has reached the limit of alpha before
-static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+[[gnu::always_inline]] static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   return @wide_specular@;
 }
-static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+[[gnu::always_inline]] static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
   return @bright_alpha@;
 }
 template <class Count>
@@ -73,8 +74,9 @@ std::string regime_call(const std::string& name, const std::optional<LoweredSeri
          clamped("specular", regime->specular_from) + ")";
 }
 
+std::string truth(bool value) { return value ? "true" : "false"; }
+
 std::string regime_functions(const Lowered& lowered) {
-  const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
   const auto wide = lowered.wide ? std::optional(lowered.wide->specular) : std::nullopt;
   std::optional<float> mapping_to;
   if (lowered.wide) mapping_to = lowered.wide->mapping_to;
@@ -100,7 +102,7 @@ bool alpha_depends_on_specular(const Lowered& lowered) {
 }
 
 RuleParts parts_of(const ConverterData& converter, const MappingCode& code) {
-  const std::string by_specular = alpha_depends_on_specular(converter.lowered) ? "true" : "false";
+  const std::string by_specular = truth(alpha_depends_on_specular(converter.lowered));
   switch (code.form) {
     case CodeForm::kProportional:
       return {fill_template(kProportionalFunctions,
@@ -123,14 +125,19 @@ RuleParts parts_of(const ConverterData& converter, const MappingCode& code) {
 std::string block_code(const ConverterData& converter, const MappingCode& code) {
   const ConverterInfo& info = converter.info;
   const RuleParts parts = parts_of(converter, code);
-  return code_files({"lanes", "domain"}) + (code.form == CodeForm::kRegimes ? code_files({"limits"}) : "") +
+  const ConventionText source = convention_text(info.source.roughness),
+                       target = convention_text(info.target.roughness);
+  return code_files({"lanes", "domain"}) + (takes_roots(info) ? code_files({"roots"}) : "") +
+         (code.form == CodeForm::kRegimes ? code_files({"limits"}) : "") +
          fill_template(kMapping, {{"width_min", literal(info.roughness.min)},
                                   {"width_max", literal(info.roughness.max)},
                                   {"specular_min", literal(info.specular.min)},
                                   {"specular_max", literal(info.specular.max)},
                                   {"inverse_edge", literal(1.0 / info.specular.max)},
-                                  {"to_alpha", convention_text(info.source.roughness).to_alpha},
-                                  {"from_alpha", convention_text(info.target.roughness).from_alpha},
+                                  {"source_root", truth(source.alpha_is_root)},
+                                  {"target_root", truth(target.takes_root)},
+                                  {"to_alpha", source.to_alpha},
+                                  {"from_alpha", target.from_alpha},
                                   {"functions", parts.functions}}) +
          code_files({"count_outside"}) + parts.loops;
 }

@@ -59,18 +59,10 @@ std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<flo
   return text;
 }
 
-bool takes_roots(const ConverterData& converter) {
-  const auto has_root = [](std::string_view expression) {
-    return expression.find("std::sqrt") != std::string_view::npos;
-  };
-  return has_root(convention_text(converter.info.source.roughness).to_alpha) ||
-         has_root(convention_text(converter.info.target.roughness).from_alpha);
-}
-
 // What a header has of its own within the frame.
 struct Body {
   std::vector<std::string> includes;
-  std::string detail, constants, text;
+  std::string more_includes, detail, constants, text;
 };
 
 Body body_of(const HeaderData& data, const ConverterData& converter) {
@@ -81,7 +73,10 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
   };
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "type_traits", "utility"};
-  if (takes_roots(converter)) body.includes.insert(body.includes.begin(), "cmath");
+  if (takes_roots(info)) {
+    body.includes.insert(body.includes.begin(), "cmath");
+    body.more_includes = code_file("root_includes");
+  }
   body.detail = code_files({"converter_bits"}) + code.functions + block_code(converter, code) +
                 code_files({"converter_rows", "strided"});
   body.constants = fill_template(code_file("converter_constants"),
@@ -108,6 +103,7 @@ Body body_of(const HeaderData& data, const Material& material) {
   const auto name = [](const MaterialParameter& parameter) { return parameter.name; };
   return {
       {"array", "cmath", "cstddef", "cstdint", "cstring", "type_traits", "utility"},
+      "",
       code.functions +
           fill_template(code_file("material_rows"), {{"block", code.block},
                                                      {"call", code.call},
@@ -177,6 +173,7 @@ std::string fill(const HeaderData& data) {
                                             {"provenance", comment_lines(data.provenance)},
                                             {"guard", guard_of(data.id)},
                                             {"includes", joined(body.includes, "", include)},
+                                            {"more_includes", body.more_includes},
                                             {"detail", body.detail},
                                             {"source", data.source.model},
                                             {"source_width", data.source.width},

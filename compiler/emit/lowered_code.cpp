@@ -12,12 +12,12 @@ namespace {
 constexpr std::string_view kFunction = R"(
 @comment@
 @table@
-inline float @name@(@parameters@) noexcept {
+[[gnu::always_inline]] inline float @name@(@parameters@) noexcept {
   @statements@
 }
 )";
 
-// An inline function of floats. Its statements end with a return.
+// A function of floats, without which a loop that calls it is no vector. Its statements end with a return.
 struct FunctionParts {
   std::string comment, table;  // before it; empty for none
   std::string name;

@@ -86,18 +86,41 @@ auto float_row(const BasicChannelView<Byte>& view, const Segment& segment) {
   return is_array ? reinterpret_cast<Float*>(first) : nullptr;
 }
 
-// The first texel of a segment of a color, if its floats stand side by side and hold linear values; else
-// null.
-template <typename View>
-auto interleaved_floats(const std::vector<View>& channels, Transfer transfer, const Segment& segment) {
-  using Byte = decltype(at(channels[0], 0, 0));
-  if (channels.size() != kMaxChannels || transfer != Transfer::kLinear) return Byte{nullptr};
-  const Byte first = at(channels[0], segment.x, segment.y);
-  for (std::size_t c = 0; c < kMaxChannels; ++c)
-    if (channels[c].type != PixelType::kFloat || channels[c].texel_stride != kMaxChannels * sizeof(float) ||
-        at(channels[c], segment.x, segment.y) != first + c * sizeof(float))
-      return Byte{nullptr};
-  return first;
+template <typename Byte>
+struct PlacedView {
+  Parameter parameter;
+  std::size_t channel;
+  BasicChannelView<Byte> view;
+};
+
+// Linear floats that stand side by side in every texel, three or four, and fill it: they are moved at once.
+template <typename Byte>
+struct Texels {
+  std::vector<PlacedView<Byte>> channels;
+
+  Byte* at(const Segment& segment) const { return remap::at(channels[0].view, segment.x, segment.y); }
+};
+
+// The texels that channels of floats fill together.
+template <typename Byte>
+std::vector<Texels<Byte>> filled_texels(const std::vector<PlacedView<Byte>>& channels) {
+  std::vector<Texels<Byte>> all;
+  for (const PlacedView<Byte>& first : channels) {
+    const auto size = static_cast<std::size_t>(first.view.texel_stride) / sizeof(float);
+    if (first.view.texel_stride != 3 * sizeof(float) && first.view.texel_stride != 4 * sizeof(float))
+      continue;
+    Texels<Byte> texels;
+    for (std::size_t c = 0; c < size; ++c) {
+      const auto next = std::ranges::find_if(channels, [&](const PlacedView<Byte>& other) {
+        return other.view.first == first.view.first + c * sizeof(float) &&
+               other.view.texel_stride == first.view.texel_stride &&
+               other.view.row_stride == first.view.row_stride;
+      });
+      if (next != channels.end()) texels.channels.push_back(*next);
+    }
+    if (texels.channels.size() == size) all.push_back(std::move(texels));
+  }
+  return all;
 }
 
 class Conversion {
@@ -120,7 +143,8 @@ class Conversion {
                     float* values) const;
   const float* row_of_map(const SourceParameter& parameter, std::size_t channel,
                           const Segment& segment) const;
-  bool load_at_once(Parameter parameter, const Segment& segment, Scratch& scratch) const;
+  void find_texels();
+  void load_texels(const Segment& segment, Scratch& scratch) const;
   void refer_to_targets(const Segment& segment, Scratch& scratch) const;
   bool is_source_of_another(Parameter target, std::size_t channel, const float* row, std::size_t count,
                             const Scratch& scratch) const;
@@ -142,7 +166,19 @@ class Conversion {
   const Converter& converter_;
   const MapConversion& maps_;
   std::vector<Parameter> sources_;  // of the converter, as far as the maps have them
+  std::vector<Texels<const std::byte>> source_texels_;
+  std::vector<Texels<std::byte>> target_texels_;
 };
+
+// Whether a channel is moved with others.
+template <typename Byte>
+bool is_in(const std::vector<Texels<Byte>>& all, Parameter parameter, std::size_t channel) {
+  return std::ranges::any_of(all, [&](const Texels<Byte>& texels) {
+    return std::ranges::any_of(texels.channels, [&](const PlacedView<Byte>& placed) {
+      return placed.parameter == parameter && placed.channel == channel;
+    });
+  });
+}
 
 std::size_t channel_count(const SourceParameter& parameter) {
   return parameter.channels.empty() ? parameter.constants.size() : parameter.channels.size();
@@ -152,6 +188,7 @@ Conversion::Conversion(const Converter& converter, const MapConversion& maps)
     : converter_(converter), maps_(maps), sources_(converter.sources()) {
   if (maps.sources.count(Parameter::kMetalMask) > 0) sources_.push_back(Parameter::kMetalMask);
   require_fitting();
+  find_texels();
 }
 
 void Conversion::require_fitting() const {
@@ -219,16 +256,32 @@ void Conversion::load_channel(const SourceParameter& parameter, std::size_t chan
   for (std::size_t i = 0; i < segment.count; ++i) values[i] *= factor;
 }
 
-// Loads every channel of a color, where its memory allows that; else returns false.
-bool Conversion::load_at_once(Parameter parameter, const Segment& segment, Scratch& scratch) const {
-  const SourceParameter& source = maps_.sources.at(parameter);
-  const std::byte* const texels = interleaved_floats(source.channels, source.transfer, segment);
-  const bool is_as_stored = source.factor(0) == 1.0f && source.factor(1) == 1.0f && source.factor(2) == 1.0f;
-  if (!is_color(parameter) || texels == nullptr || !is_as_stored) return false;
-  load_interleaved(texels, segment.count,
-                   {scratch.source.own_row(parameter, 0), scratch.source.own_row(parameter, 1),
-                    scratch.source.own_row(parameter, 2)});
-  return true;
+void Conversion::find_texels() {
+  std::vector<PlacedView<const std::byte>> sources;
+  for (const Parameter parameter : sources_) {
+    const SourceParameter& source = maps_.sources.at(parameter);
+    const std::size_t count = std::min(source.channels.size(), is_color(parameter) ? kMaxChannels : 1);
+    for (std::size_t c = 0; c < count; ++c)
+      if (source.channels[c].type == PixelType::kFloat && source.transfer == Transfer::kLinear &&
+          source.factor(c) == 1.0f)
+        sources.push_back({parameter, c, source.channels[c]});
+  }
+  std::vector<PlacedView<std::byte>> targets;
+  for (const auto& [parameter, target] : maps_.targets)
+    for (std::size_t c = 0; c < target.channels.size(); ++c)
+      if (target.channels[c].type == PixelType::kFloat && target.transfer == Transfer::kLinear)
+        targets.push_back({parameter, c, target.channels[c]});
+  source_texels_ = filled_texels(sources);
+  target_texels_ = filled_texels(targets);
+}
+
+void Conversion::load_texels(const Segment& segment, Scratch& scratch) const {
+  for (const Texels<const std::byte>& texels : source_texels_) {
+    std::vector<float*> rows;
+    for (const auto& placed : texels.channels)
+      rows.push_back(scratch.source.own_row(placed.parameter, placed.channel));
+    load_interleaved(texels.at(segment), segment.count, rows);
+  }
 }
 
 // Writes rows of a map in place of own ones where the map holds floats as they are and no source row that is
@@ -302,19 +355,20 @@ ParameterStatistics Conversion::value_statistics(std::size_t count, const float*
 
 void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
   for (const Parameter parameter : sources_) {
-    const SourceParameter& source = maps_.sources.at(parameter);
-    const std::size_t count = is_color(parameter) ? channel_count(source) : 1;
     if (!is_color(parameter)) require_grey(parameter, segment, scratch);
-    scratch.source.make(parameter, count);
+    scratch.source.make(parameter, is_color(parameter) ? channel_count(maps_.sources.at(parameter)) : 1);
+  }
+  load_texels(segment, scratch);
+  for (const Parameter parameter : sources_) {
+    const SourceParameter& source = maps_.sources.at(parameter);
     const bool changes =
         maps_.bad_texels == BadTexels::kClamp ||
         (parameter == Parameter::kRoughness && source_convention() != converter_.info().source.roughness);
-    const bool is_loaded = load_at_once(parameter, segment, scratch);
-    for (std::size_t c = 0; c < count; ++c) {
+    for (std::size_t c = 0; c < scratch.source.count(parameter); ++c) {
       const float* const stored = changes ? nullptr : row_of_map(source, c, segment);
       if (stored != nullptr)
         scratch.source.refer(parameter, c, stored);
-      else if (!is_loaded)
+      else if (!is_in(source_texels_, parameter, c))
         load_channel(source, c, segment, scratch.source.own_row(parameter, c));
       if (maps_.value_statistics)
         statistics.sources[parameter] +=
@@ -419,19 +473,21 @@ void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStat
             value_statistics(segment.count, scratch.target.row(parameter, c), scratch);
     const TargetParameter* target = wanted(parameter);
     if (target == nullptr) continue;
-    if (std::byte* const texels = interleaved_floats(target->channels, target->transfer, segment)) {
-      const auto row = [&](std::size_t c) { return scratch.target.row(parameter, std::min(c, made - 1)); };
-      store_interleaved({row(0), row(1), row(2)}, segment.count, texels);
-      continue;
-    }
     std::size_t clipped = 0;
     for (std::size_t c = 0; c < target->channels.size(); ++c) {
+      if (is_in(target_texels_, parameter, c)) continue;
       const float* const row = scratch.target.row(parameter, std::min(c, made - 1));
       const bool is_there = row == float_row(target->channels[c], segment);
       const std::size_t own = is_there ? 0 : store_parameter(*target, c, segment, row, scratch.other);
       clipped = is_color(parameter) ? clipped + own : own;  // equal channels count once
     }
     statistics.clipped_count += clipped;
+  }
+  for (const Texels<std::byte>& texels : target_texels_) {
+    std::vector<const float*> rows;
+    for (const auto& [parameter, channel, view] : texels.channels)
+      rows.push_back(scratch.target.row(parameter, std::min(channel, scratch.target.count(parameter) - 1)));
+    store_interleaved(rows, segment.count, texels.at(segment));
   }
 }
 

@@ -1,13 +1,13 @@
-// Colors whose three floats stand side by side in every texel, as rows of one channel, and back.
+// Floats that stand side by side in every texel, as rows of one channel, and back.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <span>
 
 namespace remap {
 
-void load_interleaved(const std::byte* texels, std::size_t count, const std::array<float*, 3>& rows) noexcept;
-void store_interleaved(const std::array<const float*, 3>& rows, std::size_t count,
-                       std::byte* texels) noexcept;
+// Texels of as many floats as there are rows: three or four.
+void load_interleaved(const std::byte* texels, std::size_t count, std::span<float* const> rows) noexcept;
+void store_interleaved(std::span<const float* const> rows, std::size_t count, std::byte* texels) noexcept;
 
 }  // namespace remap

@@ -3,6 +3,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "convert/levels.hpp"
 #include "remap/pixels.hpp"
 
 namespace remap {
@@ -14,7 +15,7 @@ struct HalfBits {
 };
 
 template <typename Stored>
-float to_float(Stored stored) noexcept {
+constexpr float to_float(Stored stored) noexcept {
   if constexpr (std::is_same_v<Stored, HalfBits>) {
     return half_to_float(stored.bits);
   } else if constexpr (std::is_integral_v<Stored>) {
@@ -104,6 +105,19 @@ auto with_storage(PixelType type, Work work) noexcept {
   return work(float{});
 }
 
+constexpr Levels linear_levels() {
+  Levels::Values values{}, least{};
+  for (std::size_t i = 0; i < Levels::kCount; ++i) {
+    values[i] = to_float(static_cast<std::uint8_t>(i));
+    const double middle = static_cast<double>(i) + 0.5;
+    auto bits = __builtin_bit_cast(std::uint32_t, static_cast<float>(middle / 255.0)) - 1;
+    while (static_cast<double>(__builtin_bit_cast(float, bits)) * 255.0 < middle) ++bits;
+    least[i] = __builtin_bit_cast(float, bits);
+  }
+  return {values, least};
+}
+constexpr Levels kLinearLevels = linear_levels();
+
 }  // namespace
 
 std::size_t byte_count(PixelType type) noexcept {
@@ -116,11 +130,13 @@ bool is_integer(PixelType type) noexcept {
 
 void load_values(PixelType type, const std::byte* first, std::size_t stride, std::size_t count,
                  float* values) noexcept {
+  if (type == PixelType::kUint8) return kLinearLevels.load(first, stride, count, values);
   with_storage(type, [&](auto stored) { load<decltype(stored)>(first, stride, count, values); });
 }
 
 std::size_t store_values(PixelType type, const float* values, std::size_t count, std::byte* first,
                          std::size_t stride) noexcept {
+  if (type == PixelType::kUint8) return kLinearLevels.store(values, count, first, stride);
   return with_storage(type,
                       [&](auto stored) { return store<decltype(stored)>(values, count, first, stride); });
 }

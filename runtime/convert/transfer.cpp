@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "convert/levels.hpp"
 #include "convert/linear_values.hpp"
 #include "remap/pixels.hpp"
 
@@ -79,68 +80,18 @@ void change_all(std::span<float> values, Change change) noexcept {
 }
 
 // The curve for 8 bits.
-constexpr std::size_t kLevels = 256;
-
-constexpr std::array<float, kLevels> linear_levels() {
-  std::array<float, kLevels> values{};
-  for (std::size_t i = 0; i < kLevels; ++i)
+constexpr Levels srgb_levels() {
+  Levels::Values values{}, least{};
+  for (std::size_t i = 0; i < Levels::kCount; ++i) {
     values[i] = static_cast<float>(magnitude_to_linear(static_cast<double>(static_cast<float>(i) / 255.0f)));
-  return values;
-}
-
-// The least float of each next level: element i is the first one that is nearer to level i + 1.
-constexpr std::array<float, kLevels> next_levels() {
-  std::array<float, kLevels> least{};
-  for (std::size_t i = 0; i + 1 < kLevels; ++i) {
-    const double exact = magnitude_to_linear((static_cast<double>(i) + 0.5) / 255.0);
-    const auto rounded = static_cast<float>(exact);
-    const bool is_below = static_cast<double>(rounded) < exact;
+    const double middle = magnitude_to_linear((static_cast<double>(i) + 0.5) / 255.0);
+    const auto rounded = static_cast<float>(middle);
+    const bool is_below = static_cast<double>(rounded) < middle;
     least[i] = __builtin_bit_cast(float, __builtin_bit_cast(std::uint32_t, rounded) + is_below);
   }
-  least.back() = std::numeric_limits<float>::infinity();
-  return least;
+  return {values, least};
 }
-
-// Floats between 2^-13, which is below level 1, and 1, by the upper half of their bits. No element has floats
-// of more than two levels.
-constexpr int kHalfBits = 16;
-constexpr std::uint32_t kFirstHalf = __builtin_bit_cast(std::uint32_t, 0x1p-13f) >> kHalfBits;
-constexpr std::uint32_t kLastHalf = __builtin_bit_cast(std::uint32_t, 1.0f) >> kHalfBits;
-
-constexpr auto kLinearLevels = linear_levels();
-constexpr auto kNextLevels = next_levels();
-
-// The level of the least float of each element.
-constexpr std::array<std::uint8_t, kLastHalf - kFirstHalf + 1> first_levels() {
-  std::array<std::uint8_t, kLastHalf - kFirstHalf + 1> levels{};
-  std::uint8_t level = 0;
-  for (std::uint32_t i = 0; i < levels.size(); ++i) {
-    while (__builtin_bit_cast(float, (kFirstHalf + i) << kHalfBits) >= kNextLevels[level]) ++level;
-    levels[i] = level;
-  }
-  return levels;
-}
-constexpr auto kFirstLevels = first_levels();
-
-std::size_t store_srgb8(const float* values, std::size_t count, std::byte* first,
-                        std::size_t stride) noexcept {
-  std::size_t clipped = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float value = values[i];
-    const float low = value > 0.0f ? value : 0.0f;
-    const float within = low < 1.0f ? low : 1.0f;
-    clipped += within != value;
-    const std::uint32_t half = std::max(__builtin_bit_cast(std::uint32_t, within) >> kHalfBits, kFirstHalf);
-    const std::uint8_t level = kFirstLevels[half - kFirstHalf];
-    first[i * stride] = std::byte(level + (within >= kNextLevels[level]));
-  }
-  return clipped;
-}
-
-void load_srgb8(const std::byte* first, std::size_t stride, std::size_t count, float* values) noexcept {
-  for (std::size_t i = 0; i < count; ++i)
-    values[i] = kLinearLevels[std::to_integer<std::size_t>(first[i * stride])];
-}
+constexpr Levels kSrgbLevels = srgb_levels();
 
 }  // namespace
 
@@ -155,7 +106,7 @@ void from_linear(Transfer transfer, std::span<float> values) noexcept {
 void load_linear(Transfer transfer, PixelType type, const std::byte* first, std::size_t stride,
                  std::size_t count, float* values) noexcept {
   if (transfer == Transfer::kSrgb && type == PixelType::kUint8)
-    return load_srgb8(first, stride, count, values);
+    return kSrgbLevels.load(first, stride, count, values);
   load_values(type, first, stride, count, values);
   to_linear(transfer, {values, count});
 }
@@ -163,7 +114,7 @@ void load_linear(Transfer transfer, PixelType type, const std::byte* first, std:
 std::size_t store_linear(Transfer transfer, PixelType type, const float* values, std::size_t count,
                          std::byte* first, std::size_t stride) noexcept {
   if (transfer == Transfer::kLinear) return store_values(type, values, count, first, stride);
-  if (type == PixelType::kUint8) return store_srgb8(values, count, first, stride);
+  if (type == PixelType::kUint8) return kSrgbLevels.store(values, count, first, stride);
   std::array<float, 512> block;
   std::size_t clipped = 0;
   for (std::size_t begin = 0; begin < count; begin += block.size()) {

@@ -1,5 +1,6 @@
-"""scripts/bench headers REVISION [--json]: evaluate_batch<3> of the generated headers here against those of another revision, in its interface
-of today or in the one before, of five arguments.
+"""scripts/bench headers REVISION [--fits REVISION] [--json]: evaluate_batch<3> of the generated headers here against those of another
+revision, in its interface of today or in the one before, of five arguments. With --fits those here are what build/release/bin/remapc
+makes of the fits of a revision: then code is compared with code, not a fit with another.
 
 Both are built by g++ -O3 for x86-64-v3 and run in turns in one process on random texels: 4096 at a time, which stay in the cache, so
 that arithmetic counts. A figure is the best of some rounds.
@@ -48,13 +49,31 @@ CALL_BEFORE = """evaluate_batch<3>(count, in[0].data(), {in[1].data(), in[2].dat
 TEXELS, ROUNDS, REPEATS = 4096, 15, 24
 
 
-def identifiers(revision):
+def git(*words):
+    return subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+
+
+def files_of(revision, folder, suffix):
+    """The names of such files in a folder of a revision, without the suffix."""
+    listed = git("ls-tree", "--name-only", revision, folder + "/").split()
+    return {Path(name).stem for name in listed if name.endswith(suffix)}
+
+
+def headers_of_fits(revision, only, folder):
+    """Headers that the compiler here makes of the fits of a revision."""
+    for name in sorted(files_of(revision, "fits", ".json")):
+        if re.search(only, name):
+            fit = folder / f"{name}.json"
+            fit.write_text(git("show", f"{revision}:fits/{name}.json"))
+            if '"remap-fit"' in fit.read_text():
+                subprocess.run([ROOT / "build/release/bin/remapc", "emit", fit, "-o", folder], check=True, stdout=subprocess.DEVNULL)
+    return folder
+
+
+def identifiers(revision, here):
     """Converters of width and specular that both have."""
-    listed = subprocess.run(["git", "ls-tree", "--name-only", revision, "generated/"], cwd=ROOT, check=True,
-                            capture_output=True, text=True).stdout.split()
-    there = {Path(name).stem for name in listed if name.endswith(".hpp")}
-    return sorted(path.stem for path in (ROOT / "generated").glob("*.hpp")
-                  if path.stem in there and "kDomainMax" in path.read_text())
+    there = files_of(revision, "generated", ".hpp")
+    return sorted(path.stem for path in here.glob("*.hpp") if path.stem in there and "kDomainMax" in path.read_text())
 
 
 def library(folder, identifier, header):
@@ -70,12 +89,10 @@ def library(folder, identifier, header):
     return rows
 
 
-def rates(folder, identifier, revision):
+def rates(folder, identifier, revision, headers):
     """Texels a second: of the header of the revision on its domain, of the one here on the same, and on its own."""
-    text = subprocess.run(["git", "show", f"{revision}:generated/{identifier}.hpp"], cwd=ROOT, check=True,
-                          capture_output=True, text=True).stdout
-    before = library(folder / identifier / "before", identifier, text)
-    here = library(folder / identifier / "here", identifier, (ROOT / f"generated/{identifier}.hpp").read_text())
+    before = library(folder / identifier / "before", identifier, git("show", f"{revision}:generated/{identifier}.hpp"))
+    here = library(folder / identifier / "here", identifier, (headers / f"{identifier}.hpp").read_text())
     narrow, whole = (ctypes.c_float * 4)(), (ctypes.c_float * 4)()
     before.domain(narrow)
     here.domain(whole)
@@ -88,13 +105,15 @@ def main():
     options = argparse.ArgumentParser(prog="scripts/bench headers")
     options.add_argument("revision")
     options.add_argument("--json", action="store_true")
+    options.add_argument("--fits", metavar="REVISION", help="whose fits the headers here are made of")
     options.add_argument("--only", default="", metavar="REGEX", help="of the converters' ids")
     given = options.parse_args()
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for identifier in identifiers(given.revision):
+        headers = headers_of_fits(given.fits, given.only, Path(folder)) if given.fits else ROOT / "generated"
+        for identifier in identifiers(given.revision, headers):
             if re.search(given.only, identifier):
-                before, here, whole = rates(Path(folder), identifier, given.revision)
+                before, here, whole = rates(Path(folder), identifier, given.revision, headers)
                 rows.append({"id": identifier, "before": before, "here": here, "here_on_its_domain": whole,
                              "time_ratio": before / here})
                 print(f"\r{len(rows)} headers", end="", file=sys.stderr, flush=True)

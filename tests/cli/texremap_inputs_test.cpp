@@ -25,13 +25,6 @@ Words maps(const std::string& roughness, const std::string& specular) {
   return "--roughness " + roughness + " --specular " + specular + " -o out";
 }
 
-bool same_channel(const TestImage& a, const TestImage& b, int channel) {
-  for (int y = 0; y < a.spec.height; ++y)
-    for (int x = 0; x < a.spec.width; ++x)
-      if (a.at(x, y, channel) != b.at(x, y, channel)) return false;
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("texremap inputs: one channel of a packed map is converted, the others keep every bit") {

@@ -65,4 +65,12 @@ TestImage read_image(const std::filesystem::path& path) {
   return image;
 }
 
+bool same_channel(const TestImage& a, const TestImage& b, int channel) {
+  if (a.values.size() != b.values.size()) return false;
+  for (int y = 0; y < a.spec.height; ++y)
+    for (int x = 0; x < a.spec.width; ++x)
+      if (a.at(x, y, channel) != b.at(x, y, channel)) return false;
+  return true;
+}
+
 }  // namespace remap

@@ -35,4 +35,7 @@ OIIO::ImageSpec test_spec(int width, int height, const std::vector<std::string>&
 void write_image(const std::filesystem::path& path, const OIIO::ImageSpec& spec, const TexelFunction& texel);
 TestImage read_image(const std::filesystem::path& path);
 
+// Whether images of one size hold the same values in a channel.
+bool same_channel(const TestImage& a, const TestImage& b, int channel);
+
 }  // namespace remap

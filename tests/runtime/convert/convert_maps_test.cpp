@@ -19,25 +19,27 @@ namespace {
 
 constexpr std::size_t kWidth = 61, kHeight = 37;
 
-// Interleaved texels of roughness, red, green, blue and two foreign values, with padded rows.
+// Interleaved texels of roughness, red, green, blue and foreign values, with padded rows.
 struct Buffer {
-  static constexpr std::size_t kValues = 6, kRow = kWidth * kValues + 3;
-  std::vector<float> values = std::vector<float>(kRow * kHeight, -7.0f);
+  explicit Buffer(std::size_t values_a_texel = 6) : texel(values_a_texel) {}
 
-  float& at(std::size_t x, std::size_t y, std::size_t c) { return values[y * kRow + x * kValues + c]; }
+  std::size_t texel, row = kWidth * texel + 3;
+  std::vector<float> values = std::vector<float>(row * kHeight, -7.0f);
+
+  float& at(std::size_t x, std::size_t y, std::size_t c) { return values[y * row + x * texel + c]; }
   // If `flipped`, the first row is the last in memory.
   ChannelView channel(std::size_t c, bool flipped = false) {
-    ChannelView view = float_channel(&at(0, flipped ? kHeight - 1 : 0, c), kWidth, kValues);
-    view.row_stride = static_cast<std::ptrdiff_t>(kRow * sizeof(float)) * (flipped ? -1 : 1);
+    ChannelView view = float_channel(&at(0, flipped ? kHeight - 1 : 0, c), kWidth, texel);
+    view.row_stride = static_cast<std::ptrdiff_t>(row * sizeof(float)) * (flipped ? -1 : 1);
     return view;
   }
 };
 
-Buffer noisy_buffer() {
-  Buffer buffer;
+Buffer noisy_buffer(std::size_t values_a_texel = 6) {
+  Buffer buffer(values_a_texel);
   for (std::size_t y = 0; y < kHeight; ++y)
     for (std::size_t x = 0; x < kWidth; ++x)
-      for (std::size_t c = 0; c < Buffer::kValues; ++c)
+      for (std::size_t c = 0; c < values_a_texel; ++c)
         buffer.at(x, y, c) = noise(static_cast<int>(x), static_cast<int>(y), static_cast<int>(c));
   return buffer;
 }
@@ -71,7 +73,8 @@ TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any num
   const auto converter = make_interpreted_converter(example_fit());
   const bool in_place = GENERATE(false, true), flipped = GENERATE(false, true);
   const int threads = GENERATE(1, 3, 100);
-  Buffer from = noisy_buffer(), copy = from, to;
+  const std::size_t size = GENERATE(std::size_t{4}, std::size_t{6});
+  Buffer from = noisy_buffer(size), copy = from, to(size);
   const MapStatistics statistics =
       convert_maps(*converter, conversion(from, in_place ? from : to, flipped), threads);
   Buffer& result = in_place ? from : to;
@@ -81,8 +84,8 @@ TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any num
       const auto expected =
           converted(*converter, copy.at(x, y, 0), {copy.at(x, y, 1), copy.at(x, y, 2), copy.at(x, y, 3)});
       for (std::size_t c = 0; c < 4; ++c) REQUIRE(result.at(x, y, c) == expected[c]);
-      REQUIRE(result.at(x, y, 4) == (in_place ? copy.at(x, y, 4) : -7.0f));
-      REQUIRE(result.at(x, y, 5) == (in_place ? copy.at(x, y, 5) : -7.0f));
+      for (std::size_t c = 4; c < size; ++c)
+        REQUIRE(result.at(x, y, c) == (in_place ? copy.at(x, y, c) : -7.0f));
     }
   CHECK(result.values.back() == -7.0f);  // padding
 }
@@ -125,16 +128,24 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
   }
   const MapStatistics statistics = convert_maps(*converter, maps);
 
-  MapConversion strided = maps;  // with other memory, which holds the texels interleaved
-  std::vector<float> texels(4 * kWidth * kHeight), results(4 * kWidth * kHeight);
+  // The same with other memory, which holds the texels interleaved: the color alone, all four values, or
+  // others with them.
+  const std::size_t size = GENERATE(std::size_t{3}, std::size_t{4}, std::size_t{5});
+  const std::size_t color =
+      size == 3 ? kWidth * kHeight : 1;  // behind a plane of roughness, or behind a texel's own
+  const auto place = [&](std::size_t i, std::size_t c) {
+    return c == 0 ? (size == 3 ? i : size * i) : color + size * i + c - 1;
+  };
+  MapConversion strided = maps;
+  std::vector<float> texels(5 * kWidth * kHeight), results(5 * kWidth * kHeight);
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t i = 0; i < kWidth * kHeight; ++i)
-      std::memcpy(&texels[4 * i + c], copy.data() + misplaced + c * kPlane + i * sizeof(float),
+      std::memcpy(&texels[place(i, c)], copy.data() + misplaced + c * kPlane + i * sizeof(float),
                   sizeof(float));
     const Parameter parameter = c == 0 ? Parameter::kRoughness : Parameter::kSpecular;
-    const std::size_t channel = c == 0 ? 0 : c - 1;
-    strided.sources[parameter].channels[channel] = float_channel(texels.data() + c, kWidth, 4);
-    strided.targets[parameter].channels[channel] = float_channel(results.data() + c, kWidth, 4);
+    const std::size_t channel = c == 0 ? 0 : c - 1, step = place(1, c) - place(0, c);
+    strided.sources[parameter].channels[channel] = float_channel(&texels[place(0, c)], kWidth, step);
+    strided.targets[parameter].channels[channel] = float_channel(&results[place(0, c)], kWidth, step);
   }
   const MapStatistics expected = convert_maps(*converter, strided);
   CHECK(statistics.out_of_domain_count == expected.out_of_domain_count);
@@ -147,7 +158,7 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
   for (std::size_t c = 0; c < 4; ++c)
     for (std::size_t y = 0; y < kHeight; ++y)
       for (std::size_t x = 0; x < kWidth; ++x)
-        REQUIRE(std::memcmp(at(target_plane(c), x, y), &results[4 * (y * kWidth + x) + c], sizeof(float)) ==
+        REQUIRE(std::memcmp(at(target_plane(c), x, y), &results[place(y * kWidth + x, c)], sizeof(float)) ==
                 0);
 }
 

@@ -12,8 +12,6 @@ using namespace workflow_test;
 
 namespace {
 
-const WorkflowFormula kClean = Projection{kCleanPrior};
-
 double squared(double value) { return value * value; }
 
 struct FamilyError {

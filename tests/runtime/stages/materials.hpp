@@ -13,6 +13,8 @@ namespace workflow_test {
 
 using Rgb = std::array<double, 3>;
 
+inline const remap::WorkflowFormula kClean = remap::Projection{remap::kCleanPrior};
+
 // As a map of 8 bits in sRGB holds it.
 inline double in_8_bits(double linear) {
   return remap::srgb_to_linear(std::round(255.0 * remap::linear_to_srgb(linear)) / 255.0);

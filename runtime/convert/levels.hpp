@@ -1,0 +1,68 @@
+// The 256 levels of an 8-bit map as tables: what each is worth, and the nearest of every float. The same for
+// any rising curve whose levels are at least 2^-8 of their value apart.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace remap {
+
+class Levels {
+ public:
+  static constexpr std::size_t kCount = 256;
+  using Values = std::array<float, kCount>;
+
+  // `values`: of the levels. `least`: element i is the least float that is nearer to level i + 1 than to
+  // level i; the last is beyond 1.
+  constexpr Levels(const Values& values, const Values& least) : values_(values) {
+    std::uint64_t level = 0;
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
+      while (__builtin_bit_cast(float, (kFirstStep + i) << kStepBits) >= least[level]) ++level;
+      steps_[i] = ((level + 1) << 32) - __builtin_bit_cast(std::uint32_t, least[level]);
+    }
+  }
+
+  void load(const std::byte* first, std::size_t stride, std::size_t count, float* values) const noexcept {
+    for (std::size_t i = 0; i < count; ++i)
+      values[i] = values_[std::to_integer<std::size_t>(first[i * stride])];
+  }
+
+  // Clips values to [0, 1], NaN to 0. Returns the number of values that were clipped.
+  std::size_t store(const float* values, std::size_t count, std::byte* first,
+                    std::size_t stride) const noexcept {
+    std::array<std::uint32_t, 512> block;
+    std::uint32_t clipped = 0;
+    for (std::size_t begin = 0; begin < count; begin += block.size()) {
+      const std::size_t size = std::min(block.size(), count - begin);
+      for (std::size_t i = 0; i < size; ++i) {
+        const float value = values[begin + i];
+        const bool is_high_enough = value >= 0.0f, is_low_enough = value <= 1.0f;
+        clipped += !(is_high_enough & is_low_enough);
+        const float raised = value > kLeast ? value : kLeast;
+        block[i] = __builtin_bit_cast(std::uint32_t, raised < 1.0f ? raised : 1.0f);
+      }
+      for (std::size_t i = 0; i < size; ++i)
+        first[(begin + i) * stride] =
+            static_cast<std::byte>((steps_[(block[i] >> kStepBits) - kFirstStep] + block[i]) >> 32);
+    }
+    return clipped;
+  }
+
+ private:
+  // Floats from 2^-13, which is below the middle of levels 0 and 1, to 1, by the upper half of their bits. No
+  // step has floats of more than two levels.
+  static constexpr float kLeast = 0x1p-13f;
+  static constexpr int kStepBits = 16;
+  static constexpr std::uint32_t kFirstStep = __builtin_bit_cast(std::uint32_t, kLeast) >> kStepBits;
+  static constexpr std::uint32_t kSteps =
+      (__builtin_bit_cast(std::uint32_t, 1.0f) >> kStepBits) - kFirstStep + 1;
+
+  Values values_;
+  // Of each step, the level of its least float, times 2^32, and what the bits of a float of the next level
+  // fill up to 2^32.
+  std::array<std::uint64_t, kSteps> steps_{};
+};
+
+}  // namespace remap
