@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "support/loaded_program.hpp"
 #include "support/skip.hpp"
 
 namespace {
@@ -91,6 +92,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (session.applyCommandLine(argc, argv) != 0) return 1;
+  remap::load_program();
   // A name that matches no case is an error: ctest would count it as passed.
   session.configData().warnings =
       static_cast<Catch::WarnAbout::What>(session.configData().warnings | Catch::WarnAbout::NoTests);

@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kParts = ".texremap-parts";
+// A plan names the program that makes it.
+const Words kByItsFile = "/usr/bin/env " REMAP_TEXREMAP;
 const std::string kOfManifest = "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/as -o ";
 
 // Sets of several sizes, folders, formats, and one with tiles.
@@ -304,7 +306,7 @@ TEST_CASE("texremap parts: plans name every part, and refuse what would fail in 
   index(tree);
   const Words options = Words("-- --from mitsuba/ward --to mitsuba/as -o") + Words{std::string("o u t")};
   const Words plan_words = "plan commands --manifest sets.jsonl --parts 3 -o plan";
-  const ProcessResult plan = tree.texremap(plan_words + options);
+  const ProcessResult plan = tree.run(kByItsFile + plan_words + options);
   INFO(plan.errors);
   CHECK(plan.exit_code == 0);
   CHECK_FALSE(exists(tree, "o u t"));
@@ -447,7 +449,7 @@ TEST_CASE("texremap parts: plans hand out assets as they hand out sets") {
   write_assets(tree);
   REQUIRE(tree.texremap("index in --assets -o assets.jsonl").exit_code == 0);
   const ProcessResult plan =
-      tree.texremap("plan commands --manifest assets.jsonl --parts 2 -o plan -- --to gltf -o out");
+      tree.run(kByItsFile + "plan commands --manifest assets.jsonl --parts 2 -o plan -- --to gltf -o out");
   INFO(plan.errors);
   REQUIRE(plan.exit_code == 0);
   CHECK_THAT(plan.errors, Contains("4 assets in 2 parts"));

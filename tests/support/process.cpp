@@ -1,5 +1,6 @@
 #include "support/process.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <fstream>
@@ -9,7 +10,10 @@
 #include <stdexcept>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
+
+#include "support/loaded_program.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -49,7 +53,14 @@ std::string ProcessResult::last_error() const {
   return line == std::string::npos ? text : text.substr(line + 1);
 }
 
-Process::Process(const Words& arguments, const ProcessLimits& limits) {
+// A copy would keep what root may do: only exec takes it away.
+Process::Process(const Words& arguments, const ProcessLimits& limits)
+    : is_copy_(is_loaded(arguments[0]) && !limits.keeps_permissions) {
+  if (is_copy_) {
+    pid_ = start_loaded({arguments, limits.folder, folder_.path() / "output", folder_.path() / "errors",
+                         limits.file_bytes.value_or(RLIM_INFINITY)});
+    return;
+  }
   std::vector<std::string> words = arguments;
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -70,13 +81,15 @@ void Process::send(int signal) const {
   if (!result_) ::kill(pid_, signal);
 }
 
-bool Process::is_running() {
-  if (result_) return false;
+bool Process::is_running() { return !result_ && !collect_if_ended(); }
+
+bool Process::collect_if_ended() {
   int status = 0;
   rusage usage{};
-  if (::wait4(pid_, &status, WNOHANG, &usage) == 0) return true;
-  collect(status, usage.ru_maxrss);
-  return false;
+  const bool ended =
+      is_copy_ ? has_ended(pid_, status, usage) : ::wait4(pid_, &status, WNOHANG, &usage) == pid_;
+  if (ended) collect(status, usage.ru_maxrss);
+  return ended;
 }
 
 bool Process::catches(int signal) const {
@@ -88,12 +101,7 @@ bool Process::catches(int signal) const {
 }
 
 ProcessResult Process::wait() {
-  if (!result_) {
-    int status = 0;
-    rusage usage{};
-    if (::wait4(pid_, &status, 0, &usage) != pid_) throw std::runtime_error("wait failed");
-    collect(status, usage.ru_maxrss);
-  }
+  while (is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return *result_;
 }
 

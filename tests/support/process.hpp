@@ -58,8 +58,10 @@ class Process {
 
  private:
   TemporaryFolder folder_;
+  bool is_copy_;  // of a program that is loaded (support/loaded_program.hpp)
   pid_t pid_ = -1;
   std::optional<ProcessResult> result_;
+  bool collect_if_ended();
   void collect(int status, long peak_kilobytes);
 };
 
