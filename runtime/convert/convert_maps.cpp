@@ -101,7 +101,7 @@ struct Texels {
   Byte* at(const Segment& segment) const { return remap::at(channels[0].view, segment.x, segment.y); }
 };
 
-// The texels that channels of floats fill together.
+// The texels that channels of floats fill together. Of parameters with the same map each has its own.
 template <typename Byte>
 std::vector<Texels<Byte>> filled_texels(const std::vector<PlacedView<Byte>>& channels) {
   std::vector<Texels<Byte>> all;
@@ -111,12 +111,14 @@ std::vector<Texels<Byte>> filled_texels(const std::vector<PlacedView<Byte>>& cha
       continue;
     Texels<Byte> texels;
     for (std::size_t c = 0; c < size; ++c) {
-      const auto next = std::ranges::find_if(channels, [&](const PlacedView<Byte>& other) {
-        return other.view.first == first.view.first + c * sizeof(float) &&
-               other.view.texel_stride == first.view.texel_stride &&
-               other.view.row_stride == first.view.row_stride;
-      });
-      if (next != channels.end()) texels.channels.push_back(*next);
+      const PlacedView<Byte>* next = nullptr;
+      for (const PlacedView<Byte>& other : channels)
+        if (other.view.first == first.view.first + c * sizeof(float) &&
+            other.view.texel_stride == first.view.texel_stride &&
+            other.view.row_stride == first.view.row_stride &&
+            (next == nullptr || other.parameter == first.parameter))
+          next = &other;
+      if (next != nullptr) texels.channels.push_back(*next);
     }
     if (texels.channels.size() == size) all.push_back(std::move(texels));
   }

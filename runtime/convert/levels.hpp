@@ -1,11 +1,12 @@
 // The 256 levels of an 8-bit map as tables: what each is worth, and the nearest of every float. The same for
-// any rising curve whose levels are at least 2^-8 of their value apart.
+// any rising curve whose levels are further apart than 128th parts of a power of two.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 
 namespace remap {
 
@@ -15,11 +16,14 @@ class Levels {
   using Values = std::array<float, kCount>;
 
   // `values`: of the levels. `least`: element i is the least float that is nearer to level i + 1 than to
-  // level i; the last is beyond 1.
+  // level i; the last is beyond 1. Throws, which no constant does, where a step has three levels.
   constexpr Levels(const Values& values, const Values& least) : values_(values) {
     std::uint64_t level = 0;
     for (std::uint32_t i = 0; i < kSteps; ++i) {
       while (__builtin_bit_cast(float, (kFirstStep + i) << kStepBits) >= least[level]) ++level;
+      const float last = __builtin_bit_cast(float, (kFirstStep + i + 1) << kStepBits);
+      if (level + 1 < kCount && last > least[level + 1])
+        throw std::logic_error("levels: too near to each other");
       steps_[i] = ((level + 1) << 32) - __builtin_bit_cast(std::uint32_t, least[level]);
     }
   }
