@@ -4,10 +4,11 @@
 #include <cstdlib>
 #include <iostream>
 #include <set>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "support/loaded_program.hpp"
+#include "support/before_cases.hpp"
 #include "support/skip.hpp"
 
 namespace {
@@ -16,6 +17,12 @@ namespace {
 std::set<std::string> reasons;
 bool is_listed_alone = false;
 bool any_skipped = false;
+
+// Before the first case.
+std::vector<void (*)()>& works() {
+  static std::vector<void (*)()> all;
+  return all;
+}
 
 bool is_required(const std::string& what) {
   const char* required = std::getenv("REMAP_REQUIRE");
@@ -57,6 +64,8 @@ void list_cases(const Catch::IConfig& config) {
 
 namespace remap {
 
+void before_cases(void (*work)()) { works().push_back(work); }
+
 void may_skip() {
   if (!is_listed_alone) FAIL_CHECK("this case may be skipped: give it the tag [needs]");
 }
@@ -92,7 +101,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (session.applyCommandLine(argc, argv) != 0) return 1;
-  remap::load_program();
+  for (void (*work)() : works()) work();
   // A name that matches no case is an error: ctest would count it as passed.
   session.configData().warnings =
       static_cast<Catch::WarnAbout::What>(session.configData().warnings | Catch::WarnAbout::NoTests);

@@ -5,4 +5,6 @@
 
 #include "support/loaded_program.hpp"
 
-const remap::LoadedProgram remap::kLoadedProgram{REMAP_TEXREMAP, texremap_main};
+namespace {
+[[maybe_unused]] const bool is_loaded = remap::loads_program(REMAP_TEXREMAP, texremap_main);
+}

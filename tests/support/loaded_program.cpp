@@ -10,6 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/before_cases.hpp"
+
 // Of the leak sanitizer, where there is one. It ends the process where it finds a leak.
 extern "C" {
 [[gnu::weak]] void __lsan_do_leak_check();
@@ -19,6 +21,8 @@ extern "C" {
 namespace remap {
 namespace {
 
+const char* program_path = nullptr;  // null where there is no program
+int (*program_main)(int argc, char** argv) = nullptr;
 int connection = -1;  // to the loaded process
 std::mutex one_request;
 
@@ -98,7 +102,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   if (!start.folder.empty() && ::chdir(start.folder.c_str()) != 0) ::_exit(126);
   std::vector<char*> variables = pointers(environment), arguments = pointers(start.arguments);
   environ = variables.data();
-  const int code = kLoadedProgram.main(static_cast<int>(start.arguments.size()), arguments.data());
+  const int code = program_main(static_cast<int>(start.arguments.size()), arguments.data());
   std::cout.flush();
   std::fflush(nullptr);
   if (&__lsan_do_leak_check != nullptr) {
@@ -133,12 +137,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   ::_exit(0);
 }
 
-[[noreturn]] void fail() { throw std::runtime_error("the loaded program is gone"); }
-
-}  // namespace
-
-void load_program() {
-  if (&kLoadedProgram == nullptr) return;
+void load() {
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw std::runtime_error("socketpair failed");
@@ -149,7 +148,18 @@ void load_program() {
   if (loaded == 0) serve();
 }
 
-bool is_loaded(const std::string& path) { return &kLoadedProgram != nullptr && path == kLoadedProgram.path; }
+[[noreturn]] void fail() { throw std::runtime_error("the loaded program is gone"); }
+
+}  // namespace
+
+bool loads_program(const char* path, int (*main)(int argc, char** argv)) {
+  program_path = path;
+  program_main = main;
+  before_cases(load);
+  return true;
+}
+
+bool is_loaded(const std::string& path) { return program_path != nullptr && path == program_path; }
 
 pid_t start_loaded(const LoadedStart& start) {
   const std::lock_guard lock(one_request);

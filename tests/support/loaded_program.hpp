@@ -10,13 +10,9 @@
 
 namespace remap {
 
-struct LoadedProgram {
-  const char* path;  // of its file
-  int (*main)(int argc, char** argv);
-};
-
-// Of a test program that has one.
-[[gnu::weak]] extern const LoadedProgram kLoadedProgram;
+// Loads the program before the first case: `main` is its main function, `path` that of its file. To be called
+// before main(), for one program. Returns true.
+bool loads_program(const char* path, int (*main)(int argc, char** argv));
 
 // What a process starts with. `errors` and `output` are files; without a limit `file_bytes` is RLIM_INFINITY.
 struct LoadedStart {
@@ -24,9 +20,6 @@ struct LoadedStart {
   std::string folder, output, errors;
   rlim_t file_bytes = RLIM_INFINITY;
 };
-
-// To be called before the test program has any thread, handler or open file of its own.
-void load_program();
 
 // Whether processes of the program at `path` are copies of a loaded one.
 bool is_loaded(const std::string& path);
