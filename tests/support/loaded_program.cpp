@@ -92,14 +92,10 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return all;
 }
 
-[[noreturn]] void become(LoadedStart start, std::vector<std::string> environment) {
+[[noreturn]] void become(ProcessStart start, std::vector<std::string> environment) {
   ::close(connection);
   const int errors_of_test = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-  ::dup2(::open(start.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
-  ::dup2(::open(start.errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-  const rlimit limit{start.file_bytes, start.file_bytes};
-  if (start.file_bytes != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &limit);
-  if (!start.folder.empty() && ::chdir(start.folder.c_str()) != 0) ::_exit(126);
+  enter(start);
   std::vector<char*> variables = pointers(environment), arguments = pointers(start.arguments);
   environ = variables.data();
   const int code = program_main(static_cast<int>(start.arguments.size()), arguments.data());
@@ -117,7 +113,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 [[noreturn]] void serve() {
   for (char request = 0; get(connection, request);) {
     if (request == 's') {
-      LoadedStart start;
+      ProcessStart start;
       std::vector<std::string> environment;
       if (!get(connection, start.arguments) || !get(connection, start.folder) ||
           !get(connection, start.output) || !get(connection, start.errors) ||
@@ -152,6 +148,15 @@ void load() {
 
 }  // namespace
 
+void enter(const ProcessStart& start) noexcept {
+  constexpr int kNew = O_WRONLY | O_CREAT | O_TRUNC;
+  ::dup2(::open(start.output.c_str(), kNew, 0600), STDOUT_FILENO);
+  ::dup2(::open(start.errors.c_str(), kNew, 0600), STDERR_FILENO);
+  const rlimit limit{start.file_bytes, start.file_bytes};
+  if (start.file_bytes != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &limit);
+  if (!start.folder.empty() && ::chdir(start.folder.c_str()) != 0) ::_exit(126);
+}
+
 bool loads_program(const char* path, int (*main)(int argc, char** argv)) {
   program_path = path;
   program_main = main;
@@ -161,7 +166,7 @@ bool loads_program(const char* path, int (*main)(int argc, char** argv)) {
 
 bool is_loaded(const std::string& path) { return program_path != nullptr && path == program_path; }
 
-pid_t start_loaded(const LoadedStart& start) {
+pid_t start_loaded(const ProcessStart& start) {
   const std::lock_guard lock(one_request);
   std::vector<std::string> environment;
   for (char** variable = environ; *variable != nullptr; ++variable) environment.emplace_back(*variable);

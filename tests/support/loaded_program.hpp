@@ -15,17 +15,19 @@ namespace remap {
 bool loads_program(const char* path, int (*main)(int argc, char** argv));
 
 // What a process starts with. `errors` and `output` are files; without a limit `file_bytes` is RLIM_INFINITY.
-struct LoadedStart {
+struct ProcessStart {
   std::vector<std::string> arguments;
   std::string folder, output, errors;
   rlim_t file_bytes = RLIM_INFINITY;
 };
+// Gives the process all of that but its arguments. Safe between fork and exec.
+void enter(const ProcessStart& start) noexcept;
 
 // Whether processes of the program at `path` are copies of a loaded one.
 bool is_loaded(const std::string& path);
 
 // Throw std::runtime_error where the loaded process is gone. For any thread.
-pid_t start_loaded(const LoadedStart& start);
+pid_t start_loaded(const ProcessStart& start);
 // Whether the process has ended; then its status and usage as by wait4().
 bool has_ended(pid_t process, int& status, rusage& usage);
 

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <fcntl.h>
 #include <fstream>
 #include <iterator>
 #include <linux/capability.h>
@@ -26,20 +25,11 @@ std::string content(const fs::path& path) {
 }
 
 // Between fork and exec: only calls that are safe there.
-[[noreturn]] void become(char* const* arguments, const char* output, const char* errors,
-                         const ProcessLimits& limits) {
-  const int out = ::open(output, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const int err = ::open(errors, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  ::dup2(out, STDOUT_FILENO);
-  ::dup2(err, STDERR_FILENO);
-  if (limits.file_bytes) {
-    const rlimit limit{*limits.file_bytes, *limits.file_bytes};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
+[[noreturn]] void become(char* const* arguments, const ProcessStart& start, bool keeps_permissions) {
+  enter(start);
   // What root loses here, exec does not give back; anybody else has nothing to lose, and it fails.
-  if (limits.keeps_permissions)
+  if (keeps_permissions)
     for (const int right : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH}) ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);
-  if (!limits.folder.empty() && ::chdir(limits.folder.c_str()) != 0) ::_exit(126);
   ::execv(arguments[0], arguments);
   ::_exit(127);
 }
@@ -56,19 +46,18 @@ std::string ProcessResult::last_error() const {
 // A copy would keep what root may do: only exec takes it away.
 Process::Process(const Words& arguments, const ProcessLimits& limits)
     : is_copy_(is_loaded(arguments[0]) && !limits.keeps_permissions) {
+  ProcessStart start{arguments, limits.folder, folder_.path() / "output", folder_.path() / "errors",
+                     limits.file_bytes.value_or(RLIM_INFINITY)};
   if (is_copy_) {
-    pid_ = start_loaded({arguments, limits.folder, folder_.path() / "output", folder_.path() / "errors",
-                         limits.file_bytes.value_or(RLIM_INFINITY)});
+    pid_ = start_loaded(start);
     return;
   }
-  std::vector<std::string> words = arguments;
   std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
+  for (std::string& word : start.arguments) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const std::string output = folder_.path() / "output", errors = folder_.path() / "errors";
   pid_ = ::fork();
   if (pid_ < 0) throw std::runtime_error("fork failed");
-  if (pid_ == 0) become(pointers.data(), output.c_str(), errors.c_str(), limits);
+  if (pid_ == 0) become(pointers.data(), start, limits.keeps_permissions);
 }
 
 Process::~Process() {
