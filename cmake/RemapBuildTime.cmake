@@ -23,7 +23,7 @@ endfunction()
 
 # remap_unoptimised(TARGET): TARGET checks what others compute, and is itself not worth the time of an optimiser.
 function(remap_unoptimised target)
-  target_compile_options(${target} PRIVATE -O0)
+  target_compile_options(${target} PRIVATE -O0 -U_FORTIFY_SOURCE)
 endfunction()
 
 # remap_small(TARGET...): what plans, edits texts and reports has no loop over texels, rows or pictures. Half the code, and a third of the
