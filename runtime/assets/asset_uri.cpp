@@ -1,6 +1,7 @@
 #include "assets/asset_uri.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 
 #include "core/plain_text.hpp"
@@ -52,6 +53,7 @@ std::string percent_encoded(std::string_view text) {
 }
 
 std::string stem_beside(const std::string& model, std::string_view prefix, std::string_view suffix) {
+  assert(suffix.empty() || std::ranges::find(kNewImageSuffixes, suffix) != kNewImageSuffixes.end());
   const std::size_t slash = model.find_last_of('/'), dot = model.find_last_of('.');
   const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
   const std::size_t end = dot != std::string::npos && dot >= begin ? dot : model.size();

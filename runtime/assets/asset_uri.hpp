@@ -1,6 +1,7 @@
 // URIs of buffers and images in glTF files: data, files beside the asset, addresses elsewhere.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,8 +14,13 @@ std::string percent_decoded(std::string_view text);
 // `a%20b` of `a b`: everything but letters, digits and - . _ ~ (RFC 3986, section 2.3).
 std::string percent_encoded(std::string_view text);
 
+// Every suffix that names of new images have.
+inline constexpr std::array<std::string_view, 7> kNewImageSuffixes = {
+    "_baseColor", "_metallicRoughness", "_roughness",         "_metallic",
+    "_specular",  "_diffuse",           "_specularGlossiness"};
+
 // What a new file beside `model` is named, without number and extension: `a/chair_wood_baseColor` of
-// `a/wood.jpg`, the prefix `chair_` and the suffix `_baseColor`.
+// `a/wood.jpg`, the prefix `chair_` and the suffix `_baseColor`, which is one of kNewImageSuffixes or empty.
 std::string stem_beside(const std::string& model, std::string_view prefix, std::string_view suffix);
 
 enum class UriKind {

@@ -1,6 +1,7 @@
 #include "check/material.hpp"
 
 #include <algorithm>
+#include <new>
 #include <map>
 #include <string_view>
 
@@ -40,6 +41,8 @@ std::vector<std::string> CheckedMaterial::read_maps() {
     } catch (const Error& error) {
       const std::string message = error.what(), own = map.file.string();
       problems.push_back(message.starts_with(own) ? map.shown + message.substr(own.size()) : message);
+    } catch (const std::bad_alloc&) {
+      problems.push_back(map.shown + ": out of memory (use fewer --threads)");
     }
     read[map.file] = map.texels;
   }

@@ -21,21 +21,20 @@ constexpr std::string_view kUnfinished = ".unfinished-";
   throw system_error(ErrorKind::kOutput, path.string() + ": cannot be written", code);
 }
 
-// The mark in the name of an unfinished file; empty for another name.
+// The mark in the name of an unfinished file, before its random letters; empty for another name.
 std::string_view mark_in(std::string_view name) {
   const std::size_t found = name.rfind(kUnfinished);
   if (!name.starts_with('.') || found == std::string_view::npos) return {};
-  const std::string_view mark = name.substr(found + kUnfinished.size());
-  return mark.substr(0, mark.find('.'));
+  std::string_view mark = name.substr(found + kUnfinished.size());
+  mark = mark.substr(0, mark.find('.'));
+  return mark.substr(0, mark.rfind('-'));
 }
 
-void remove_abandoned(const fs::path& folder) {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (is_mark_of_the_dead(mark_in(name)) && entry.is_regular_file(ignored))
-      fs::remove(entry.path(), ignored);
-  }
+// `text` without what is beyond `size` bytes, and without the rest of a character of UTF-8.
+std::string cut(std::string text, std::size_t size) {
+  if (text.size() <= size) return text;
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80) --size;
+  return text.substr(0, size);
 }
 
 // Once a folder, since a run writes thousands of files.
@@ -43,7 +42,7 @@ void remove_abandoned_once(const fs::path& folder) {
   static std::mutex mutex;
   static std::set<fs::path> done;
   const std::lock_guard lock(mutex);
-  if (done.insert(folder).second) remove_abandoned(folder);
+  if (done.insert(folder).second) remove_unfinished(folder);
 }
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
@@ -60,11 +59,23 @@ void replace(const fs::path& unfinished, const fs::path& path) {
 
 }  // namespace
 
+void remove_unfinished(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (is_mark_of_the_dead(mark_in(name)) && entry.is_regular_file(ignored))
+      fs::remove(entry.path(), ignored);
+  }
+}
+
 fs::path unfinished_name(const fs::path& path) {
   remove_abandoned_once(folder_of(path));
-  const std::string name =
-      "." + path.stem().string() + std::string(kUnfinished) + process_mark() + path.extension().string();
-  return path.parent_path() / name;
+  constexpr std::size_t kLongestName = 255;  // in bytes, of most file systems
+  const std::string end =
+      std::string(kUnfinished) + process_mark() + "-" + random_letters() + path.extension().string();
+  const std::string stem =
+      end.size() < kLongestName ? cut(path.stem().string(), kLongestName - 1 - end.size()) : std::string();
+  return path.parent_path() / ("." + stem + end);
 }
 
 std::string with_final_name(std::string message, const fs::path& unfinished, const fs::path& path) {
@@ -161,7 +172,6 @@ void flush_to_disk(const fs::path& path, const fs::path& shown) {
 
 void add_copy(const InputFile& from, NewFile& to) {
   for_pieces(from, [&](std::string_view piece) { to.add(piece); });
-  copy_permissions(from.descriptor(), descriptor_of(to.stream()));
 }
 
 void copy_whole_file(const fs::path& from, const fs::path& to) {
@@ -169,6 +179,27 @@ void copy_whole_file(const fs::path& from, const fs::path& to) {
   NewFile copy(to);
   add_copy(source, copy);
   copy.commit();
+}
+
+void require_own_folder(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::is_symlink(folder, ignored))
+    throw output_error(folder.string() + ": is a link, which the program does not follow here (remove it)");
+}
+
+OwnedFile::OwnedFile(const fs::path& folder, const fs::path& below, OwnFile use)
+    : path_(folder / below), file_(open_own_file(folder, below, use)) {
+  if (file_.is_open() || (use == OwnFile::kRead && errno == ENOENT)) return;
+  if (errno == EPERM || errno == ELOOP || errno == ENOTDIR || errno == ENXIO)
+    throw output_error(
+        path_.string() +
+        ": is a link, belongs to another user, or is not a file; texremap reads and writes its "
+        "journals only in files of its own user (remove it, or choose another folder)");
+  throw system_error(ErrorKind::kOutput, path_.string() + ": cannot be opened", errno);
+}
+
+void OwnedFile::append(std::string_view text) const {
+  if (!append_to_file(file_.get(), text)) fail_to_write(path_, errno);
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {

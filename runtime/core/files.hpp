@@ -8,15 +8,21 @@
 #include <string_view>
 
 #include "core/input_file.hpp"
+#include "core/open_file.hpp"
 #include "core/read_file.hpp"
+#include "core/system.hpp"
 
 namespace remap {
 
-// A hidden name in the folder of `path` for an unfinished file: `.STEM.unfinished-MARK.EXTENSION` with the
-// mark of this process (process_mark.hpp), and the extension by which image writers choose the format. The
-// first call for a folder removes from it the unfinished files of processes of this machine that have ended:
-// those that were killed could not.
+// A hidden name in the folder of `path` for an unfinished file: `.STEM.unfinished-MARK-LETTERS.EXTENSION`
+// with the mark of this process (process_mark.hpp), random letters, and the extension by which image writers
+// choose the format. Each call gives another name. A stem that makes the name longer than 255 bytes is cut.
+// The first call for a folder removes from it the unfinished files of processes of this machine that have
+// ended: those that were killed could not.
 std::filesystem::path unfinished_name(const std::filesystem::path& path);
+
+// Removes what processes that have ended left unfinished in a folder, whatever an earlier call did.
+void remove_unfinished(const std::filesystem::path& folder);
 
 // A library's message about the file `unfinished`, with the name of `path` in its place.
 std::string with_final_name(std::string message, const std::filesystem::path& unfinished,
@@ -65,12 +71,31 @@ void write_file(const std::filesystem::path& path, std::string_view content, Flu
 // that do not flush, for several files at once. Throws kOutput, naming `shown`, if the system refuses.
 void flush_to_disk(const std::filesystem::path& path, const std::filesystem::path& shown);
 
-// Adds the bytes of a file, and gives the new file its permissions.
+// Adds the bytes of a file. Its permissions, which may be those of a stranger's program, stay behind.
 void add_copy(const InputFile& from, NewFile& to);
 
 // Copies a file byte for byte and replaces `to`, which is complete or unchanged. Throws kInput if `from` is
 // not a readable file, kOutput if the copy cannot be written.
 void copy_whole_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+// A file that the program keeps for itself in a folder that others may write into: a journal. See
+// open_own_file() (system.hpp). Throws kOutput for what others may have planted under the name.
+class OwnedFile {
+ public:
+  // With kRead the file may be missing: exists() is false then.
+  OwnedFile(const std::filesystem::path& folder, const std::filesystem::path& below, OwnFile use);
+  bool exists() const noexcept { return file_.is_open(); }
+  InputFile content() const { return {path_, file_.get()}; }
+  // One write, so that lines of several processes do not mix; it waits for the disk. Throws kOutput.
+  void append(std::string_view text) const;
+
+ private:
+  std::filesystem::path path_;
+  OpenFile file_;
+};
+
+// Throws kOutput where a folder that the program makes for itself is a link.
+void require_own_folder(const std::filesystem::path& folder);
 
 // Whether two names lead to the same file, which need not exist.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -1,6 +1,8 @@
 #include "core/input_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <mutex>
 
 #include "core/errors.hpp"
 #include "core/read_file.hpp"
@@ -10,8 +12,44 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
+// A folder as its files are named, and where it is.
+struct Confinement {
+  fs::path name, place;
+};
+
+std::mutex confinement_mutex;
+std::vector<Confinement> confinements;
+
 [[noreturn]] void fail_to_read(const fs::path& path) {
   throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
+}
+
+fs::path without_end(const fs::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();  // of `tree/`
+}
+
+bool lies_below(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+// A name that leads elsewhere once the file is open leads to another file.
+void require_confined(const fs::path& path, const FileFacts& found) {
+  std::vector<Confinement> all;
+  {
+    const std::lock_guard lock(confinement_mutex);
+    all = confinements;
+  }
+  if (all.empty()) return;
+  const fs::path name = fs::absolute(path).lexically_normal();
+  for (const Confinement& folder : all) {
+    if (!lies_below(name, folder.name)) continue;
+    std::error_code failure;
+    const fs::path place = fs::canonical(path, failure);
+    const std::optional<FileFacts> there = failure ? std::nullopt : facts_of(place);
+    if (!there || there->identity != found.identity || !lies_below(place, folder.place))
+      throw input_error(path.string() + ": is a link that leads out of " + folder.name.string() +
+                        " (--follow-links reads it)");
+  }
 }
 
 // To open a pipe would wait for its writer, and to open a device may do something.
@@ -22,8 +60,20 @@ int opened(const fs::path& path) {
 
 }  // namespace
 
+void confine_inputs(std::vector<fs::path> folders) {
+  std::vector<Confinement> all;
+  for (const fs::path& folder : folders) {
+    std::error_code failure;
+    const fs::path place = fs::canonical(folder, failure);
+    if (!failure) all.push_back({without_end(fs::absolute(folder).lexically_normal()), place});
+  }
+  const std::lock_guard lock(confinement_mutex);
+  confinements = std::move(all);
+}
+
 InputFile::InputFile(const fs::path& path) : path_(path), own_(opened(path)), descriptor_(own_.get()) {
   look();
+  require_confined(path, *facts_of(descriptor_));
 }
 
 InputFile::InputFile(const fs::path& path, int descriptor) : path_(path), own_(-1), descriptor_(descriptor) {
@@ -48,6 +98,31 @@ std::size_t InputFile::read(std::uintmax_t place, char* bytes, std::size_t size)
     done += static_cast<std::size_t>(count);
   }
   return done;
+}
+
+std::optional<std::string_view> InputLines::next() {
+  constexpr std::size_t kPiece = std::size_t{1} << 16;
+  std::size_t searched = next_;
+  for (;;) {
+    const std::size_t found = buffer_.find('\n', searched);
+    if (found != std::string::npos) {
+      const std::string_view line = std::string_view(buffer_).substr(next_, found - next_);
+      end_ += line.size() + 1;
+      next_ = found + 1;
+      ++number_;
+      return line;
+    }
+    buffer_.erase(0, next_);
+    next_ = 0;
+    searched = buffer_.size();
+    if (searched > kLongest)
+      throw input_error(file_.path().string() + ": line " + std::to_string(number_ + 1) + " has more than " +
+                        std::to_string(kLongest >> 20) + " MB, the most that is read of a line");
+    buffer_.resize(searched + kPiece);
+    const std::size_t count = file_.read(end_ + searched, buffer_.data() + searched, kPiece);
+    buffer_.resize(searched + count);
+    if (count == 0) return std::nullopt;
+  }
 }
 
 }  // namespace remap

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,9 +13,14 @@
 
 namespace remap {
 
+// Folders whose files others may have put there. What is opened below one of them must lie below it after
+// links are resolved, too. Of the whole process; a command sets them before it reads its inputs.
+void confine_inputs(std::vector<std::filesystem::path> folders);
+
 class InputFile {
  public:
-  // Throws kInput, also for what is not a regular file.
+  // Does not wait for the writer of a pipe. Throws kInput, also for what is not a regular file, and for a
+  // file that leads out of a folder of confine_inputs() through a link.
   explicit InputFile(const std::filesystem::path& path);
   // Reads through a descriptor that stays open longer than this, and opens nothing.
   InputFile(const std::filesystem::path& path, int descriptor);
@@ -45,5 +52,29 @@ void for_pieces(const InputFile& file, const Take& take) {
     place += count;
   }
 }
+
+// The lines of a file, one after another.
+class InputLines {
+ public:
+  // Lines of this project's files are far shorter, and a file may have any size without any content.
+  static constexpr std::size_t kLongest = std::size_t{16} << 20;
+  // `file` must outlive it. Reading begins at `start`.
+  explicit InputLines(const InputFile& file, std::uintmax_t start = 0) : file_(file), end_(start) {}
+  // The next line, without its line break; none at the end, nor for a last line without a line break. It
+  // stays valid until the next call. Throws kInput for a line that is too long.
+  std::optional<std::string_view> next();
+  std::size_t number() const noexcept { return number_; }  // of the last line, from 1
+  // Where that line ends in the file.
+  std::uintmax_t end() const noexcept { return end_; }
+  // What follows the last line break, once next() has returned none.
+  std::string_view rest() const noexcept { return std::string_view(buffer_).substr(next_); }
+
+ private:
+  const InputFile& file_;
+  std::string buffer_;    // read from the file
+  std::size_t next_ = 0;  // in `buffer_`: after the last line
+  std::uintmax_t end_;
+  std::size_t number_ = 0;
+};
 
 }  // namespace remap

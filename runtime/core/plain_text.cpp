@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/system.hpp"
+
 namespace remap {
 namespace {
 
@@ -52,6 +54,14 @@ bool is_plain(const Character& character) {
          });
 }
 
+void add_utf8(char32_t code, std::string& text) {
+  const auto add = [&text](char32_t byte) { text += static_cast<char>(byte); };
+  if (code < 0x80) return add(code);
+  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;  // bytes after the first
+  add((0xf00u >> more & 0xffu) | code >> 6 * more);
+  for (int i = more - 1; i >= 0; --i) add(0x80u | (code >> 6 * i & 0x3fu));
+}
+
 std::string escape_of(const Character& character) {
   std::string digits;
   for (std::uint32_t code = character.code; code != 0 || digits.size() < 2; code >>= 4)
@@ -80,6 +90,20 @@ std::string plain(std::string_view text, std::size_t longest) {
     result += is_plain(character) ? std::string(text.substr(0, character.bytes)) : escape_of(character);
     if (result.size() > longest) return result.substr(0, whole) + "...";
     if (result.size() + 3 <= longest) whole = result.size();
+    text.remove_prefix(character.bytes);
+  }
+  return result;
+}
+
+std::string without_case(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const char32_t small = character.is_valid ? small_letter(character.code) : character.code;
+    if (small == character.code)
+      result += text.substr(0, character.bytes);
+    else
+      add_utf8(small, result);
     text.remove_prefix(character.bytes);
   }
   return result;

@@ -20,6 +20,9 @@ bool is_plain_text(std::string_view text);
 // cut to at most `longest` bytes, the last three of which are `...` where something is missing.
 std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
 
+// `text` with small letters in place of capital ones, in every script; bytes that are no UTF-8 stay.
+std::string without_case(std::string_view text);
+
 // The parts of `text` between separators; one more than there are separators, so parts may be empty.
 std::vector<std::string> parts_between(std::string_view text, char separator);
 

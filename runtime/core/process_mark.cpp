@@ -3,18 +3,28 @@
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <random>
 
+#include "core/read_file.hpp"
 #include "core/system.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {
 
 constexpr std::size_t kTagDigits = 8;
 
-// The machine, and the space in which the numbers of its processes are unique.
+// The machine since it was started, and the space in which the numbers of its processes are unique. Machines
+// that were cloned have one name.
 std::string place_of_processes() {
   std::error_code ignored;
-  return machine_name() + "/" + std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
+  std::string start;
+  try {
+    start = read_file("/proc/sys/kernel/random/boot_id");
+  } catch (const Error&) {
+  }
+  return machine_name() + "/" + start + "/" +
+         std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
 }
 
 // FNV-1a, 32 bits (Fowler, Noll, Vo 1991), in hexadecimal digits.
@@ -34,6 +44,15 @@ const std::string& own_tag() {
 }  // namespace
 
 std::string process_mark() { return own_tag() + std::to_string(own_process()); }
+
+std::string random_letters() {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz234567";
+  constexpr std::size_t kCount = 12;  // of five bits each
+  std::random_device device;
+  std::string letters(kCount, ' ');
+  for (char& letter : letters) letter = kLetters[device() % kLetters.size()];
+  return letters;
+}
 
 bool is_mark_of_the_dead(std::string_view mark) {
   if (!mark.starts_with(own_tag())) return false;

@@ -4,6 +4,7 @@
 #include <cerrno>
 
 #include "core/errors.hpp"
+#include "core/input_file.hpp"
 #include "core/open_file.hpp"
 #include "core/system.hpp"
 
@@ -36,13 +37,15 @@ bool is_handed_down(const fs::path& path) {
   return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
 }
 
-void require_readable(const fs::path& path, fs::file_type type) {
-  if (type == fs::file_type::regular || (type == fs::file_type::fifo && is_handed_down(path))) return;
-  throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(type));
+void require_room(const fs::path& path, std::uintmax_t size, std::uintmax_t largest) {
+  if (size > largest) fail_of_size(path, largest);
 }
 
 // Reads to the end. A signal does not end the reading; the second one of interruption.hpp ends the process.
-std::string content_of(const OpenFile& file, const fs::path& path, std::uintmax_t largest) {
+std::string content_of_pipe(const fs::path& path, std::uintmax_t largest) {
+  const OpenFile file(open_to_read(path));
+  if (!file.is_open()) fail_to_read(path, errno);
+  wait_for_writers(file.get());
   std::string content;
   std::array<char, 1 << 16> part;
   for (;;) {
@@ -51,7 +54,7 @@ std::string content_of(const OpenFile& file, const fs::path& path, std::uintmax_
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw system_error(ErrorKind::kInput, path.string() + ": reading failed", errno);
     content.append(part.data(), static_cast<std::size_t>(count));
-    if (content.size() > largest) fail_of_size(path, largest);
+    require_room(path, content.size(), largest);
   }
 }
 
@@ -65,17 +68,17 @@ void require_regular_file(const fs::path& path) {
 }
 
 std::string read_file(const fs::path& path, std::uintmax_t largest) {
-  std::optional<FileFacts> found = facts_of(path);
-  if (!found) fail_to_read(path, errno);
-  require_readable(path, found->type);
-  const OpenFile file(open_to_read(path));
-  // Looked at again, since the name may lead elsewhere by now.
-  found = file.is_open() ? facts_of(file.get()) : std::nullopt;
-  if (!found) fail_to_read(path, errno);
-  require_readable(path, found->type);
-  if (found->type == fs::file_type::regular && found->size > largest) fail_of_size(path, largest);
-  wait_for_writers(file.get());
-  return content_of(file, path, largest);
+  const std::optional<FileFacts> found = facts_of(path);
+  if (found && found->type == fs::file_type::fifo && is_handed_down(path))
+    return content_of_pipe(path, largest);
+  const InputFile file(path);
+  require_room(path, file.size(), largest);
+  std::string content;
+  for_pieces(file, [&](std::string_view piece) {  // which may be more than its size
+    content += piece;
+    require_room(path, content.size(), largest);
+  });
+  return content;
 }
 
 }  // namespace remap

@@ -1,11 +1,16 @@
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cwctype>
 #include <fcntl.h>
+#include <locale.h>
 #include <stdlib.h>
 #include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
+#include <wctype.h>
 
 #include "core/open_file.hpp"
 #include "core/system.hpp"
@@ -36,7 +41,32 @@ void watch(int signal, unsigned flags, void (*note)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
+// The user that new files of a folder belong to: not this one on some network storage.
+uid_t owner_of_new_files(int folder) {
+  const std::string name = ".unfinished-" + std::to_string(::getpid()) + "-owner";
+  const OpenFile file(
+      ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
+  struct stat found {};
+  const bool is_known = file.is_open() && ::fstat(file.get(), &found) == 0;
+  if (file.is_open()) ::unlinkat(folder, name.c_str(), 0);
+  return is_known ? found.st_uid : ::geteuid();
+}
+
+bool is_own(int file, int folder) {
+  struct stat found {};
+  if (::fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_nlink > 1) return false;
+  return found.st_uid == ::geteuid() || found.st_uid == owner_of_new_files(folder);
+}
+
 }  // namespace
+
+// That of the C library knows other letters than those of ASCII by a locale.
+char32_t small_letter(char32_t letter) {
+  static const ::locale_t unicode = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  const auto wide = static_cast<std::wint_t>(letter);
+  if (unicode == nullptr) return static_cast<char32_t>(std::towlower(wide));
+  return static_cast<char32_t>(::towlower_l(wide, unicode));
+}
 
 std::optional<FileFacts> facts_of(const fs::path& path) {
   struct stat found {};
@@ -64,24 +94,38 @@ std::ptrdiff_t read_on(int descriptor, char* bytes, std::size_t size) {
   return ::read(descriptor, bytes, size);
 }
 
-std::FILE* create_file(const fs::path& path) { return std::fopen(path.c_str(), "w+be"); }
+std::FILE* create_file(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  std::FILE* const stream = file < 0 ? nullptr : ::fdopen(file, "w+b");
+  if (stream == nullptr && file >= 0) ::close(file);
+  return stream;
+}
 
 int descriptor_of(std::FILE* stream) { return ::fileno(stream); }
 
-void copy_permissions(int from, int to) {
-  struct stat found {};
-  if (::fstat(from, &found) == 0) ::fchmod(to, found.st_mode & 07777);
+int open_own_file(const fs::path& folder, const fs::path& below, OwnFile use) {
+  int at = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const fs::path inner = below.parent_path();
+  for (auto part = inner.begin(); at >= 0 && part != inner.end(); ++part) {
+    const OpenFile above(at);
+    at = ::openat(above.get(), part->c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  }
+  if (at < 0) return -1;
+  const OpenFile last(at);
+  const int flags = use == OwnFile::kRead ? O_RDONLY : O_WRONLY | O_CREAT | O_APPEND;
+  int file = ::openat(last.get(), below.filename().c_str(),
+                      flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
+  if (file >= 0 && !is_own(file, last.get())) {
+    ::close(file);
+    file = -1;
+    errno = EPERM;
+  }
+  return file;
 }
 
-bool append_to_file(const fs::path& path, std::string_view text) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const bool written = file >= 0 &&
-                       ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-                       ::fdatasync(file) == 0;
-  const int failure = errno;
-  if (file >= 0) ::close(file);
-  errno = failure;
-  return written;
+bool append_to_file(int descriptor, std::string_view text) {
+  return ::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+         ::fdatasync(descriptor) == 0;
 }
 
 bool wait_for_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS; }
@@ -96,7 +140,17 @@ bool create_scratch_folder(std::string& name) { return ::mkdtemp(name.data()) !=
 
 FolderLock::FolderLock(const fs::path& folder)
     : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  while (handle_ >= 0 && ::flock(static_cast<int>(handle_), LOCK_EX) != 0 && errno == EINTR) {
+  constexpr auto kStep = std::chrono::milliseconds(10);
+  auto left = std::chrono::milliseconds(std::chrono::minutes(1));
+  while (handle_ >= 0 && ::flock(static_cast<int>(handle_), LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno != EWOULDBLOCK) return;  // a file system without locks
+    if (left <= left.zero()) {
+      is_held_ = false;
+      return;
+    }
+    std::this_thread::sleep_for(kStep);
+    left -= kStep;
   }
 }
 

@@ -29,7 +29,17 @@ std::string machine_name() {
   return text;
 }
 
+// That of a page ends at 4 GB, whatever the machine has.
+std::uint64_t memory_size() { return std::uint64_t{4} << 30; }
+
 std::filesystem::path program_file() { return {}; }
+
+// No copies are made here.
+std::optional<ProcessCopy> copy_process(const std::function<void(int)>&) { return std::nullopt; }
+std::string end_of(const ProcessCopy&) { return ""; }
+void interrupt(const ProcessCopy&) {}
+bool send_all(int, const std::string&) { return false; }
+std::vector<bool> wait_to_read(const std::vector<int>&) { return {}; }
 
 // Seconds and bytes.
 ResourceUse resource_use() noexcept {

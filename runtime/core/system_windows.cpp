@@ -75,6 +75,13 @@ double seconds_of(const FILETIME& time) {
 
 }  // namespace
 
+char32_t small_letter(char32_t letter) {
+  if (letter == 0 || letter > 0xffff) return letter;
+  // A pointer below 0x10000 stands for one character.
+  return static_cast<char32_t>(reinterpret_cast<std::uintptr_t>(
+      ::CharLowerW(reinterpret_cast<LPWSTR>(static_cast<std::uintptr_t>(letter)))));
+}
+
 std::optional<FileFacts> facts_of(const fs::path& path) {
   constexpr DWORD kShare = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
   const Handle file(::CreateFileW(path.c_str(), 0, kShare, nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS,
@@ -105,17 +112,21 @@ std::ptrdiff_t read_on(int descriptor, char* bytes, std::size_t size) {
   return ::_read(descriptor, bytes, limited(size));
 }
 
-std::FILE* create_file(const fs::path& path) { return ::_wfopen(path.c_str(), L"w+bN"); }
+std::FILE* create_file(const fs::path& path) {
+  const int file = open_by(path, _O_RDWR | _O_CREAT | _O_EXCL);
+  return file < 0 ? nullptr : ::_fdopen(file, "w+b");
+}
 
 int descriptor_of(std::FILE* stream) { return ::_fileno(stream); }
 
-// New files have those of their folder.
-void copy_permissions(int, int) {}
+// Only administrators make links here, and access to a folder says whose files it holds.
+int open_own_file(const fs::path& folder, const fs::path& below, OwnFile use) {
+  return open_by(folder / below, use == OwnFile::kRead ? _O_RDONLY : _O_WRONLY | _O_CREAT | _O_APPEND);
+}
 
-bool append_to_file(const fs::path& path, std::string_view text) {
-  const OpenFile file(open_by(path, _O_WRONLY | _O_CREAT | _O_APPEND));
-  return file.is_open() && ::_write(file.get(), text.data(), limited(text.size())) == std::ssize(text) &&
-         wait_for_disk(file.get());
+bool append_to_file(int descriptor, std::string_view text) {
+  return ::_write(descriptor, text.data(), limited(text.size())) == std::ssize(text) &&
+         wait_for_disk(descriptor);
 }
 
 bool wait_for_disk(int descriptor) { return ::_commit(descriptor) == 0; }
@@ -145,13 +156,14 @@ FolderLock::FolderLock(const fs::path& folder) {
   const std::size_t hash = std::hash<std::wstring>()(fs::weakly_canonical(folder, ignored).wstring());
   const std::wstring name = L"Global\\remap-" + std::to_wstring(hash);
   const HANDLE lock = ::CreateMutexW(nullptr, FALSE, name.c_str());
-  if (lock != nullptr) ::WaitForSingleObject(lock, INFINITE);
+  constexpr DWORD kMinute = 60'000;
+  is_held_ = lock == nullptr || ::WaitForSingleObject(lock, kMinute) != WAIT_TIMEOUT;
   handle_ = reinterpret_cast<std::intptr_t>(lock);
 }
 
 FolderLock::~FolderLock() {
   const Handle lock(reinterpret_cast<HANDLE>(handle_));
-  if (lock.is_open()) ::ReleaseMutex(lock.get());
+  if (lock.is_open() && is_held_) ::ReleaseMutex(lock.get());
 }
 
 int own_process() { return static_cast<int>(::GetCurrentProcessId()); }
@@ -168,6 +180,12 @@ std::string machine_name() {
   return ::GetComputerNameA(name.data(), &size) != 0 ? name.data() : "";
 }
 
+std::uint64_t memory_size() {
+  MEMORYSTATUSEX status{};
+  status.dwLength = sizeof status;
+  return ::GlobalMemoryStatusEx(&status) != 0 ? status.ullTotalPhys : 0;
+}
+
 fs::path program_file() {
   std::array<wchar_t, 1 << 15> name{};
   const DWORD size = ::GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size()));
@@ -182,6 +200,13 @@ void fail_at_limit_of_file_size() {}
 void watch_signals(void (*note)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGBREAK}) std::signal(signal, note);
 }
+
+// No copies are made here.
+std::optional<ProcessCopy> copy_process(const std::function<void(int)>&) { return std::nullopt; }
+std::string end_of(const ProcessCopy&) { return ""; }
+void interrupt(const ProcessCopy&) {}
+bool send_all(int, const std::string&) { return false; }
+std::vector<bool> wait_to_read(const std::vector<int>&) { return {}; }
 
 ResourceUse resource_use() noexcept {
   FILETIME begin{}, end{}, kernel{}, user{};

@@ -4,6 +4,7 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/safe_relative.hpp"
 #include "sets/folder_walk.hpp"
 #include "texture/enlarged_pixels.hpp"
 #include "texture/image_library.hpp"
@@ -23,7 +24,10 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
     if (place.empty() || place.is_absolute() || *place.begin() == "..")
       throw input_error(shown(path) + ": leads out of " + shown(root) +
                         " (copy it into this folder, or name one above that holds both by --root)");
-  return (inner / path).lexically_normal();
+  fs::path place = (inner / path).lexically_normal();
+  if (std::ranges::any_of(place, is_own_name))
+    throw input_error(shown(path) + ": has a name of texremap's own files (rename it)");
+  return place;
 }
 
 }  // namespace
@@ -86,7 +90,8 @@ void add_pieces(NewFile& file, const std::vector<AssetPiece>& pieces, const Byte
   }
 }
 
-ResourcePlan plan_resources(const AssetJob& job, const std::vector<AssetResource>& resources, bool force) {
+ResourcePlan plan_resources(const AssetJob& job, const std::vector<AssetResource>& resources,
+                            const std::function<void(const fs::path&)>& require_free) {
   ResourcePlan plan;
   const FolderResources files(job);
   for (const AssetResource& resource : resources) {
@@ -112,7 +117,7 @@ ResourcePlan plan_resources(const AssetJob& job, const std::vector<AssetResource
     if (same_file(source, target)) continue;
     if (fs::is_regular_file(target, ignored)) {
       if (are_same_files(source, target)) continue;
-      require_new(target, force);
+      require_free(target);
     }
     plan.copies.push_back({source, target});
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ struct AssetJob {
   std::filesystem::path input_root, output_root;
   std::string image_prefix = {};                  // of new images beside it
   std::vector<std::filesystem::path> files = {};  // that it names and that are there; of several assets alone
+  std::string refusal = {};                       // why it is not converted; empty for none
   ListedSizes listed = {};                        // sizes of files that a manifest states
 
   // The path below the root, as bytes.
@@ -74,9 +76,10 @@ struct ResourcePlan {
 };
 
 // What must be copied so that the result finds the files that the asset names; nothing in one folder. Throws
-// kInput for a name that leads out of the root or to the asset itself, kOutput where another file has the
-// name of a copy, unless `force`.
-ResourcePlan plan_resources(const AssetJob& job, const std::vector<AssetResource>& resources, bool force);
+// kInput for a name that leads out of the root or to the asset itself, or that is one of texremap's own
+// files. `require_free` is called for each file that a copy would replace, and throws where it must not.
+ResourcePlan plan_resources(const AssetJob& job, const std::vector<AssetResource>& resources,
+                            const std::function<void(const std::filesystem::path&)>& require_free);
 
 // Whether the file holds these bytes. Throws kInput.
 bool have_same_bytes(const std::filesystem::path& file, std::string_view bytes);

@@ -1,12 +1,14 @@
 #include "texremap/asset_jobs.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
+#include <unordered_map>
 
+#include "assets/asset_uri.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
+#include "core/plain_text.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/asset_formats.hpp"
 
@@ -24,8 +26,7 @@ fs::path result_name(const fs::path& input, const ConvertOptions& options) {
 
 // The assets that the command line names. --output is a folder, or for one asset a file.
 void add_named(const ConvertOptions& options, AssetList& list) {
-  std::vector<fs::path> inputs = {options.folder};
-  inputs.insert(inputs.end(), options.more_assets.begin(), options.more_assets.end());
+  const std::vector<fs::path> inputs = named_assets(options);
   if (is_asset(options.output)) {
     if (inputs.size() > 1)
       throw usage_error("--output " + options.output.string() +
@@ -85,17 +86,6 @@ void add_listed(const ConvertOptions& options, const Listing& listing, AssetList
   list.is_tree = true;
 }
 
-void require_distinct(const AssetList& list) {
-  std::map<fs::path, const AssetJob*> outputs;
-  for (const AssetJob& job : list.jobs) {
-    const auto [other, is_new] = outputs.try_emplace(job.output.lexically_normal(), &job);
-    if (!is_new)
-      throw usage_error(job.output.string() + ": would be written twice, from " +
-                        shown(other->second->input) + " and from " + shown(job.input) +
-                        " (convert them into two folders)");
-  }
-}
-
 // The files that an asset names and that are there, each once, sorted. An asset that cannot be read, or that
 // names what it may not, fails later.
 std::vector<fs::path> files_of(const AssetJob& job) {
@@ -113,19 +103,114 @@ std::vector<fs::path> files_of(const AssetJob& job) {
   return {files.begin(), files.end()};
 }
 
-// Two assets that name one image may each add another one beside it: their new images begin with the names of
-// the assets.
-void set_files_and_prefixes(AssetList& list) {
-  run_parallel(list.jobs.size(), 0, [&](std::size_t i) { list.jobs[i].files = files_of(list.jobs[i]); });
-  std::map<fs::path, std::vector<AssetJob*>> users;  // by file
-  for (AssetJob& job : list.jobs)
-    for (const fs::path& file : job.files) users[file].push_back(&job);
-  for (const auto& [file, jobs] : users)
-    if (jobs.size() > 1)
-      for (AssetJob* job : jobs) job->image_prefix = job->input.stem().string() + "_";
-}
+// Gives each asset the names that it will write: its result, copies of what it names, and what its new images
+// begin with. Of two that would write one file the second is refused, or names its new images otherwise.
+class NamePlan {
+ public:
+  explicit NamePlan(AssetList& list) : list_(list) {}
+
+  void take_results() {
+    for (AssetJob& job : list_.jobs) {
+      take(job, job.output, owner_of_results(job));
+      if (name_key(job.input) != name_key(job.output)) take(job, job.input, shown(job.input));
+    }
+  }
+
+  void take_files() {
+    run_parallel(list_.jobs.size(), 0, [&](std::size_t i) { list_.jobs[i].files = files_of(list_.jobs[i]); });
+    for (AssetJob& job : list_.jobs)
+      for (const fs::path& file : job.files)
+        for (const fs::path& name : {file, copy_of(file, job)}) {
+          take(job, name, shown(file));
+          note_name(name);
+        }
+  }
+
+  // New images are named after images that the asset names. Where two assets name images of one stem, and
+  // where a new image could have the name of a file of another one, their names begin with that of the asset:
+  // `chair_`, or `chair_2_` where another asset has that.
+  void set_prefixes() {
+    for (AssetJob& job : list_.jobs) take_stems(job);
+    for (AssetJob& job : list_.jobs) {
+      for (std::size_t number = 1; !may_have_stems(job); ++number)
+        job.image_prefix =
+            job.input.stem().string() + (number == 1 ? "_" : "_" + std::to_string(number) + "_");
+      take_stems(job);
+    }
+  }
+
+ private:
+  // Who names new images after a stem; null for several.
+  using Stems = std::unordered_map<std::string, const AssetJob*>;
+
+  static fs::path copy_of(const fs::path& file, const AssetJob& job) {
+    return job.output_root / file.lexically_relative(job.input_root.lexically_normal());
+  }
+
+  void take(AssetJob& job, const fs::path& name, const std::string& owner) {
+    const std::string other = list_.names->take(name, owner);
+    if (other.empty() || !job.refusal.empty()) return;
+    job.refusal = shown(job.input) + ": " + shown(name) + " would be written twice, from " + other +
+                  " and from " + owner + " (convert them into two folders, or rename one)";
+  }
+
+  // As take_stems() names it.
+  static std::string stem_of(const fs::path& name) {
+    const std::string key = name_key(name);
+    return key.substr(0, key.size() - fs::path(key).extension().string().size());
+  }
+
+  // The stem after which a new image could have this name, if there is one: `wood` for
+  // `wood_roughness_2.png`.
+  void note_name(const fs::path& name) {
+    std::string stem = stem_of(name);
+    const std::size_t digits = stem.find_last_not_of("0123456789");
+    if (digits != std::string::npos && stem[digits] == '_' && digits + 1 < stem.size()) stem.resize(digits);
+    for (const std::string_view suffix : kNewImageSuffixes)
+      if (stem.ends_with(without_case(suffix)))
+        names_[stem.substr(0, stem.size() - suffix.size())].insert(name);
+  }
+
+  void take_stems(const AssetJob& job) {
+    for (const std::string& stem : stems_of(job)) {
+      const auto [found, is_new] = stems_.try_emplace(stem, &job);
+      if (!is_new && found->second != &job) found->second = nullptr;
+    }
+  }
+
+  static std::vector<std::string> stems_of(const AssetJob& job) {
+    std::vector<std::string> stems;
+    for (const fs::path& file : job.files)
+      stems.push_back(name_key(stem_beside(copy_of(file, job).generic_string(), job.image_prefix, "")));
+    return stems;
+  }
+
+  bool may_have_stems(const AssetJob& job) const {
+    return std::ranges::all_of(stems_of(job), [&](const std::string& stem) {
+      if (const auto found = stems_.find(stem); found != stems_.end() && found->second != &job) return false;
+      const auto named = names_.find(stem);
+      return named == names_.end() || std::ranges::all_of(named->second, [&](const fs::path& name) {
+               return std::ranges::any_of(job.files, [&](const fs::path& file) {
+                 return file == name || copy_of(file, job) == name;
+               });
+             });
+    });
+  }
+
+  AssetList& list_;
+  Stems stems_;
+  std::unordered_map<std::string, std::set<fs::path>> names_;  // of files, by the stem that could give them
+};
 
 }  // namespace
+
+std::string owner_of_results(const AssetJob& job) { return "the conversion of " + shown(job.input); }
+
+std::vector<fs::path> named_assets(const ConvertOptions& options) {
+  std::vector<fs::path> inputs = {options.folder};
+  inputs.insert(inputs.end(), options.more_assets.begin(), options.more_assets.end());
+  return inputs;
+}
 
 bool is_asset(const fs::path& path) {
   std::error_code ignored;
@@ -138,8 +223,12 @@ AssetList asset_list(const ConvertOptions& options, const Listing* listing) {
     add_listed(options, *listing, list);
   else
     options.assets ? add_tree(options, list) : add_named(options, list);
-  require_distinct(list);
-  if (listing == nullptr && list.jobs.size() > 1) set_files_and_prefixes(list);
+  NamePlan names(list);
+  names.take_results();
+  if (listing == nullptr && list.jobs.size() > 1) {
+    names.take_files();
+    names.set_prefixes();
+  }
   return list;
 }
 
@@ -150,11 +239,17 @@ Listing listing_of_assets(const fs::path& folder, const std::string& format) {
   options.recursive = true;
   AssetList list;
   add_tree(options, list);
-  require_distinct(list);
-  set_files_and_prefixes(list);
+  NamePlan names(list);
+  names.take_results();
+  names.take_files();
+  names.set_prefixes();
   Listing listing;
   listing.kind = ListedKind::kAssets;
   for (const AssetJob& job : list.jobs) {
+    if (!job.refusal.empty()) {
+      listing.found.problems.push_back({{}, job.refusal});
+      continue;
+    }
     ListedAsset& asset = listing.assets.emplace_back();
     asset.path = job.name();
     asset.image_prefix = job.image_prefix;

@@ -27,6 +27,22 @@ struct AssetReport {
   bool has_failed() const { return !failure.empty() || failed_count() > 0; }
 };
 
+// All members, for another process (packed_values.hpp).
+template <typename Archive>
+void fields(Archive& archive, MaterialFactor& factor) {
+  archive(factor.name, factor.values);
+}
+template <typename Archive>
+void fields(Archive& archive, AssetMaterial& material) {
+  archive(material.index, material.name, material.state, material.factors, material.residual,
+          material.becomes, material.warnings, material.failure);
+}
+template <typename Archive>
+void fields(Archive& archive, AssetReport& report) {
+  archive(report.input, report.output, report.is_written, report.was_done, report.materials, report.warnings,
+          report.copies, report.images, report.failure, report.failure_code, report.seconds);
+}
+
 // Prints warnings, failures and a summary to standard error; in a dry run each material, too.
 void print_asset(const AssetReport& report, bool dry_run, bool failures_only);
 

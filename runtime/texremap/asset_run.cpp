@@ -5,18 +5,20 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 
 #include "assets/specgloss_factors.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/parallel.hpp"
+#include "core/packed_values.hpp"
 #include "core/stopwatch.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/asset_files.hpp"
 #include "texremap/asset_formats.hpp"
 #include "texremap/conversion_hash.hpp"
+#include "texremap/job_processes.hpp"
 #include "texremap/journal.hpp"
 #include "texremap/repeats.hpp"
 #include "texture/content_hash.hpp"
@@ -88,6 +90,7 @@ class AssetRunner {
 
   void run(const AssetJob& job, AssetReport& report) {
     const Stopwatch stopwatch;
+    if (!job.refusal.empty()) throw output_error(job.refusal);
     require_as_listed(job.listed);
     const FileSource source(job.input);
     const FolderResources files(job);
@@ -102,7 +105,8 @@ class AssetRunner {
     const AssetConversion conversion = convert_asset(source, job.input, job.output, conversion_, files);
     report.materials = conversion.materials;
     report.warnings = conversion.warnings;
-    const ResourcePlan plan = plan_resources(job, conversion.resources, options_.force || options_.resume);
+    const ResourcePlan plan =
+        plan_resources(job, conversion.resources, [&](const fs::path& target) { require_free({}, target); });
     report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
     // A file of which nothing was converted and something failed would be taken for a result.
     report.is_written = conversion.changed || report.failed_count() == 0;
@@ -114,6 +118,10 @@ class AssetRunner {
       const bool is_same = fs::is_regular_file(report.images.back(), ignored) &&
                            have_same_bytes(report.images.back(), file.bytes);
       if (!is_same) require_free({}, report.images.back());
+      if (const std::string other = list_.names->take(report.images.back(), owner_of_results(job));
+          !other.empty())
+        throw output_error(shown(job.input) + ": would write " + shown(report.images.back()) +
+                           ", which is of " + other + " (rename one)");
     }
     // A resumed run tries again what failed.
     if (report.is_written && !options_.dry_run)
@@ -143,7 +151,7 @@ class AssetRunner {
     const std::vector<fs::path> files = journal_.files_of(job.name());
     if (files.empty() || !journal_.is_done(inputs, files)) return false;
     const bool is_new_format = job.input.extension() != job.output.extension();  // which names other files
-    return is_new_format || plan_resources(job, named, true).copies.empty();
+    return is_new_format || plan_resources(job, named, [](const fs::path&) {}).copies.empty();
   }
 
   // The asset comes last, so that it never lies without its parts.
@@ -162,13 +170,18 @@ class AssetRunner {
         add_pieces(*files.back(), {{"", 0, source.size()}}, source);
     }
     for (const std::unique_ptr<NewFile>& file : files) file->finish();
+    if (list_.is_tree) journal_.claim(options_.force);
+    if (list_.is_tree && !plan.copies.empty()) {  // so that a later run knows them
+      std::vector<fs::path> paths;
+      for (const ResourceCopy& copy : plan.copies) paths.push_back(copy.to);
+      journal_.begin(paths);
+    }
     for (const ResourceCopy& copy : plan.copies) copies_.copy(copy);
     const auto rename = [&] {
       for (const std::unique_ptr<NewFile>& file : files)
         file->commit(list_.is_tree ? Flush::kNo : Flush::kYes);
     };
     if (!list_.is_tree) return rename();
-    journal_.claim(options_.force);
     std::vector<FinishedFile> finished;
     std::vector<fs::path> paths;
     for (const std::unique_ptr<NewFile>& file : files) finished.push_back(finished_file(*file));
@@ -184,6 +197,49 @@ class AssetRunner {
   Journal journal_;
   SharedCopies copies_;
 };
+
+AssetReport report_named(const AssetJob& job) {
+  AssetReport report;
+  report.input = job.input;
+  report.output = job.output;
+  return report;
+}
+
+// Where the result, its images and copies go.
+std::set<fs::path> folders_of(const AssetJob& job) {
+  std::set<fs::path> folders = {folder_of_asset(job.output)};
+  for (const fs::path& file : job.files)
+    folders.insert(
+        folder_of_asset(job.output_root / file.lexically_relative(job.input_root.lexically_normal())));
+  return folders;
+}
+
+// Converts an asset; of several, a failure is a part of the report.
+AssetReport report_of(AssetRunner& runner, const AssetList& list, const ConvertOptions& options,
+                      std::size_t i) {
+  const AssetJob& job = list.jobs[i];
+  AssetReport report;
+  try {
+    if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted", EINTR);
+    const std::vector<std::string> troubles = with_repeats([&] {
+      report = report_named(job);
+      runner.run(job, report);
+    });
+    for (const std::string& trouble : troubles) report.warnings.push_back("tried again after " + trouble);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted)
+      throw Error(error.kind(),
+                  std::string("interrupted: finished assets are complete") +
+                      (list.is_tree ? " (--resume converts the others)" : ""),
+                  options.part ? EINTR : 0);
+    if (list.jobs.size() == 1 && !list.is_tree) throw;
+    report.failure = error.what();
+    report.failure_code = error.system_code();
+  } catch (const std::bad_alloc&) {
+    report.failure = shown(job.input) + ": out of memory (use fewer --threads)";
+  }
+  return report;
+}
 
 std::string progress_text(std::size_t done, std::size_t all) {
   return std::to_string(done) + " of " + std::to_string(all) + " assets";
@@ -201,40 +257,35 @@ std::vector<AssetReport> run_assets(const AssetList& list, const ConvertOptions&
                                     const std::function<void(const AssetReport&)>& finished) {
   const std::size_t threads = std::min(static_cast<std::size_t>(options.threads()), list.jobs.size());
   AssetRunner runner(list, options, conversion);
+  set_image_limits({1, options.memory_bytes() / std::max<std::size_t>(threads, 1)});
   std::vector<AssetReport> reports(list.jobs.size());
   Progress line(progress_text(0, list.jobs.size()), list.jobs.size(), !options.quiet);
-  std::mutex mutex;
   std::size_t done = 0;
-  run_parallel(list.jobs.size(), static_cast<unsigned>(threads), [&](std::size_t i) {
-    AssetReport& report = reports[i];
-    std::vector<std::string> troubles;
-    try {
-      if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted", EINTR);
-      troubles = with_repeats([&] {
-        report = {};
-        report.input = list.jobs[i].input;
-        report.output = list.jobs[i].output;
-        runner.run(list.jobs[i], report);
-      });
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::kInterrupted)
-        throw Error(error.kind(),
-                    std::string("interrupted: finished assets are complete") +
-                        (list.is_tree ? " (--resume converts the others)" : ""),
-                    options.part ? EINTR : 0);
-      if (list.jobs.size() == 1 && !list.is_tree) throw;
-      report.failure = error.what();
-      report.failure_code = error.system_code();
-    } catch (const std::bad_alloc&) {
-      report.failure = shown(list.jobs[i].input) + ": out of memory (use fewer --threads)";
-    }
-    for (const std::string& trouble : troubles) report.warnings.push_back("tried again after " + trouble);
-    const std::lock_guard lock(mutex);
+  const auto finish = [&](std::size_t i, AssetReport report) {
+    reports[i] = std::move(report);
     line.hide();
-    finished(report);
+    finished(reports[i]);
     line.relabel(progress_text(++done, list.jobs.size()));
     line.advance();
-  });
+  };
+  ApartJobs apart;
+  apart.count = list.jobs.size();
+  apart.at_once = static_cast<unsigned>(threads);
+  apart.work = [&](std::size_t i, const std::function<void(double)>&) {
+    return packed(report_of(runner, list, options, i));
+  };
+  apart.finished = [&](std::size_t i, std::string result) {
+    finish(i, unpacked<AssetReport>(std::move(result)));
+  };
+  apart.crashed = [&](std::size_t i, const std::string& how) {
+    AssetReport report = report_named(list.jobs[i]);
+    for (const fs::path& folder : folders_of(list.jobs[i])) remove_unfinished(folder);
+    report.failure = shown(report.input) + ": the process that converted it was ended " + how +
+                     ", probably by a damaged image (texremap check names it)";
+    if (list.jobs.size() == 1 && !list.is_tree) throw input_error(report.failure);
+    finish(i, std::move(report));
+  };
+  run_apart(apart);
   return reports;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "check/rules.hpp"
@@ -14,12 +15,22 @@
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
-#include "core/parallel.hpp"
+#include "core/packed_values.hpp"
 #include "core/report_text.hpp"
 #include "sets/naming.hpp"
 #include "texremap/commands.hpp"
+#include "texremap/convert_options.hpp"
+#include "texremap/job_processes.hpp"
+#include "texture/image_library.hpp"
 
 namespace remap {
+
+// All members, for another process (packed_values.hpp). Names of rules are constants of both.
+template <typename Archive>
+void fields(Archive& archive, MaterialFinding& finding) {
+  archive(finding.rule, finding.confidence, finding.place, finding.channel, finding.message, finding.mend);
+}
+
 namespace {
 
 struct CheckOptions {
@@ -28,6 +39,7 @@ struct CheckOptions {
   const TargetReader* reader = nullptr;
   std::vector<std::string> ignored;  // names of rules
   unsigned thread_count = 0;
+  int memory_megabytes = 0;
   bool json = false;
   bool quiet = false;
 };
@@ -49,6 +61,11 @@ struct Looked {
   std::vector<std::string> problems;
   std::size_t map_count = 0;
 };
+
+template <typename Archive>
+void fields(Archive& archive, Looked& looked) {
+  archive(looked.findings, looked.problems, looked.map_count);
+}
 
 Looked look_at(CheckedMaterial material, const CheckOptions& options) {
   Looked looked;
@@ -90,11 +107,26 @@ void check(const CheckOptions& options) {
                       "FILE for other names)");
   std::vector<Looked> looked(found.materials.size());
   Progress progress("materials", looked.size(), !options.quiet);
-  run_parallel(looked.size(), options.thread_count, [&](std::size_t i) {
+  const std::size_t threads =
+      options.thread_count > 0 ? options.thread_count : std::max(1u, std::thread::hardware_concurrency());
+  set_image_limits({0, memory_limit(options.memory_megabytes) / threads});
+  ApartJobs apart;
+  apart.count = looked.size();
+  apart.at_once = static_cast<unsigned>(threads);
+  apart.work = [&](std::size_t i, const std::function<void(double)>&) {
     if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted");
-    looked[i] = look_at(std::move(found.materials[i]), options);
+    return packed(look_at(std::move(found.materials[i]), options));
+  };
+  apart.finished = [&](std::size_t i, std::string result) {
+    looked[i] = unpacked<Looked>(std::move(result));
     progress.advance();
-  });
+  };
+  apart.crashed = [&](std::size_t i, const std::string& how) {
+    looked[i].problems.push_back(found.materials[i].name + ": the process that read its maps was ended " +
+                                 how + " (one of them is damaged; write it again as PNG)");
+    progress.advance();
+  };
+  run_apart(apart);
   progress.hide();
   Json json = {{"version", 1},
                {"for", options.reader != nullptr ? Json(options.reader->name) : Json()},
@@ -138,6 +170,7 @@ void add_check_command(Command& app) {
                       "Rules to leave out, with commas between");
   command->add_option("--names FILE", options.names, "More file-name habits (JSON)");
   command->add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core");
+  add_memory_option(*command, options.memory_megabytes);
   command->add_flag("--json", options.json, "Print the findings as JSON to standard output");
   command->add_flag("--quiet", options.quiet, "Print nothing but findings and errors");
   std::string text = "The exit code is 1 if anything looks wrong. Rules:\n";

@@ -25,6 +25,13 @@ std::optional<fs::path> file_of(const FoundMap& map, int tile) {
   return std::nullopt;
 }
 
+std::vector<fs::path> files_of(const FoundMap& map) {
+  std::vector<fs::path> files;
+  for (const Tile& tile : map.tiles) files.push_back(tile.path);
+  if (files.empty()) files.push_back(map.path);
+  return files;
+}
+
 std::vector<int> tiles_of(const FoundSet& set) {
   std::set<int> numbers;
   for (const FoundMap& map : set.maps)
@@ -86,7 +93,7 @@ class FolderJobs {
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
   void place_others(const FoundSet& set, int tile, ConversionJob& job) const;
   std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
-  void require_no_collisions() const;
+  bool takes_names(const FoundSet& set);
   void note_sizes(ConversionJob& job) const;
   void require_encoding_used() const;
   // The pattern with `*` for the name of a set that an option gives for a parameter; null for none.
@@ -119,8 +126,10 @@ JobList FolderJobs::list() {
   for (const fs::path& image : found_.unrecognised) jobs_.unrecognised.push_back(root_ / image);
   jobs_.asset_count = found_.others.size();
   for (const WalkProblem& problem : found_.problems) fail(problem.message);
+  for (const FoundSet& set : found_.sets)
+    for (const FoundMap& map : set.maps)
+      for (const fs::path& file : files_of(map)) (void)jobs_.names->take(root_ / file, place(set));
   for (FoundSet& set : found_.sets) add(std::move(set));
-  require_no_collisions();
   if (!found_.sizes.empty())
     for (ConversionJob& job : jobs_.jobs) note_sizes(job);
   if (options_.part) return std::move(jobs_);  // what concerns all sets, no part can tell
@@ -185,6 +194,7 @@ void FolderJobs::add(FoundSet set) {
       return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
                   " VALUE for such sets)");
   }
+  if (!takes_names(set)) return;
   converted_.push_back(set);
   for (const int tile : tiles_of(set)) add_tile(set, tile, notes);
 }
@@ -323,18 +333,23 @@ void FolderJobs::require_encoding_used() const {
                 "they hold (remove this option)");
 }
 
-// Names are compared byte by byte after `.` and `..` are resolved in the text; links and case-insensitive
-// file systems are not considered.
-void FolderJobs::require_no_collisions() const {
-  std::map<fs::path, fs::path> all;
-  for (const FoundSet& set : converted_)
-    for (const auto& [path, source] : outputs(set)) {
-      const auto [first, is_new] = all.try_emplace(path.lexically_normal(), source);
-      if (!is_new)
-        throw Error(ErrorKind::kUsage, shown(first->first) + ": would be written twice, from " +
-                                           shown(root_ / first->second) + " and from " +
-                                           shown(root_ / source) + " (rename one of the sets)");
-    }
+// Takes the names of what a set writes, and of copies of its maps. Notes a message and returns false where
+// another set has one of them.
+bool FolderJobs::takes_names(const FoundSet& set) {
+  const auto take = [&](const fs::path& path, const fs::path& source) {
+    const std::string other = jobs_.names->take(path, place(set));
+    if (!other.empty())
+      fail(shown(path) + ": would be written twice, from " + other + " and from " + shown(root_ / source) +
+           " (rename one of the sets)");
+    return other.empty();
+  };
+  for (const auto& [path, source] : outputs(set))
+    if (!take(path, source)) return false;
+  if (options_.copy_others)
+    for (const FoundMap& map : set.maps)
+      for (const fs::path& file : files_of(map))
+        if (!take(options_.output / file, file)) return false;
+  return true;
 }
 
 // A file name with a placeholder for the tile.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "sets/discovery.hpp"
 #include "texremap/convert_options.hpp"
 #include "texremap/workflow_choice.hpp"
+#include "texremap/written_names.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_set.hpp"
 
@@ -38,6 +40,7 @@ struct SkippedSet {
 
 struct JobList {
   std::vector<ConversionJob> jobs;
+  std::shared_ptr<WrittenNames> names = std::make_shared<WrittenNames>();  // results, inputs and copies
   std::vector<SkippedSet> left_out;
   std::vector<std::filesystem::path> unrecognised;  // images of a folder whose names no habit matches
   std::size_t asset_count = 0;                      // assets in the folder, which are left as they are
@@ -50,7 +53,8 @@ struct JobList {
 std::optional<Discovery> discovered_sets(const ConvertOptions& options);
 
 // `request` is what the options say about one set, or about all sets of a folder. Throws kUsage if the folder
-// has no sets or if two sets would write one file; kInput if the folder or a naming file cannot be read.
+// has no sets; of two sets that would write one file the second is left out. Throws kInput if the folder or a
+// naming file cannot be read.
 JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
                         const TextureSetRequest& request, std::optional<Discovery> sets);
 

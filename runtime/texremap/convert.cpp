@@ -18,6 +18,7 @@
 #include "remap/path.hpp"
 #include "remap/warp.hpp"
 #include "stages/brdf_stage.hpp"
+#include "texremap/asset_jobs.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/conversion_hash.hpp"
 #include "texremap/conversion_request.hpp"
@@ -252,10 +253,25 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
                     "this)");
 }
 
+// Below what folders others may have put what the run reads.
+void confine(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
+  std::vector<std::filesystem::path> folders;
+  if (options.folder.empty() || options.follow_links) return confine_inputs({});
+  if (manifest || !is_asset(options.folder))
+    folders.push_back(options.folder);
+  else if (!options.asset_root.empty())
+    folders.push_back(options.asset_root);
+  else
+    for (const std::filesystem::path& asset : named_assets(options))
+      folders.push_back(folder_of_asset(asset));
+  confine_inputs(folders);
+}
+
 }  // namespace
 
 void convert(ConvertOptions options) {
   std::optional<TreeManifest> manifest = listed_entries(options);
+  confine(options, manifest);
   if (are_assets(options, manifest)) return convert_assets(options, manifest);
   CheckedConversion conversion = checked(options, std::move(manifest));
   if (options.folder.empty() && are_constants(conversion.request)) {

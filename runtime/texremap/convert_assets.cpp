@@ -19,10 +19,11 @@ namespace remap {
 namespace {
 
 // The options of `texremap convert` that apply to assets, besides those with the tag kNeedsAsset.
-constexpr std::array<std::string_view, 18> kAssetOptions = {
-    "DIR",       "--from",    "--to",     "--prior",        "--output",   "--force",
-    "--dry-run", "--json",    "--quiet",  "--instructions", "--resample", "--recursive",
-    "--resume",  "--threads", "--format", "--manifest",     "--part",     "--compression"};
+constexpr std::array<std::string_view, 20> kAssetOptions = {
+    "DIR",        "--from",      "--to",          "--prior",        "--output",
+    "--force",    "--dry-run",   "--json",        "--quiet",        "--instructions",
+    "--resample", "--recursive", "--resume",      "--threads",      "--format",
+    "--manifest", "--part",      "--compression", "--follow-links", "--memory-limit"};
 // Of these, those that apply to folders alone.
 constexpr std::array<std::string_view, 2> kTreeOptions = {"--recursive", "--resume"};
 

@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
+#include "core/system.hpp"
 #include "remap/error.hpp"
 #include "sets/name_pieces.hpp"
 #include "texremap/commands.hpp"
@@ -149,6 +150,10 @@ void add_source_options(Command& command, ConvertOptions& options) {
           "Assets may name files below this folder, whose tree the results mirror (default: the folder "
           "of the asset; with --assets DIR)")
       ->tag(kNeedsAsset);
+  command
+      .add_flag("--follow-links", options.follow_links,
+                "Read files that links in DIR, or in the folder of an asset, lead to elsewhere")
+      ->tag(kNeedsFiles);
   Option* manifest = command.add_option(
       "--manifest FILE", options.manifest,
       "Convert the sets or assets that texremap index has listed; DIR is where the tree lies now");
@@ -385,9 +390,24 @@ void add_rare_options(Command& command, ConvertOptions& options) {
       "baseline, avx2 or avx512; results are identical (default: the widest of this processor)");
   command.add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core")
       ->range(0, 1024);
+  add_memory_option(command, options.memory_megabytes);
 }
 
 }  // namespace
+
+std::uint64_t memory_limit(int megabytes) {
+  constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20, kUnknown = std::uint64_t{8} << 30;
+  if (megabytes > 0) return static_cast<std::uint64_t>(megabytes) * kMegabyte;
+  const std::uint64_t machine = memory_size();
+  return (machine > 0 ? machine : kUnknown) / 4;
+}
+
+void add_memory_option(Command& command, int& megabytes) {
+  command
+      .add_option("--memory-limit MB", megabytes,
+                  "Memory that images may take at once in all threads (default: a quarter of this machine's)")
+      ->positive();
+}
 
 void apply_preset(ConvertOptions& options) {
   if (options.preset == nullptr) return;

@@ -1,6 +1,7 @@
 // The options of `texremap convert`, as values.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -49,6 +50,10 @@ using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's
 // A model as `--from` and `--to` name it.
 Reader<ModelName> model_name();
 
+// The bytes of `megabytes`, or a quarter of the machine's memory for 0.
+std::uint64_t memory_limit(int megabytes);
+void add_memory_option(Command& command, int& megabytes);
+
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
@@ -64,6 +69,7 @@ struct ConvertOptions {
   std::string fit;
   UsedConverters converters;
   bool recursive = false;
+  bool follow_links = false;       // out of the folder of the inputs
   std::filesystem::path manifest;  // that lists the sets or assets, in place of a search in the folder
   std::optional<GivenPart> part;   // of the manifest
 
@@ -99,6 +105,8 @@ struct ConvertOptions {
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core
   int threads() const;
+  int memory_megabytes = 0;  // 0 for a quarter of the machine's
+  std::uint64_t memory_bytes() const { return memory_limit(memory_megabytes); }
 
   // Null where the option of the parameter was not given.
   const MapSource* map_of(Parameter parameter) const {

@@ -70,6 +70,31 @@ struct JobReport {
   JobReport& operator+=(const JobReport& other);
 };
 
+// All members, for another process (packed_values.hpp).
+template <typename Archive>
+void fields(Archive& archive, JobReport::Result& result) {
+  archive(result.path, result.parameters, result.mask);
+}
+template <typename Archive>
+void fields(Archive& archive, MapStatistics& statistics) {
+  archive(statistics.texel_count, statistics.out_of_domain_count, statistics.nan_count,
+          statistics.infinite_count, statistics.negative_count, statistics.clipped_count,
+          statistics.masked_count, statistics.above_one_count, statistics.first_bad, statistics.sources,
+          statistics.targets, statistics.metallic);
+}
+template <typename Archive>
+void fields(Archive& archive, PlannedRole& role) {
+  archive(role.role, role.input, role.encoding, role.happens, role.output);
+}
+template <typename Archive>
+void fields(Archive& archive, JobReport& report) {
+  archive(report.name, report.tiles, report.inputs, report.results, report.copies, report.left_behind,
+          report.specular_transfer, report.colors, report.estimated_f0, report.warnings, report.plan,
+          report.failure, report.failure_code, report.was_done, report.has_8_bits,
+          report.has_compression_level, report.statistics, report.seconds, report.bytes_read,
+          report.bytes_written);
+}
+
 // The outcome of the whole run.
 struct Outcome {
   const ChosenConverter& chosen;

@@ -12,6 +12,7 @@
 #include "texremap/asset_jobs.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/manifest.hpp"
+#include "texremap/written_names.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {
@@ -29,6 +30,16 @@ Listing listing_of_sets(const IndexOptions& options) {
   discovery.naming = &naming;
   Listing listing;
   listing.found = find_sets(options.folder, discovery);
+  // Names of results are those of sets: of two that differ in case alone, parts would write one file.
+  WrittenNames names;
+  std::erase_if(listing.found.sets, [&](const FoundSet& set) {
+    const std::filesystem::path place = options.folder / set.folder / set.name;
+    const std::string other = names.take(place, shown(place));
+    if (!other.empty())
+      listing.found.problems.push_back({set.folder / set.name, shown(place) + ": has the name of " + other +
+                                                                   " but for case (rename one of the sets)"});
+    return !other.empty();
+  });
   if (listing.found.sets.empty() && listing.found.problems.empty())
     throw usage_error(options.folder.string() +
                       ": no texture set found by file names (use --names FILE for other names, or "

@@ -12,12 +12,13 @@
 #include "command_line/progress.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/parallel.hpp"
+#include "core/packed_values.hpp"
 #include "core/stopwatch.hpp"
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/conversion_hash.hpp"
 #include "texremap/conversion_request.hpp"
+#include "texremap/job_processes.hpp"
 #include "texremap/journal.hpp"
 #include "texremap/manifest.hpp"
 #include "texremap/repeats.hpp"
@@ -162,9 +163,11 @@ JobReport::Result result_of(const PlannedMap& planned) {
 class JobRunner {
  public:
   // `is_tree`: the output folder is of this conversion alone.
-  JobRunner(const ChosenConverter& chosen, const ConvertOptions& options, int threads_a_job, bool is_tree)
+  JobRunner(const ChosenConverter& chosen, const ConvertOptions& options, int threads_a_job, bool is_tree,
+            WrittenNames& names)
       : chosen_(chosen),
         options_(options),
+        names_(names),
         choice_(target_choice(options, chosen.workflow)),
         pass_(pass_options(options)),
         is_tree_(is_tree),
@@ -192,6 +195,7 @@ class JobRunner {
 
   const ChosenConverter& chosen_;
   const ConvertOptions& options_;
+  WrittenNames& names_;
   TargetChoice choice_;  // without the members that differ between sets
   PassOptions pass_;
   bool is_tree_;
@@ -326,6 +330,10 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
       report.copies.push_back(copy.path);
     else
       report.results.push_back(result_of({copy.path, copy.parts}));
+  for (const std::filesystem::path& file : results_of(plan))
+    if (const std::string other = names_.take(file, shown(job.name)); !other.empty())
+      throw Error(ErrorKind::kOutput, file.string() + ": would be written twice, from " + other +
+                                          " and from " + shown(job.name) + " (rename one of the sets)");
   report.warnings = job.notes;
   report.warnings.insert(report.warnings.end(), plan.left_out.begin(), plan.left_out.end());
   const bool needs_hash = options_.resume || !options_.dry_run;
@@ -455,6 +463,44 @@ void run_job(JobRunner& runner, const ConversionJob& job, const std::function<vo
   }
 }
 
+JobReport report_named(const ConversionJob& job) {
+  JobReport report;
+  report.name = job.name;
+  if (!job.tile.empty()) report.tiles = {job.tile};
+  return report;
+}
+
+// The set, or of a set without a name its first map.
+std::string place_of(const ConversionJob& job) {
+  if (!job.name.empty()) return shown(job.name);
+  for (const auto& [parameter, asked] : job.request.parameters)
+    if (const auto* map = std::get_if<MapName>(&asked.source)) return shown(map->file);
+  return "the set";
+}
+
+// Converts a set, or a tile of one; of several, a failure is a part of the report.
+JobReport report_of(JobRunner& runner, const JobList& list, const ConvertOptions& options, std::size_t i,
+                    const std::function<void(double)>& advance) {
+  const ConversionJob& job = list.jobs[i];
+  JobReport report;
+  try {
+    const std::vector<std::string> troubles = with_repeats([&] {
+      report = report_named(job);
+      run_job(runner, job, advance, report);
+    });
+    for (const std::string& trouble : troubles) report.warnings.push_back("tried again after " + trouble);
+  } catch (const Error& error) {
+    if (!list.is_tree) throw;
+    if (error.kind() == ErrorKind::kInterrupted)
+      throw Error(error.kind(), "interrupted: finished sets are complete (--resume converts the others)",
+                  options.part ? EINTR : 0);
+    report.failure = error.what();
+    report.failure_code = error.system_code();
+    report.tiles.clear();
+  }
+  return report;
+}
+
 }  // namespace
 
 std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chosen,
@@ -463,43 +509,45 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
   const int threads = options.threads();
   const int at_once =
       static_cast<int>(std::clamp<std::size_t>(list.jobs.size(), 1, static_cast<std::size_t>(threads)));
-  JobRunner runner(chosen, options, threads / at_once, !options.folder.empty());
-  set_image_thread_count(threads / at_once);
+  JobRunner runner(chosen, options, threads / at_once, !options.folder.empty(), *list.names);
+  set_image_limits({threads / at_once, options.memory_bytes() / static_cast<unsigned>(at_once)});
   JobProgress line(list, chosen.info().id, !options.quiet);
   Sets sets(list.jobs, [&](const JobReport& report) {
     line.hide();
     finished(report);
   });
-  run_parallel(list.jobs.size(), static_cast<unsigned>(at_once), [&](std::size_t i) {
-    const ConversionJob& job = list.jobs[i];
-    JobReport report;
-    std::size_t shown = 0;
-    const auto advance = [&](double share) {
-      const auto now = static_cast<std::size_t>(share * kSetProgress);
-      line.advance(now - shown);
-      shown = now;
-    };
-    try {
-      const std::vector<std::string> troubles = with_repeats([&] {
-        report = {};
-        report.name = job.name;
-        if (!job.tile.empty()) report.tiles = {job.tile};
-        run_job(runner, job, advance, report);
-      });
-      for (const std::string& trouble : troubles) report.warnings.push_back("tried again after " + trouble);
-    } catch (const Error& error) {
-      if (!list.is_tree) throw;
-      if (error.kind() == ErrorKind::kInterrupted)
-        throw Error(error.kind(), "interrupted: finished sets are complete (--resume converts the others)",
-                    options.part ? EINTR : 0);
-      report.failure = error.what();
-      report.failure_code = error.system_code();
-      report.tiles.clear();
-    }
-    advance(1.0);
+  std::vector<std::size_t> shown(list.jobs.size(), 0);
+  const auto advance = [&](std::size_t i, double share) {
+    const auto now = static_cast<std::size_t>(share * kSetProgress);
+    line.advance(now - shown[i]);
+    shown[i] = now;
+  };
+  const auto finish = [&](std::size_t i, JobReport report) {
+    advance(i, 1.0);
     line.finish(report.statistics.texel_count);
     sets.finish(i, std::move(report));
-  });
+  };
+  ApartJobs apart;
+  apart.count = list.jobs.size();
+  apart.at_once = static_cast<unsigned>(at_once);
+  apart.work = [&](std::size_t i, const std::function<void(double)>& tell) {
+    return packed(report_of(runner, list, options, i, tell));
+  };
+  apart.advanced = advance;
+  apart.finished = [&](std::size_t i, std::string result) {
+    finish(i, unpacked<JobReport>(std::move(result)));
+  };
+  apart.crashed = [&](std::size_t i, const std::string& how) {
+    const ConversionJob& job = list.jobs[i];
+    for (const std::filesystem::path& folder : {job.folder, job.diagnosis_folder}) remove_unfinished(folder);
+    JobReport report = report_named(job);
+    report.failure = place_of(job) + ": the process that converted it was ended " + how +
+                     ", probably by a damaged image (texremap check names it)";
+    report.tiles.clear();
+    if (!list.is_tree) throw input_error(*report.failure);
+    finish(i, std::move(report));
+  };
+  run_apart(apart);
   std::vector<JobReport> reports = sets.reports();
   const auto is_converted = [](const JobReport& report) { return !report.failure && !report.was_done; };
   if (!options.dry_run && !options.part && std::any_of(reports.begin(), reports.end(), is_converted)) {

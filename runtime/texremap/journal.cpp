@@ -3,22 +3,19 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <set>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/plain_text.hpp"
+#include "core/safe_relative.hpp"
 #include "core/system.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
 namespace {
-
-// A journal line is far shorter; more is damage.
-constexpr std::size_t kLongestLine = std::size_t{16} << 20;
 
 struct Entry {
   std::string conversion, inputs, target;
@@ -48,13 +45,30 @@ struct Content {
   std::map<std::string, Entry> files;  // by name, the last line counts
   std::map<std::string, std::vector<const std::string*>>
       sets;  // names of their files, which are keys of `files`
-  std::map<fs::path, std::streamoff> read_bytes;
+  std::map<fs::path, std::uintmax_t> read_bytes;
 
-  void read(const fs::path& journal);
+  // The journal `name` of a folder, if it is there. Throws kOutput for what is none of this user's, kInput
+  // for a line that is too long.
+  void read_own(const fs::path& folder, const fs::path& name);
   // In the order in which they were written to.
-  void read(const std::vector<fs::path>& journals);
-  void add(const std::string& line);
+  void read_own(const fs::path& folder, const std::vector<fs::path>& names);
+  void read(const InputFile& journal);
+  void add(std::string_view line);
 };
+
+// Names of journals in a folder, in the order in which they were written to.
+std::vector<fs::path> by_time(const fs::path& folder, const std::vector<fs::path>& names) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> written;
+  for (const fs::path& name : names) {
+    std::error_code failure;
+    const fs::file_time_type time = fs::last_write_time(folder / name, failure);
+    if (!failure) written.emplace_back(time, name);
+  }
+  std::ranges::sort(written);
+  std::vector<fs::path> sorted;
+  for (auto& [time, name] : written) sorted.push_back(std::move(name));
+  return sorted;
+}
 
 ConversionNote note_of(const Field& field) {
   ConversionNote note;
@@ -72,7 +86,7 @@ ConversionNote note_of(const Field& field) {
   return note;
 }
 
-void Content::add(const std::string& line) {
+void Content::add(std::string_view line) {
   try {
     const Json json = parse_json(line, kJournalName);
     const Field field(json, kJournalName);
@@ -105,46 +119,42 @@ void Content::add(const std::string& line) {
   }
 }
 
-void Content::read(const fs::path& journal) {
-  std::ifstream stream(journal, std::ios::binary);
-  if (!stream) return;
-  std::streamoff& end = read_bytes[journal];
-  stream.seekg(end);
-  for (std::string line;
-       std::getline(stream, line) && !stream.eof();) {  // without an end, a line is not whole yet
-    end = stream.tellg();
-    if (line.size() <= kLongestLine) add(line);
-  }
+void Content::read(const InputFile& journal) {
+  std::uintmax_t& end = read_bytes[journal.path()];
+  // Without its end, a line is not whole yet.
+  for (InputLines lines(journal, end); const std::optional<std::string_view> line = lines.next();
+       end = lines.end())
+    add(*line);
 }
 
-void Content::read(const std::vector<fs::path>& journals) {
-  std::vector<std::pair<fs::file_time_type, fs::path>> written;
-  for (const fs::path& journal : journals) {
-    std::error_code failure;
-    const fs::file_time_type time = fs::last_write_time(journal, failure);
-    if (!failure) written.emplace_back(time, journal);
-  }
-  std::ranges::sort(written);
-  for (const auto& [time, journal] : written) read(journal);
+void Content::read_own(const fs::path& folder, const fs::path& name) {
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(folder / name, ignored))) return;
+  const OwnedFile file(folder, name, OwnFile::kRead);
+  if (file.exists()) read(file.content());
+}
+
+void Content::read_own(const fs::path& folder, const std::vector<fs::path>& names) {
+  for (const fs::path& name : by_time(folder, names)) read_own(folder, name);
 }
 
 bool is_journal(const fs::path& file) { return file.extension() == kPartJournal; }
 
-// All journals of an output folder that there may be.
+// The names of all journals of an output folder that there may be.
 std::vector<fs::path> journals_of(const fs::path& folder) {
-  std::vector<fs::path> journals = {folder / kJournalName};
+  std::vector<fs::path> journals = {kJournalName};
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / kPartsFolder, failure))
-    if (is_journal(entry.path())) journals.push_back(entry.path());
+    if (is_journal(entry.path())) journals.push_back(kPartsFolder / entry.path().filename());
   return journals;
 }
 
 // One journal of another part, by which a part knows whose the folder is; none without one.
-fs::path other_part(const fs::path& own) {
-  std::error_code failure;
-  for (const fs::directory_entry& entry : fs::directory_iterator(own.parent_path(), failure))
-    if (is_journal(entry.path()) && entry.path() != own) return entry.path();
-  return {};
+std::vector<fs::path> other_part(const fs::path& folder, const fs::path& own) {
+  std::vector<fs::path> names = journals_of(folder);
+  std::erase_if(names, [&](const fs::path& name) { return name == kJournalName || name == own; });
+  if (names.size() > 1) names.resize(1);
+  return names;
 }
 
 bool is_as_written(const InputFile& file, const Entry& entry) {
@@ -193,7 +203,7 @@ std::string difference(const ConversionNote& owner, const ConversionNote& own) {
 }  // namespace
 
 struct Journal::State {
-  fs::path folder, file;  // the journal that this run writes
+  fs::path folder, file;  // the journal that this run writes, below the folder
   bool is_part = false;
   ConversionNote conversion;
   mutable std::mutex mutex;  // of `content` and of appending
@@ -212,13 +222,20 @@ struct Journal::State {
     if (const Entry* known = entry_of(path)) return known;
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return nullptr;
-    has_all ? content.read(file) : content.read(journals_of(folder));
+    has_all ? content.read_own(folder, file) : content.read_own(folder, journals_of(folder));
     has_all = true;
     return entry_of(path);
   }
-  // The lock of the folder for a run that shares its journal with others.
-  std::optional<FolderLock> lock() const {
-    return is_part ? std::nullopt : std::make_optional<FolderLock>(folder);
+  // The lock of the folder for a run that shares its journal with others; null for a part.
+  std::unique_ptr<FolderLock> lock() const {
+    if (is_part) return nullptr;
+    auto held = std::make_unique<FolderLock>(folder);
+    if (held->is_held()) return held;
+    throw Error(ErrorKind::kOutput,
+                folder.string() +
+                    ": another process has locked this folder for a minute (end that process, or "
+                    "choose another folder)",
+                EINTR);
   }
   void require_own() const {
     if (!content.owner || content.owner->hash == conversion.hash) return;
@@ -229,10 +246,8 @@ struct Journal::State {
   void append(const Json& json) const;
 };
 
-// One write, so that lines of several processes do not mix.
 void Journal::State::append(const Json& json) const {
-  if (!append_to_file(file, json.dump() + '\n'))
-    throw system_error(ErrorKind::kOutput, file.string() + ": cannot be written", errno);
+  OwnedFile(folder, file, OwnFile::kAppend).append(json.dump() + '\n');
 }
 
 Journal::Journal(const fs::path& folder, ConversionNote conversion, const std::optional<Part>& part)
@@ -242,10 +257,14 @@ Journal::Journal(const fs::path& folder, ConversionNote conversion, const std::o
   state_->conversion = std::move(conversion);
   state_->is_part = part.has_value();
   state_->has_all = !part;
-  const fs::path all = state_->folder / kJournalName;
-  state_->file = part ? state_->folder / kPartsFolder / (name_of(*part) + kPartJournal) : all;
-  state_->content.read(part ? std::vector<fs::path>{all, other_part(state_->file), state_->file}
-                            : journals_of(state_->folder));
+  const fs::path all = kJournalName;
+  state_->file = part ? fs::path(kPartsFolder) / (name_of(*part) + kPartJournal) : all;
+  std::vector<fs::path> names = journals_of(state_->folder);
+  if (part) {
+    names = other_part(state_->folder, state_->file);
+    names.insert(names.end(), {all, state_->file});
+  }
+  state_->content.read_own(state_->folder, names);
 }
 Journal::~Journal() = default;
 
@@ -257,9 +276,9 @@ void Journal::require_own() const {
 void Journal::claim(bool force) {
   const std::lock_guard lock(state_->mutex);
   if (state_->is_claimed) return;
-  create_parent(state_->file);
+  create_parent(state_->folder / state_->file);
   const auto folder = state_->lock();
-  state_->content.read(state_->file);
+  state_->content.read_own(state_->folder, state_->file);
   if (!force) state_->require_own();
   state_->is_claimed = true;
   const ConversionNote& own = state_->conversion;
@@ -294,12 +313,15 @@ std::vector<fs::path> Journal::files_of(const std::string& set) const {
   std::vector<fs::path> files;
   const auto found = state_->content.sets.find(set);
   if (found == state_->content.sets.end()) return files;
-  for (const std::string* name : found->second) files.push_back(state_->folder / *name);
+  for (const std::string* name : found->second) {
+    if (!fault_of_relative(*name).empty()) return {};  // which this program has not written
+    files.push_back(state_->folder / *name);
+  }
   return files;
 }
 
 void Journal::begin(const std::vector<fs::path>& files) {
-  create_parent(state_->file);
+  create_parent(state_->folder / state_->file);
   Json names = Json::list();
   for (const fs::path& path : files) names.push_back(state_->name_of(path));
   const std::lock_guard lock(state_->mutex);
@@ -320,7 +342,7 @@ void Journal::commit(const std::string& set, const std::string& inputs,
         {{"name", state_->name_of(file.path)}, {"bytes", file.bytes}, {"hash", file.hash}});
   const std::lock_guard lock(state_->mutex);
   const auto folder = state_->lock();
-  state_->content.read(state_->file);
+  state_->content.read_own(state_->folder, state_->file);
   if (state_->is_claimed) state_->require_own();  // another run may have taken the folder by --force
   for (const FinishedFile& file : files) {
     std::error_code ignored;
@@ -342,10 +364,19 @@ struct JournalLookup::State {
     if (is_new && (fs::is_regular_file(folder / kJournalName, ignored) ||
                    fs::is_directory(folder / kPartsFolder, ignored))) {
       const auto content = std::make_shared<Content>();
-      content->read(journals_of(folder));
+      for (const fs::path& name : by_time(folder, journals_of(folder))) add(folder / name, *content);
       found->second = content;
     }
     return found->second;
+  }
+
+  // Journals of inputs are hints, which belong to whoever made these files. One that cannot be read tells
+  // nothing from there on.
+  static void add(const fs::path& journal, Content& content) {
+    try {
+      content.read(InputFile(journal));
+    } catch (const Error&) {
+    }
   }
 };
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <fstream>
 #include <set>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
+#include "core/safe_relative.hpp"
 #include "core/system.hpp"
 #include "remap/version.hpp"
 #include "texture/content_hash.hpp"
@@ -49,9 +49,12 @@ struct Listed {
   }
 };
 
-void require_utf8(const fs::path& path) {
+// Refuses what JSON cannot hold, and what a reader of the manifest refuses.
+void require_listable(const fs::path& path) {
   if (!is_utf8(path.string()))
-    throw input_error(shown(path) + ": the name is no UTF-8, which a manifest cannot hold (rename it)");
+    throw input_error(shown(path) + ": the name is not UTF-8, which a manifest cannot hold (rename it)");
+  if (const std::string fault = fault_of_relative(path.string()); !fault.empty())
+    throw input_error(shown(path) + ": the name " + fault + ", which a manifest refuses (rename it)");
 }
 
 fs::path place_of(const FoundSet& set) { return set.folder / set.name; }
@@ -59,9 +62,9 @@ const fs::path& place_of(const ListedAsset& asset) { return asset.path; }
 
 Listed<FoundSet> listed(const fs::path& root, const FoundSet& set) {
   Listed<FoundSet> all{set, {}};
-  require_utf8(place_of(set));
+  require_listable(place_of(set));
   for (const FoundMap& map : set.maps) {
-    require_utf8(map.path);
+    require_listable(map.path);
     if (map.tiles.empty()) all.add_file(root, map.path, is_read(map));
     for (const Tile& tile : map.tiles) all.add_file(root, tile.path, is_read(map));
   }
@@ -70,10 +73,10 @@ Listed<FoundSet> listed(const fs::path& root, const FoundSet& set) {
 
 Listed<ListedAsset> listed(const fs::path& root, const ListedAsset& asset) {
   Listed<ListedAsset> all{asset, {}};
-  require_utf8(asset.path);
+  require_listable(asset.path);
   all.add_file(root, asset.path, true);
   for (const fs::path& file : asset.files) {
-    require_utf8(file);
+    require_listable(file);
     all.add_file(root, file, true);
   }
   return all;
@@ -131,12 +134,14 @@ ContentHash hash_of_head(ManifestHead head) {
   return hash;
 }
 
+// A name that somebody wrote into the manifest to lead elsewhere.
+struct UnsafeName {
+  std::string message;
+};
+
 class ManifestReader {
  public:
-  explicit ManifestReader(const fs::path& path) : path_(path), file_(path, std::ios::binary) {
-    require_regular_file(path);
-    if (!file_) throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
-  }
+  explicit ManifestReader(const fs::path& path) : path_(path), file_(path), lines_(file_) {}
   TreeManifest read(const Part& part);
 
  private:
@@ -146,15 +151,24 @@ class ManifestReader {
   void add_set(const Field& field, Listing& listing) const;
   void add_asset(const Field& field, Listing& listing) const;
   void add_rest(const Field& field, Listing& listing) const;
-  std::uint64_t cost_in(const std::string& line) const;
+  std::uint64_t cost_in(std::string_view line) const;
+  // `checked` is safe_relative or safe_name.
+  fs::path safe(const Field& field, fs::path (*checked)(const std::string&, const std::string&)) const {
+    const std::string& text = field.any_text();
+    try {
+      return checked(text, path_.string() + ": line " + std::to_string(lines_.number()));
+    } catch (const Error& error) {
+      throw UnsafeName{std::string(error.what()) + " (texremap index again)"};
+    }
+  }
 
   const fs::path& path_;
-  std::ifstream file_;
+  const InputFile file_;
+  InputLines lines_;
 };
 
 ManifestHead ManifestReader::read_head() {
-  std::string line;
-  std::getline(file_, line);
+  const std::string_view line = lines_.next().value_or("");
   if (!line.starts_with("{\"remap_manifest\":") || line.size() > kLongestHead)
     refuse("is no manifest (texremap index DIR -o FILE writes one)");
   const Json json = parse_json(line, path_.string());
@@ -177,7 +191,7 @@ ManifestHead ManifestReader::read_head() {
   return head;
 }
 
-std::uint64_t ManifestReader::cost_in(const std::string& line) const {
+std::uint64_t ManifestReader::cost_in(std::string_view line) const {
   std::uint64_t cost = 0;
   const char* const begin = line.data() + kCostFirst.size();
   if (std::from_chars(begin, line.data() + line.size(), cost).ec != std::errc()) refuse(kChanged);
@@ -186,10 +200,10 @@ std::uint64_t ManifestReader::cost_in(const std::string& line) const {
 
 void ManifestReader::add_asset(const Field& field, Listing& listing) const {
   ListedAsset asset;
-  asset.path = field["asset"].any_text();
-  asset.image_prefix = field["prefix"].any_text();
+  asset.path = safe(field["asset"], safe_relative);
+  asset.image_prefix = safe(field["prefix"], safe_name).string();
   field["files"].list(1, [&](const Field& file) {
-    const fs::path path = file.at(0, 2).any_text();
+    const fs::path path = safe(file.at(0, 2), safe_relative);
     listing.found.sizes[path] = static_cast<std::uintmax_t>(file.at(1, 2).count());
     if (path != asset.path) asset.files.push_back(path);
     return true;
@@ -200,14 +214,14 @@ void ManifestReader::add_asset(const Field& field, Listing& listing) const {
 
 void ManifestReader::add_set(const Field& field, Listing& listing) const {
   FoundSet set;
-  set.name = field["name"].any_text();
-  set.folder = field["folder"].any_text();
+  set.name = safe(field["name"], safe_name).string();
+  set.folder = safe(field["folder"], safe_relative);
   const auto note_size = [&](const fs::path& file, const Field& bytes) {
     listing.found.sizes[file] = static_cast<std::uintmax_t>(bytes.count());
   };
   field["maps"].list(1, [&](const Field& entry) {
     FoundMap& map = set.maps.emplace_back();
-    const std::string& name = entry["file"].any_text();
+    const std::string name = safe(entry["file"], safe_name).string();
     map.path = set.folder / name;
     map.habit = entry["habit"].any_text();
     const Field roles = entry["roles"];
@@ -237,7 +251,7 @@ void ManifestReader::add_rest(const Field& field, Listing& listing) const {
   if (field.contains("problem"))
     listing.found.problems.push_back({{}, field["problem"].any_text()});
   else
-    listing.found.unrecognised.emplace_back(field["unrecognised"].any_text());
+    listing.found.unrecognised.push_back(safe(field["unrecognised"], safe_relative));
 }
 
 TreeManifest ManifestReader::read(const Part& part) {
@@ -246,6 +260,8 @@ TreeManifest ManifestReader::read(const Part& part) {
   ContentHash hash = hash_of_head(manifest.head);
   try {
     read_lines(part, manifest, hash);
+  } catch (const UnsafeName& name) {
+    throw input_error(name.message);
   } catch (const Error&) {
     refuse(kChanged);  // a line that makes no sense is not one that was written
   }
@@ -254,7 +270,7 @@ TreeManifest ManifestReader::read(const Part& part) {
 }
 
 void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, ContentHash& hash) {
-  const auto add = [&](const std::string& line, auto adder) {
+  const auto add = [&](std::string_view line, auto adder) {
     const std::string place = path_.string();
     const Json json = parse_json(line, place);
     (this->*adder)(Field(json, place), manifest.listing);
@@ -262,19 +278,20 @@ void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, Conten
   const auto add_entry =
       manifest.head.kind == ListedKind::kSets ? &ManifestReader::add_set : &ManifestReader::add_asset;
   std::uint64_t before = 0;
-  for (std::string line; std::getline(file_, line);) {
-    hash.add(line);
-    if (!line.starts_with(kCostFirst)) {
-      if (part.index == 1) add(line, &ManifestReader::add_rest);
+  while (const std::optional<std::string_view> line = lines_.next()) {
+    hash.add(*line);
+    if (!line->starts_with(kCostFirst)) {
+      if (part.index == 1) add(*line, &ManifestReader::add_rest);
       continue;
     }
-    const std::uint64_t cost = cost_in(line);
+    const std::uint64_t cost = cost_in(*line);
     if (part_of_entry(before, cost, manifest.head, part.count) == part.index) {
-      add(line, add_entry);
+      add(*line, add_entry);
       manifest.costs.push_back(cost);
     }
     before += cost;
   }
+  if (!lines_.rest().empty()) refuse(kChanged);
 }
 
 // Those that can be listed; the others become problems.
@@ -308,7 +325,7 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
   head.root = fs::absolute(root).lexically_normal();
   head.names = names;
   if (!is_utf8(head.root.string()))
-    throw input_error(shown(head.root) + ": the name is no UTF-8, which a manifest cannot hold (rename it)");
+    throw input_error(shown(head.root) + ": the name is not UTF-8, which a manifest cannot hold (rename it)");
   const std::vector<Listed<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
   const std::vector<Listed<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
   // The hash stands before the lines, which are made twice rather than kept: a manifest may have gigabytes.

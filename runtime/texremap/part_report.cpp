@@ -1,7 +1,6 @@
 #include "texremap/part_report.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <unordered_map>
 
@@ -178,16 +177,19 @@ void ReportMerger::add(const Part& part, const Field& line, std::string_view tex
 
 void ReportMerger::read(const Part& part) {
   const std::string name = name_of(part) + kPartReport;
-  std::ifstream file(folder_ / name, std::ios::binary);
-  std::string line, last;
   lines_of_part_ = 0;
   try {
-    while (std::getline(file, line)) {
-      last = line;
-      const Json json = parse_json(line, name);
-      add(part, Field(json, name), line);
+    const OwnedFile file(output_, fs::path(kPartsFolder) / name, OwnFile::kRead);
+    if (!file.exists()) throw input_error(name + ": is incomplete");  // removed meanwhile
+    const InputFile content = file.content();
+    InputLines lines(content);
+    bool is_whole = false;
+    while (const std::optional<std::string_view> line = lines.next()) {
+      is_whole = line->starts_with("{\"summary\":");
+      const Json json = parse_json(*line, name);
+      add(part, Field(json, name), *line);
     }
-    if (!last.starts_with("{\"summary\":")) throw input_error(name + ": is incomplete");
+    if (!is_whole || !lines.rest().empty()) throw input_error(name + ": is incomplete");
   } catch (const Error& error) {
     problem(std::string(error.what()) + " (convert this part again)");
   }
@@ -228,8 +230,9 @@ void RunLines::tell(const Json& line) {
 }
 
 void RunLines::finish() const {
-  if (options_.part && !options_.dry_run)
-    write_file(report_of(options_.output, options_.part->part), report_);
+  if (!options_.part || options_.dry_run) return;
+  require_own_folder(options_.output / kPartsFolder);
+  write_file(report_of(options_.output, options_.part->part), report_);
 }
 
 Json part_json(const GivenPart& part, const ManifestHead& manifest, const ConversionNote& conversion) {

@@ -1,20 +1,27 @@
 #include "texture/image_library.hpp"
 
-#include <atomic>
+#include <mutex>
+#include <optional>
 
 namespace remap {
 namespace {
 
-std::atomic<int> wanted_threads = 0;  // 0 once the library knows them
+std::mutex limits_mutex;
+std::optional<ImageLimits> wanted_limits;  // none once the library knows them
 
 }  // namespace
 
 const ImageLibrary& image_library() {
   static const ImageLibrary& library = load_image_library();
-  if (const int count = wanted_threads.exchange(0); count > 0) library.set_thread_count(count);
+  const std::lock_guard lock(limits_mutex);
+  if (wanted_limits) library.set_limits(*wanted_limits);
+  wanted_limits.reset();
   return library;
 }
 
-void set_image_thread_count(int count) { wanted_threads = count; }
+void set_image_limits(const ImageLimits& limits) {
+  const std::lock_guard lock(limits_mutex);
+  wanted_limits = limits;
+}
 
 }  // namespace remap

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -82,11 +83,16 @@ struct Picture {
   std::vector<float> values;          // interleaved, row-major from the top
 };
 
+struct ImageLimits {
+  int threads = 0;                 // at least 1, of the image library in this process; 0: its own choice
+  std::uint64_t memory_bytes = 0;  // of the texels of one image at once; 0: its own choice
+};
+
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;
-  // Sets the number of threads, at least 1, that OpenImageIO and OpenEXR may use in this process.
-  virtual void set_thread_count(int count) const = 0;
+  // Sets what images that are opened later may take.
+  virtual void set_limits(const ImageLimits& limits) const = 0;
   // `path` leads to a regular file.
   virtual std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const = 0;
   // The same of a file that is open; a host that only knows names opens it by its own.
@@ -121,7 +127,7 @@ const ImageLibrary& load_image_library();
 // many threads.
 const ImageLibrary& image_library();
 
-// Sets the number of threads for images that are opened later. Loads nothing.
-void set_image_thread_count(int count);
+// Sets what images that are opened later may take. Loads nothing.
+void set_image_limits(const ImageLimits& limits);
 
 }  // namespace remap

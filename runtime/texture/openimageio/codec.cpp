@@ -5,47 +5,20 @@
 
 #include "assets/image_codec.hpp"
 #include "core/errors.hpp"
-#include "core/files.hpp"
-#include "core/scratch_folder.hpp"
+#include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
 namespace {
 
-// An image says its size before its texels are read. More is a mistake or an attack.
-constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
+// Of the pixels of an image a conversion keeps so many copies: other maps of the material, and what it
+// becomes.
+constexpr std::uint64_t kCopies = 4;
 
 constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
 
-std::string_view part_of(std::string_view bytes, std::size_t begin, std::size_t count) {
-  return bytes.size() < begin ? std::string_view() : bytes.substr(begin, count);
-}
-
-// Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
-bool is_targa(std::string_view bytes) {
-  if (bytes.size() <= 18) return false;
-  const std::string_view types("\1\2\3\11\12\13", 6), depths("\10\17\20\30\40", 5);
-  return (bytes[1] == 0 || bytes[1] == 1) && types.find(bytes[2]) != std::string_view::npos &&
-         depths.find(bytes[16]) != std::string_view::npos;
-}
-
-// The extension of the formats that glTF files hold, and of those that OBJ files name; empty for others.
-std::string extension_of(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG")) return "png";
-  if (bytes.starts_with("\xff\xd8")) return "jpg";
-  if (bytes.starts_with("RIFF") && part_of(bytes, 8, 4) == "WEBP") return "webp";
-  if (bytes.starts_with("BM")) return "bmp";
-  if (bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4)))
-    return "tif";
-  return is_targa(bytes) ? "tga" : "";
-}
-
-std::string known_name(std::string_view bytes) {
-  if (bytes.starts_with("\xabKTX")) return "KTX2";
-  if (part_of(bytes, 4, 8) == "ftypavif") return "AVIF";
-  if (bytes.starts_with("DDS ")) return "DDS";
-  return "";
-}
+// Formats that glTF files hold, and those that OBJ files name.
+bool is_of_assets(const std::string& format) { return format != "openexr" && format != "hdr"; }
 
 // By libwebp itself: OpenImageIO 2.4 multiplies the colors by alpha in 8 bits, whatever it is asked for.
 ImagePixels webp_pixels(std::string_view bytes, const std::string& place) {
@@ -58,6 +31,7 @@ ImagePixels webp_pixels(std::string_view bytes, const std::string& place) {
     pixels.height = static_cast<std::size_t>(features.height);
     pixels.channels = features.has_alpha != 0 ? 4 : 3;
     const std::size_t row = pixels.width * pixels.channels;
+    require_image_memory(kCopies * row * pixels.height, place);
     pixels.bytes.resize(row * pixels.height);
     const auto decode = pixels.has_alpha() ? &WebPDecodeRGBAInto : &WebPDecodeRGBInto;
     is_read = decode(data, bytes.size(), reinterpret_cast<std::uint8_t*>(pixels.bytes.data()),
@@ -71,29 +45,22 @@ ImagePixels webp_pixels(std::string_view bytes, const std::string& place) {
 class AssetCodec final : public ImageCodec {
  public:
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {
-    const std::string extension = extension_of(bytes);
-    if (extension.empty()) {
-      const std::string name = known_name(bytes);
-      throw input_error(place + ": " +
-                        (name.empty()
-                             ? "is no image of a known format (PNG, JPEG, WebP, BMP, TIFF and Targa are read)"
-                             : "is " + name + ", which is not read (convert it to PNG)"));
-    }
-    if (extension == "webp") return webp_pixels(bytes, place);
-    OIIO::ImageSpec config;
+    const ImageBytes image = bytes_of(bytes);
+    const ImageHead head = checked_head(image, place);
+    if (!is_of_assets(head.format))
+      throw input_error(place + ": is " + head.format + ", which assets do not hold (convert it to PNG)");
+    if (head.format == "webp") return webp_pixels(bytes, place);
+    OIIO::ImageSpec config, ignored;
     config.attribute(kUnassociatedAlpha, 1);
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
-    const std::string name = "memory." + extension;
-    auto input = OIIO::ImageInput::create(name);
-    if (input && input->supports("ioproxy")) {
-      input = OIIO::ImageInput::open(name, &config, &memory);
-      return pixels_of(input.get(), place);
+    const auto input = OIIO::ImageInput::create(head.format, false);
+    if (!input || !input->set_ioproxy(&memory) || !input->open("image", ignored, config)) {
+      std::string reason = input ? input->geterror() : "";
+      if (reason.empty()) reason = OIIO::geterror();
+      throw input_error(place + ": cannot be read: " + first_line(reason, "the image is damaged"));
     }
-    const ScratchFolder folder("texremap-image");
-    const std::string file = folder.file(name);
-    write_file(file, bytes, Flush::kNo);
-    input = OIIO::ImageInput::open(file, &config);
-    return pixels_of(input.get(), place);
+    require_plausible(input->spec(), head, image, place);
+    return pixels_of(*input, place);
   }
 
   std::string encode_png(const ImagePixels& pixels, int level) const override {
@@ -135,14 +102,12 @@ class AssetCodec final : public ImageCodec {
     return {bytes.begin(), bytes.end()};
   }
 
-  static ImagePixels pixels_of(OIIO::ImageInput* input, const std::string& place) {
+  static ImagePixels pixels_of(OIIO::ImageInput& input, const std::string& place) {
     const auto refuse = [&](const std::string& reason) {
       throw input_error(place + ": cannot be read: " + first_line(reason, "the image is damaged"));
     };
-    if (input == nullptr) refuse(OIIO::geterror());
-    const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.image_pixels() > kMostTexels || spec.nchannels < 1 ||
-        spec.nchannels > 4)
+    const OIIO::ImageSpec& spec = input.spec();
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels < 1 || spec.nchannels > 4)
       refuse("its size or its number of channels is none of an image of an asset");
     ImagePixels pixels;
     pixels.width = static_cast<std::size_t>(spec.width);
@@ -150,12 +115,14 @@ class AssetCodec final : public ImageCodec {
     pixels.channels = static_cast<std::size_t>(spec.nchannels);
     const bool is_wide = spec.format.basesize() > 1;
     pixels.type = is_wide ? PixelType::kUint16 : PixelType::kUint8;
-    pixels.bytes.resize(pixels.width * pixels.height * pixels.texel_bytes());
+    const std::size_t size = pixels.width * pixels.height * pixels.texel_bytes();
+    require_image_memory(kCopies * size, place);
+    pixels.bytes.resize(size);
     // OpenImageIO may read a truncated file without failing; only the pending error message shows it.
-    if (!input->read_image(0, 0, 0, spec.nchannels, is_wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8,
-                           pixels.bytes.data()) ||
-        input->has_error())
-      refuse(input->geterror());
+    if (!input.read_image(0, 0, 0, spec.nchannels, is_wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8,
+                          pixels.bytes.data()) ||
+        input.has_error())
+      refuse(input.geterror());
     return pixels;
   }
 };

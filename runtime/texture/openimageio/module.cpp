@@ -1,5 +1,6 @@
 // What a program gets from the module.
 #include "remap/version.hpp"
+#include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -7,10 +8,12 @@ namespace {
 
 class OpenImageIo : public ImageLibrary {
  public:
-  void set_thread_count(int count) const override {
-    OIIO::attribute("threads", count);
+  void set_limits(const ImageLimits& limits) const override {
+    if (limits.memory_bytes > 0) set_image_memory(limits.memory_bytes);
+    if (limits.threads == 0) return;
+    OIIO::attribute("threads", limits.threads);
     // With -1 OpenEXR works in the calling thread; with 1 it would start a thread while the caller waits.
-    OIIO::attribute("exr_threads", count == 1 ? -1 : count);
+    OIIO::attribute("exr_threads", limits.threads == 1 ? -1 : limits.threads);
   }
   std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const override {
     return open_image(std::make_shared<const InputFile>(path), part);

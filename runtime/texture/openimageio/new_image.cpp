@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/system.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -77,6 +78,20 @@ class OpenedNewImage : public NewImage {
   const OIIO::ImageSpec& spec() const {
     return specs_[static_cast<std::size_t>(part_)][static_cast<std::size_t>(level_)];
   }
+  // The name by which writers that take no stream open the file: through the descriptor where the system has
+  // such names, because another user of the folder may lead the other one elsewhere meanwhile.
+  std::string open_name() const {
+    std::string name = "/proc/self/fd/" + std::to_string(descriptor_of(file_->stream()));
+    std::error_code ignored;
+    return fs::exists(name, ignored) ? name : finished_file().string();
+  }
+  // A message of a writer about the file.
+  std::string in_words(std::string message) const {
+    const std::string name = open_name();
+    for (std::size_t at = message.find(name); at != std::string::npos; at = message.find(name, at))
+      message.replace(at, name.size(), path_.filename().string());
+    return with_final_name(std::move(message), finished_file(), path_);
+  }
   void plan(const std::vector<NewPart>& parts);
   void open();
   void open_plane();
@@ -133,9 +148,9 @@ void OpenedNewImage::open() {
   if (specs_.size() > 1 && layout_.format == "openexr") {  // needs all parts at once
     std::vector<OIIO::ImageSpec> firsts;
     for (const auto& levels : specs_) firsts.push_back(levels.front());
-    check(output_->open(finished_file().string(), static_cast<int>(firsts.size()), firsts.data()));
+    check(output_->open(open_name(), static_cast<int>(firsts.size()), firsts.data()));
   } else {
-    check(output_->open(finished_file().string(), spec()));
+    check(output_->open(open_name(), spec()));
   }
   is_open_ = true;
 }
@@ -144,7 +159,7 @@ void OpenedNewImage::open_plane() {
   if (!is_open_)
     open();
   else
-    check(output_->open(finished_file().string(), spec(),
+    check(output_->open(open_name(), spec(),
                         level_ > 0 && output_->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel
                                                                   : OIIO::ImageOutput::AppendSubimage));
   if (!same_storage(layout_of(output_->spec(), output_->format_name(), path_), layout_))
@@ -164,7 +179,7 @@ void OpenedNewImage::check(bool done) const {
   check_file();
   if (!done)
     fail("cannot be written: " +
-         with_final_name(first_line(message, "unknown reason"), finished_file(), path_));
+         in_words(first_line(message, "unknown reason")));
 }
 
 // Reads the header of the finished file and, for TIFF, its last rows.
@@ -181,7 +196,7 @@ void OpenedNewImage::check_finished() const {
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kOutput) throw;
     const std::string reason = std::string(error.what()).substr(finished_file().string().size());
-    fail("cannot be written completely" + with_final_name(reason, finished_file(), path_));
+    fail("cannot be written completely" + in_words(reason));
   }
 }
 

@@ -15,6 +15,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/plain_text.hpp"
+#include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -37,67 +38,17 @@ std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& fo
   return "";
 }
 
-struct PngChunk {
-  std::string name;
-  std::uintmax_t end = 0;  // as it claims, in the file
-};
-
-// The chunks of a PNG before its pixels; none of another file.
-std::vector<PngChunk> leading_png_chunks(std::FILE* file) {
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  std::array<unsigned char, 8> head{};
-  const auto read_at = [&](std::uintmax_t place) {
-    return ::fseeko(file, static_cast<off_t>(place), SEEK_SET) == 0 &&
-           std::fread(head.data(), 1, head.size(), file) == head.size();
-  };
-  std::vector<PngChunk> chunks;
-  if (!read_at(0) ||
-      !std::equal(head.begin(), head.end(), kSignature.begin(),
-                  [](unsigned char byte, char letter) { return byte == static_cast<unsigned char>(letter); }))
-    return chunks;
-  for (std::uintmax_t place = kSignature.size(); read_at(place); place = chunks.back().end) {
-    const std::string name(reinterpret_cast<const char*>(head.data()) + 4, 4);
-    if (name == "IDAT") break;
-    std::uint32_t length = 0;  // big-endian
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | head[i];
-    chunks.push_back({name, place + length + 12});  // header and checksum
-  }
-  return chunks;
-}
-
-// What is wrong with the header of a BMP; empty for a good one and for another file. OpenImageIO reads beyond
-// its memory where the compression does not fit the number of bits.
-std::string fault_of_bmp(std::FILE* file) {
-  constexpr std::size_t kHead = 34, kBits = 28, kCompression = 30;
-  std::array<unsigned char, kHead> head{};
-  if (::fseeko(file, 0, SEEK_SET) != 0 || std::fread(head.data(), 1, kHead, file) != kHead ||
-      head[0] != 'B' || head[1] != 'M')
-    return "";
-  constexpr unsigned kSizeOfOldHeader = 12;  // which has no compression
-  if (head[14] == kSizeOfOldHeader) return "";
-  const auto number = [&head](std::size_t at) {  // of 16 bits
-    return static_cast<unsigned>(head[at]) | static_cast<unsigned>(head[at + 1]) << 8u;
-  };
-  const unsigned bits = number(kBits), compression = number(kCompression);
-  const bool fits = compression == 0 || (compression == 1 && bits == 8) || (compression == 2 && bits == 4) ||
-                    (compression == 3 && (bits == 16 || bits == 32));
-  if (fits && number(kCompression + 2) == 0) return "";
-  return "is damaged, or of an unknown kind: compression " + std::to_string(compression) + " of " +
-         std::to_string(bits) + " bits";
-}
-
 // OpenImageIO assumes sRGB for files of these formats without a color space.
-bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format,
-                       const std::vector<PngChunk>& chunks) {
+bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, const ImageHead& head) {
   if (format == "png")
-    return std::any_of(chunks.begin(), chunks.end(),
-                       [](const PngChunk& chunk) { return chunk.name == "sRGB" || chunk.name == "gAMA"; });
+    return std::ranges::any_of(head.png_chunks,
+                               [](const std::string& name) { return name == "sRGB" || name == "gAMA"; });
   if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
   return true;
 }
 
-// No valid file has more parts, but a damaged one may claim so.
-constexpr int kMostParts = 4096;
+// A material has fewer maps, and every part takes the memory and time of all headers.
+constexpr int kMostParts = 128;
 
 // Gamma curves are read as sRGB, which the usual 2.2 differs little from.
 std::optional<Transfer> tagged_transfer(const OIIO::ImageSpec& spec) {
@@ -221,7 +172,14 @@ bool starts_again(const ImageLayout& layout) {
 class OpenedImage : public StoredImage {
  public:
   OpenedImage(const std::shared_ptr<const InputFile>& file, int part)
-      : file_(file), stream_(*file), proxy_(stream_), part_(part) {
+      : file_(file),
+        bytes_{file->size(),
+               [file = file.get()](std::uint64_t place, char* bytes, std::size_t count) {
+                 return file->read(place, bytes, count);
+               }},
+        stream_(*file),
+        proxy_(stream_),
+        part_(part) {
     open();
   }
 
@@ -241,7 +199,6 @@ class OpenedImage : public StoredImage {
   const OIIO::ImageSpec& spec() const { return levels_[static_cast<std::size_t>(level_)]; }
   void open();
   void open_input();
-  std::unique_ptr<OIIO::ImageInput> input_by_extension(const OIIO::ImageSpec& hints);
   void find_planes();
   void refuse_spoiled_webp();
   [[noreturn]] void fail(const std::string& what, int system_code = 0) const;
@@ -249,6 +206,8 @@ class OpenedImage : public StoredImage {
   const fs::path& path() const noexcept { return file_->path(); }
 
   std::shared_ptr<const InputFile> file_;
+  ImageBytes bytes_;
+  ImageHead head_;
   FileStream stream_;
   StreamProxy proxy_;
   std::unique_ptr<OIIO::ImageInput> input_;  // declared after `proxy_`, which it uses until its destructor
@@ -264,55 +223,33 @@ void OpenedImage::fail(const std::string& what, int system_code) const {
   throw Error(ErrorKind::kInput, path().string() + ": " + what, system_code);
 }
 
-// The reader of the extension, which gets the open file. Null where it takes none, or not this content.
-std::unique_ptr<OIIO::ImageInput> OpenedImage::input_by_extension(const OIIO::ImageSpec& hints) {
-  const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(path().string(), false));
-  std::unique_ptr<OIIO::ImageInput> input;
-  if (!extension.empty()) input = OIIO::ImageInput::create(extension, false);
-  OIIO::ImageSpec ignored;
-  if (input && input->supports("ioproxy") && input->set_ioproxy(&proxy_) &&
-      input->open(path().string(), ignored, hints))
-    return input;
-  (void)OIIO::geterror();
-  return nullptr;
-}
-
 void OpenedImage::open() {
-  // libpng allocates and fills as much as a chunk claims.
-  const std::vector<PngChunk> chunks = leading_png_chunks(stream_.stream.get());
-  for (const PngChunk& chunk : chunks)
-    if (chunk.end > file_->size())
-      fail("is damaged: chunk " + plain(chunk.name) + " claims to be longer than the file");
-  if (const std::string fault = fault_of_bmp(stream_.stream.get()); !fault.empty()) fail(fault);
+  head_ = checked_head(bytes_, path().string());
   open_input();
   (void)input_->geterror();  // discards remarks on unusual headers
   find_planes();
+  for (const OIIO::ImageSpec& level : levels_) require_plausible(level, head_, bytes_, path().string());
   // A color space that OpenImageIO assumed is neither read nor written.
-  if (!tells_color_space(spec(), input_->format_name(), chunks))
+  if (!tells_color_space(spec(), input_->format_name(), head_))
     for (OIIO::ImageSpec& level_spec : levels_) level_spec.erase_attribute("oiio:ColorSpace");
   layout_ = layout_of(spec(), input_->format_name(), path());
   refuse_spoiled_webp();
 }
 
-// From the start of the file.
+// From the start of the file, by the reader of its format alone.
 void OpenedImage::open_input() {
   input_.reset();
-  OIIO::ImageSpec hints;
+  OIIO::ImageSpec hints, ignored;
   hints.attribute(kUnassociatedAlpha, 1);
   proxy_.seek(0);
   errno = 0;
-  input_ = input_by_extension(hints);
-  if (!input_ && passes_soon(errno))
-    throw system_error(ErrorKind::kInput, path().string() + ": cannot be read", errno);
-  // Tries all readers, by the name of the file.
-  if (!input_) input_ = OIIO::ImageInput::open(path().string(), &hints);
-  if (!input_) {
-    const std::string reason = first_line(OIIO::geterror(), "unknown format");
-    (void)InputFile(
-        path());  // of a file that cannot be opened by its name OpenImageIO says that it is no image
-    fail("cannot be read as an image: " + reason);
-  }
+  input_ = OIIO::ImageInput::create(head_.format, false);
   next_row_ = 0;
+  if (input_ && input_->set_ioproxy(&proxy_) && input_->open(path().string(), ignored, hints)) return;
+  if (passes_soon(errno)) throw system_error(ErrorKind::kInput, path().string() + ": cannot be read", errno);
+  std::string reason = input_ ? input_->geterror() : OIIO::geterror();
+  if (reason.empty()) reason = OIIO::geterror();
+  fail("cannot be read as an image: " + first_line(reason, "it is damaged"));
 }
 
 void OpenedImage::refuse_spoiled_webp() {
@@ -331,6 +268,8 @@ void OpenedImage::find_planes() {
   // counts.
   const int most_parts = std::string_view(input_->format_name()) == "webp" ? 1 : kMostParts;
   while (part_count_ < most_parts && input_->seek_subimage(part_count_, 0)) ++part_count_;
+  if (part_count_ == kMostParts && input_->seek_subimage(part_count_, 0))
+    fail("has more than " + std::to_string(kMostParts) + " parts, the most that are read (split the file)");
   (void)input_->geterror();
   if (part_ >= part_count_)
     fail("part " + std::to_string(part_) + " not found (number of parts: " + std::to_string(part_count_) +

@@ -1,0 +1,223 @@
+#include "texture/openimageio/image_head.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+
+#include "core/errors.hpp"
+#include "core/plain_text.hpp"
+#include "core/report_text.hpp"
+
+namespace remap {
+namespace {
+
+// No file of these formats holds more texels for its size, but for pictures of one color.
+constexpr std::uint64_t kMostBytesOfAByte = 1'000'000;
+// An image says its size before its texels are read. More is a mistake or an attack.
+constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 32;
+
+std::atomic<std::uint64_t> memory = std::uint64_t{4} << 30;
+
+std::string begin_of(const ImageBytes& image) {
+  std::string head(64, '\0');
+  head.resize(image.read(0, head.data(), head.size()));
+  return head;
+}
+
+std::uint32_t number_at(std::string_view bytes, std::size_t place, std::size_t count, bool is_big) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = place + (is_big ? i : count - 1 - i);
+    number = number << 8 | (at < bytes.size() ? static_cast<unsigned char>(bytes[at]) : 0u);
+  }
+  return number;
+}
+
+// Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
+bool is_targa(std::string_view head) {
+  const std::string_view types("\1\2\3\11\12\13", 6), depths("\10\17\20\30\40", 5);
+  return head.size() > 18 && (head[1] == 0 || head[1] == 1) &&
+         types.find(head[2]) != std::string_view::npos && depths.find(head[16]) != std::string_view::npos;
+}
+
+std::string format_of(std::string_view head) {
+  using Mark = std::pair<std::string_view, const char*>;
+  constexpr std::array<Mark, 10> kMarks = {Mark{"\x89PNG\r\n\x1a\n", "png"},
+                                           {"\xff\xd8", "jpeg"},
+                                           {"BM", "bmp"},
+                                           {std::string_view("II*\0", 4), "tiff"},
+                                           {std::string_view("MM\0*", 4), "tiff"},
+                                           {std::string_view("II+\0", 4), "tiff"},
+                                           {std::string_view("MM\0+", 4), "tiff"},
+                                           {"\x76\x2f\x31\x01", "openexr"},
+                                           {"#?RADIANCE", "hdr"},
+                                           {"#?RGBE", "hdr"}};
+  for (const auto& [mark, format] : kMarks)
+    if (head.starts_with(mark)) return format;
+  if (head.starts_with("RIFF") && head.substr(std::min<std::size_t>(8, head.size()), 4) == "WEBP")
+    return "webp";
+  return is_targa(head) ? "targa" : "";
+}
+
+// The name of a format that is known and not read; empty for others.
+std::string known_name(std::string_view head) {
+  using Mark = std::pair<std::string_view, const char*>;
+  constexpr std::array<Mark, 8> kMarks = {Mark{"\xabKTX", "KTX2"}, {"DDS ", "DDS"},   {"GIF8", "GIF"},
+                                          {"8BPS", "PSD"},         {"SDPX", "DPX"},   {"XPDS", "DPX"},
+                                          {"FOR4", "IFF"},         {"SIMPLE", "FITS"}};
+  for (const auto& [mark, name] : kMarks)
+    if (head.starts_with(mark)) return name;
+  const std::string_view brand = head.substr(std::min<std::size_t>(4, head.size()), 8);
+  return brand == "ftypavif" ? "AVIF" : brand == "ftypheic" ? "HEIC" : "";
+}
+
+[[noreturn]] void refuse_damaged(const std::string& place, const std::string& what) {
+  throw input_error(place + ": is damaged: " + what);
+}
+
+// libpng allocates and fills as much as a chunk claims.
+void look_at_png(const ImageBytes& image, const std::string& place, ImageHead& head) {
+  constexpr std::size_t kFrame = 12, kMostChunks = 10'000;  // length, name and checksum
+  std::array<char, 8> begin{};
+  for (std::uint64_t at = 8; image.read(at, begin.data(), begin.size()) == begin.size();) {
+    const std::string_view bytes(begin.data(), begin.size());
+    const std::string name(bytes.substr(4));
+    if (name == "IDAT") return;
+    at += std::uint64_t{number_at(bytes, 0, 4, true)} + kFrame;
+    if (at > image.size) refuse_damaged(place, "chunk " + plain(name) + " claims to be longer than the file");
+    if (head.png_chunks.size() == kMostChunks) refuse_damaged(place, "it has too many chunks");
+    head.png_chunks.push_back(name);
+  }
+}
+
+// OpenImageIO reads beyond its memory where the compression does not fit the number of bits.
+void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::string& place) {
+  constexpr std::uint32_t kOldHeader = 12;  // which has no compression
+  const std::uint32_t header = number_at(begin, 14, 4, false);
+  const bool is_old = header == kOldHeader;
+  const std::uint32_t bits = number_at(begin, is_old ? 24 : 28, 2, false),
+                      compression = is_old ? 0 : number_at(begin, 30, 4, false),
+                      pixels = number_at(begin, 10, 4, false);
+  constexpr std::array<std::uint32_t, 6> kHeaders = {kOldHeader, 40, 52, 56, 108, 124},
+                                         kBits = {1, 4, 8, 16, 24, 32};
+  const bool fits = compression == 0 || (compression == 1 && bits == 8) || (compression == 2 && bits == 4) ||
+                    (compression == 3 && (bits == 16 || bits == 32));
+  if (std::ranges::find(kHeaders, header) == kHeaders.end())
+    throw input_error(place + ": is damaged, or of an unknown kind: a header of " + std::to_string(header) +
+                      " bytes");
+  if (!fits || std::ranges::find(kBits, bits) == kBits.end())
+    throw input_error(place + ": is damaged, or of an unknown kind: compression " +
+                      std::to_string(compression) + " of " + std::to_string(bits) + " bits");
+  if (pixels > image.size) refuse_damaged(place, "its texels would begin behind its end");
+  if (compression != 0) return;
+  const auto side = [&](std::size_t at, std::size_t size) {
+    const std::uint32_t value = number_at(begin, at, size, false);
+    return static_cast<std::uint64_t>(size == 4 && value > 0x7fffffffu ? 0u - value : value);
+  };
+  const std::uint64_t width = side(18, is_old ? 2 : 4), height = is_old ? side(20, 2) : side(22, 4);
+  if ((width * bits + 31) / 32 * 4 * height > image.size - pixels)
+    refuse_damaged(place, "it has fewer texels than its size of " + std::to_string(width) + "x" +
+                              std::to_string(height) + " needs (the file may be truncated)");
+}
+
+// OpenImageIO takes texts of the extension area as far as their next zero, wherever that is.
+void look_at_targa(const ImageBytes& image, const std::string& place) {
+  constexpr std::size_t kFooter = 26, kArea = 495;
+  std::string footer(kFooter, '\0'), area(kArea, '\0');
+  if (image.size < kFooter || image.read(image.size - kFooter, footer.data(), kFooter) < kFooter ||
+      footer.substr(8, 16) != "TRUEVISION-XFILE")
+    return;
+  const std::uint32_t begin = number_at(footer, 0, 4, false);
+  if (begin == 0) return;
+  if (image.read(begin, area.data(), kArea) < kArea)
+    refuse_damaged(place, "its extension area is incomplete");
+  using Text = std::pair<std::size_t, std::size_t>;  // place and size
+  constexpr std::array<Text, 7> kTexts = {Text{2, 41}, {43, 81},  {124, 81}, {205, 81},
+                                          {286, 81},   {379, 41}, {426, 41}};
+  for (const auto& [at, size] : kTexts)
+    if (area.substr(at, size).find('\0') == std::string::npos)
+      refuse_damaged(place, "a text of its extension area has no end");
+}
+
+// A progressive JPEG is kept whole until its last scan.
+bool is_progressive(const ImageBytes& image) {
+  constexpr std::size_t kMostSegments = 10'000;
+  std::array<char, 4> segment{};
+  std::uint64_t at = 2;
+  for (std::size_t i = 0;
+       i < kMostSegments && image.read(at, segment.data(), segment.size()) == segment.size(); ++i) {
+    const std::string_view bytes(segment.data(), segment.size());
+    const std::uint32_t marker = number_at(bytes, 1, 1, true);
+    if (number_at(bytes, 0, 1, true) != 0xff || marker == 0xda || marker == 0xc0) return false;
+    if (marker == 0xc2) return true;
+    at += 2 + number_at(bytes, 2, 2, true);
+  }
+  return true;
+}
+
+}  // namespace
+
+ImageBytes bytes_of(std::string_view memory) {
+  return {memory.size(), [memory](std::uint64_t place, char* bytes, std::size_t count) -> std::size_t {
+            if (place >= memory.size()) return 0;
+            count = std::min<std::size_t>(count, memory.size() - place);
+            std::memcpy(bytes, memory.data() + place, count);
+            return count;
+          }};
+}
+
+ImageHead checked_head(const ImageBytes& image, const std::string& place) {
+  const std::string begin = begin_of(image);
+  ImageHead head{format_of(begin), {}, false};
+  if (head.format.empty()) {
+    const std::string name = known_name(begin);
+    throw input_error(
+        place + ": " +
+        (name.empty()
+             ? "is no image of a known format (PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR and Radiance HDR "
+               "are read)"
+             : "is " + name + ", which is not read (convert it to PNG)"));
+  }
+  if (head.format == "png") {
+    look_at_png(image, place, head);
+    head.is_read_whole = number_at(begin, 28, 1, true) != 0;  // interlaced
+  }
+  if (head.format == "bmp") look_at_bmp(begin, image, place);
+  if (head.format == "targa") look_at_targa(image, place);
+  if (head.format == "jpeg") head.is_read_whole = is_progressive(image);
+  if (head.format == "webp" || head.format == "targa") head.is_read_whole = true;
+  return head;
+}
+
+void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const ImageBytes& image,
+                       const std::string& place) {
+  const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
+  const std::uint64_t bytes = spec.image_bytes(true), row = spec.scanline_bytes(true);
+  if (spec.width < 1 || spec.height < 1) return;  // which has words of its own
+  if (spec.image_pixels() > kMostTexels)
+    throw input_error(place + ": has " + size + " texels, more than the most that are read (" +
+                      std::to_string(kMostTexels) + ")");
+  if (bytes / kMostBytesOfAByte > image.size)
+    refuse_damaged(
+        place, "its size of " + size + " does not fit a file of " + std::to_string(image.size) + " bytes");
+  // Rows that readers of strips, tiles and blocks of rows keep.
+  const int strip = std::max({spec.tile_height, spec.get_int_attribute("tiff:RowsPerStrip"), 256});
+  require_image_memory(
+      head.is_read_whole ? bytes : row * static_cast<std::uint64_t>(std::min(strip, spec.height)), place);
+}
+
+void set_image_memory(std::uint64_t bytes) { memory = bytes; }
+
+void require_image_memory(std::uint64_t bytes, const std::string& place) {
+  const std::uint64_t most = memory;
+  if (bytes <= most) return;
+  const auto gigabytes = [](std::uint64_t size) {
+    return fixed(static_cast<double>(size) * 1e-9, 1) + " GB";
+  };
+  throw input_error(place + ": needs " + gigabytes(bytes) + " of memory, and an image of this run may take " +
+                    gigabytes(most) +
+                    " (--memory-limit MB allows more, fewer --threads leave more for each)");
+}
+
+}  // namespace remap
