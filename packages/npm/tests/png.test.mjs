@@ -1,4 +1,4 @@
-// PNG files that claim more than they hold: refused before fast-png makes room for them. Needs no WebAssembly.
+// Images that claim more than they hold: refused before fast-png or sharp makes room for them. Needs no WebAssembly.
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -23,11 +23,11 @@ function claiming(width, height) {
   return bytes;
 }
 
-test('a good file is decoded, also from the middle of a buffer', { skip }, () => {
+test('a good file is decoded, also from the middle of a buffer, and with more behind its end', { skip }, () => {
   const bytes = good();
   const inside = new Uint8Array(bytes.length + 5).subarray(5);
   inside.set(bytes);
-  for (const file of [bytes, Buffer.from(bytes), inside]) assert.equal(decodedPng(file).data.length, 4 * SIDE * SIDE);
+  for (const file of [bytes, Buffer.from(bytes), inside, Buffer.concat([bytes, Buffer.alloc(99, 255)])]) assert.equal(decodedPng(file).data.length, 4 * SIDE * SIDE);
 });
 
 test('claims are compared with the limit and with the file', { skip }, () => {
@@ -47,4 +47,16 @@ test('chunks that are cut or claim more than the file', { skip }, () => {
   new DataView(long.buffer, long.byteOffset).setUint32(HEADER, 2 ** 31 - 1);
   assert.throws(() => decodedPng(long), /a chunk claims to be longer than the file/);
   for (let length = 2; length < good().length; ++length) assert.throws(() => decodedPng(good().subarray(0, length)), Error);
+});
+
+test('a TIFF whose strip has no bytes', { skip: skip || (existsSync(join(folder, 'node_modules/sharp')) ? false : 'sharp is not there') }, async () => {
+  const tags = [[256, 15000], [257, 15000], [258, 8], [259, 1], [262, 1], [273, 8], [277, 1], [278, 15000], [279, 0]];
+  const bytes = Buffer.alloc(10 + 12 * tags.length + 4);
+  bytes.write('II*\0\x08');
+  bytes.writeUInt16LE(tags.length, 8);
+  tags.forEach((tag, i) => [tag[0], 4, 1, tag[1]].forEach((value, j) =>
+    (j < 2 ? bytes.writeUInt16LE(value, 10 + 12 * i + 2 * j) : bytes.writeUInt32LE(value, 10 + 12 * i + 4 * (j - 1)))));
+  const { close, decode } = await import(pathToFileURL(join(folder, 'images.js')).href);
+  assert.throws(() => decode(bytes), /claims 15000x15000 texels in 122 bytes/);
+  close();
 });
