@@ -171,7 +171,7 @@ export function converterOfFit(text: string): Converter;
 export interface HeldArray {
   /** The array. Memory moves when it grows, so ask for it again after each call, and give the HeldArray itself to convert(). */
   readonly array: MapArray;
-  /** Gives the memory back, which nothing else does. */
+  /** Gives the memory back, which nothing else does. Do not use a typed array that you keep: it shows what comes into that memory next. */
   free(): void;
 }
 

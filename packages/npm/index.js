@@ -184,6 +184,7 @@ function valuesOf(name, value, isColor = COLORS.has(name)) {
     if (kindOf(array) === undefined) fail(`${name}: expected ${Object.keys(ARRAYS).join(', ')}`);
     if (kindOf(array) !== kindOf(list[0])) fail(`${name}: channels differ in type`);
     if (array.length !== list[0].length) fail(`${name}: channels differ in length`);
+    if (isFreed(array)) fail(`${name}: its array of allocate() was freed`);
   }
   return { name, isColor, arrays: list, kind: kindOf(list[0]) };
 }
@@ -225,6 +226,9 @@ function transferOf(options, name, kind) {
   return asked ?? (isWhole(kind) ? 'srgb' : 'linear');
 }
 
+// Arrays of allocate() that are not freed: their places, and where they end.
+const ends = new Map();
+
 // What allocate() gives.
 class HeldArray {
   #memory;
@@ -232,17 +236,24 @@ class HeldArray {
   constructor(kind, length) {
     this.#memory = new CoreArray(kind, 1, length);
     this.#length = length;
+    ends.set(this.#memory.place, this.#memory.place + length * kind.Type.BYTES_PER_ELEMENT);
   }
   get array() {
     return this.#memory?.view(this.#length) ?? fail('allocate: the array was freed');
   }
   free() {
-    this.#memory?.free();
+    if (this.#memory === null) return;
+    ends.delete(this.#memory.place);
+    this.#memory.free();
     this.#memory = null;
   }
 }
 
 const isInCore = (array) => array.buffer === core?.HEAPU8.buffer;
+
+// Whether a view outlived its memory, which may be that of another array since.
+const isFreed = (array) => isInCore(array)
+  && ![...ends].some(([place, end]) => place <= array.byteOffset && array.byteOffset + array.byteLength <= end);
 
 // Whether all arrays are in memory of the core, where they are converted without copies.
 function areHeld(sources, targets) {

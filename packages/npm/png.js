@@ -3,6 +3,34 @@ import { decode, encode } from 'fast-png';
 
 export const isPng = (bytes) => bytes[0] === 0x89 && bytes[1] === 0x50;
 
+const MOST_TEXELS = 2 ** 30;
+const MOST_BYTES_OF_A_BYTE = 1e6;  // no format packs more
+const SIGNATURE = 8, CHUNK = 12;  // sizes of the signature, and of a chunk without data
+const IHDR = 0x49484452, IEND = 0x49454e44;
+const CHANNELS = [1, 1, 3, 1, 2, 2, 4];  // by the kind of colors
+
+/** Refuses an image of `size` bytes that claims more texels than any is decoded with, or than its bytes can hold. */
+export function requirePlausible(width, height, texelBytes, size) {
+  if (width * height > MOST_TEXELS) throw new Error(`${width}x${height} texels are more than ${MOST_TEXELS}`);
+  if (width * height * texelBytes > MOST_BYTES_OF_A_BYTE * size)
+    throw new Error(`is damaged: claims ${width}x${height} texels in ${size} bytes`);
+}
+
+// fast-png makes room for what the file claims, by the last of its headers.
+function examine(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  for (let at = SIGNATURE, end; at + CHUNK <= bytes.length; at = end) {
+    const name = view.getUint32(at + 4);
+    if (name === IEND) return;  // anything may follow
+    end = at + CHUNK + view.getUint32(at);
+    if (end > bytes.length) throw new Error('is damaged: a chunk claims to be longer than the file');
+    if (name !== IHDR) continue;
+    if (end - at < CHUNK + 13) throw new Error('is damaged: its header is too short');
+    const texelBytes = (Math.max(bytes[at + 16], 8) / 8) * (CHANNELS[bytes[at + 17]] ?? 4);
+    requirePlausible(view.getUint32(at + 8), view.getUint32(at + 12), texelBytes, bytes.length);
+  }
+}
+
 // Samples of fewer than 8 bits, which fast-png leaves packed, a row at a time.
 function unpacked({ width, height, data, depth }) {
   const samples = new Uint8Array(width * height);
@@ -18,6 +46,7 @@ function unpacked({ width, height, data, depth }) {
 
 // As libpng expands: palettes to RGB, fewer bits than 8 to 8, a color that counts as transparent to opacity.
 export function decodedPng(bytes) {
+  examine(bytes);
   const png = decode(bytes, { checkCrc: true });
   const { width, height, palette, transparency } = png;
   const count = width * height;

@@ -1,6 +1,8 @@
 // Decodes and encodes by sharp; who asks sleeps until the flag is set (images.js).
 import { workerData } from 'node:worker_threads';
 
+import { requirePlausible } from './png.js';
+
 const { flag, port } = workerData;
 
 async function loaded() {
@@ -13,9 +15,10 @@ async function loaded() {
 
 async function decoded(sharp, { bytes }) {
   const image = sharp(bytes, { limitInputPixels: 2 ** 28, failOn: 'truncated' });
-  const { depth, channels: stored } = await image.metadata();
+  const { width, height, depth, channels: stored } = await image.metadata();
   if (depth !== 'uchar' && depth !== 'ushort') throw new Error(`holds ${depth} values, and not 8 or 16 bits`);
   const isWide = depth === 'ushort';
+  requirePlausible(width, height, stored * (isWide ? 2 : 1), bytes.length);
   const isGrey = stored < 3;
   // Named spaces keep sharp from changing values.
   const space = isGrey ? (isWide ? 'grey16' : 'b-w') : isWide ? 'rgb16' : 'srgb';

@@ -38,5 +38,5 @@ package_web() {
   for file in "$folder"/* build/packages/web/texremap.html; do
     printf '%-52s %8s bytes, %8s by gzip\n' "$file" "$(stat -c %s "$file")" "$(gzip -9c "$file" | wc -c)"
   done
-  [[ ${1-} != --test ]] || step "Try it in a browser" node --test web/tests/page.test.mjs web/tests/document.test.mjs
+  [[ ${1-} != --test ]] || step "Try it in a browser" node --test web/tests/*.test.mjs
 }

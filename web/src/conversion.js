@@ -12,7 +12,19 @@ export function wordsOf(line) {
   return [...line.matchAll(/"([^"]*)"|'([^']*)'|(\S+)/g)].map((match) => match[1] ?? match[2] ?? match[3]);
 }
 
-const quoted = (word) => (/^[\w./:=,-]+$/.test(word) ? word : `'${word}'`);
+/** A word as a shell takes it. */
+export const quoted = (word) => (/^[\w./:,-][\w./:=,-]*$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
+
+/** Files of an archive by name: unpackers of Windows take a backslash for a folder. */
+export function archived(files) {
+  const found = new Map();
+  for (const { path, bytes } of files) {
+    let name = path.replaceAll('\\', '_');
+    while (found.has(name)) name = `_${name}`;
+    found.set(name, bytes);
+  }
+  return found;
+}
 
 function commandOf(files, { from, to, preset, more }) {
   const words = ['convert', IN, '--recursive'];

@@ -2,6 +2,7 @@
 import { zipSync } from 'fflate';
 import { startWorker, wasmBytes } from 'parts';
 
+import { archived } from './conversion.js';
 import { Core } from './core.js';
 import { bytesOf, filesOfDrop, filesOfInput } from './intake.js';
 import { Stage } from './stage.js';
@@ -75,7 +76,8 @@ function offer(results) {
   if (results.length === 0) return;
   const [only] = results;
   // The same results give the same bytes.
-  const entries = () => Object.fromEntries(results.map(({ path, bytes }) => [path, [bytes, { level: 0, mtime: new Date(1980, 0, 1) }]]));
+  const entries = () =>
+    Object.fromEntries([...archived(results)].map(([name, bytes]) => [name, [bytes, { level: 0, mtime: new Date(1980, 0, 1) }]]));
   const bytes = results.length === 1 ? only.bytes : zipSync(entries());
   const name = results.length === 1 ? only.path.slice(only.path.lastIndexOf('/') + 1) : 'texremap.zip';
   link = URL.createObjectURL(new Blob([bytes]));

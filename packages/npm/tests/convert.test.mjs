@@ -191,8 +191,11 @@ test('arrays in memory of the library give the same, also after memory has grown
       assert.deepEqual(held[name].array, expected[name]);
     }
     assert.throws(() => convert({ ...names, ...held }), /arrays of allocate\(\) are given for some maps alone/);
+    const kept = held.roughness.array;
     for (const array of Object.values(held)) array.free();
     assert.throws(() => held.roughness.array, /the array was freed/);
+    assert.throws(() => convert({ ...names, ...values, roughness: kept }), /roughness: its array of allocate\(\) was freed/);
+    held.roughness.free();  // once more changes nothing
   }
 });
 

@@ -78,13 +78,12 @@ ImageLayout layout_from(const nb::handle& given) {
   return layout;
 }
 
-nb::object memory_of(const void* bytes, std::size_t count) {
-  return nb::steal(PyMemoryView_FromMemory(const_cast<char*>(static_cast<const char*>(bytes)),
-                                           static_cast<Py_ssize_t>(count), PyBUF_READ));
-}
-nb::object writable_memory(void* bytes, std::size_t count) {
-  return nb::steal(
-      PyMemoryView_FromMemory(static_cast<char*>(bytes), static_cast<Py_ssize_t>(count), PyBUF_WRITE));
+// Python gets copies: an object may keep what it is given for longer than the memory of C++ lives.
+nb::object copy_of(const void* bytes, std::size_t count) {
+  PyObject* const copy =
+      PyBytes_FromStringAndSize(static_cast<const char*>(bytes), static_cast<Py_ssize_t>(count));
+  if (copy == nullptr) throw nb::python_error();
+  return nb::steal(copy);
 }
 
 class ReadByPython : public StoredImage {
@@ -105,9 +104,12 @@ class ReadByPython : public StoredImage {
   }
   void read_rows(int first_row, int row_count, std::byte* texels) override {
     in_python(ErrorKind::kInput, [&] {
-      image_->attr("read_rows")(
-          first_row, row_count,
-          writable_memory(texels, static_cast<std::size_t>(row_count) * layout_.row_bytes()));
+      const std::size_t size = static_cast<std::size_t>(row_count) * layout_.row_bytes();
+      nb::bytearray rows;
+      rows.resize(size);
+      image_->attr("read_rows")(first_row, row_count, rows);
+      if (rows.size() != size) throw input_error("the images of Python: an answer has the wrong size");
+      std::memcpy(texels, rows.data(), size);
     });
   }
   std::optional<std::string> noted_metadata(const std::string& name) const override {
@@ -186,9 +188,8 @@ class WrittenByPython : public NewImage {
   }
   void write_rows(int first_row, int row_count, const std::byte* texels) override {
     in_python(ErrorKind::kOutput, [&] {
-      image_->attr("write_rows")(
-          first_row, row_count,
-          memory_of(texels, static_cast<std::size_t>(row_count) * layout().row_bytes()));
+      image_->attr("write_rows")(first_row, row_count,
+                                 copy_of(texels, static_cast<std::size_t>(row_count) * layout().row_bytes()));
     });
   }
   void finish() override {
@@ -222,7 +223,7 @@ class PythonCodec : public ImageCodec {
 
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {
     return in_python(ErrorKind::kInput, [&] {
-      const nb::object answer = images_->attr("decode")(memory_of(bytes.data(), bytes.size()), place);
+      const nb::object answer = images_->attr("decode")(copy_of(bytes.data(), bytes.size()), place);
       const auto [width, height, channels, type, texels] =
           nb::cast<std::tuple<std::size_t, std::size_t, std::size_t, std::string, nb::bytes>>(answer);
       ImagePixels pixels;
@@ -249,7 +250,7 @@ class PythonCodec : public ImageCodec {
     return in_python(ErrorKind::kOutput, [&] {
       const nb::object bytes =
           images_->attr(method)(pixels.width, pixels.height, pixels.channels, name_of_type(pixels.type),
-                                memory_of(pixels.bytes.data(), pixels.bytes.size()), setting);
+                                copy_of(pixels.bytes.data(), pixels.bytes.size()), setting);
       const auto text = nb::cast<nb::bytes>(bytes);
       return std::string(text.c_str(), text.size());
     });

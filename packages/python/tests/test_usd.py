@@ -151,6 +151,18 @@ def test_validators_have_no_new_complaint(scene):
     assert not new, new
 
 
+def test_links_that_others_planted_are_not_followed(scene, tmp_path):
+    other, folder = tmp_path / "other", tmp_path / "metallic_textures"
+    other.write_text("mine")
+    folder.mkdir()
+    texture = folder / "World_Looks_maps_metallic.png"
+    for link in (texture, folder / f".{texture.name}.unfinished.png", tmp_path / ".metallic.unfinished.usda"):
+        link.symlink_to(other)
+    usd.convert(scene, tmp_path / "metallic.usda")
+    assert other.read_text() == "mine" and not texture.is_symlink()
+    assert len(list(tmp_path.rglob(".*unfinished*"))) == 2
+
+
 def test_command_and_bad_input(scene, tmp_path):
     def run(*words):
         return subprocess.run([sys.executable, "-m", "texremap", "usd", *map(str, words)], capture_output=True, text=True)

@@ -5,10 +5,14 @@ The commands of texremap call an object with the methods of :class:`Images`; tho
 (runtime/texture/openimageio).
 """
 
+import io
 import os
 import tempfile
+import threading
 
 import numpy as np
+
+from ._files import create_new
 
 try:
     import OpenImageIO as oiio
@@ -34,8 +38,10 @@ _SUMMARIES = ("oiio:SHA-1", "oiio:ConstantColor", "oiio:AverageColor")
 _COLOR_SPACE = ("oiio:ColorSpace", "oiio:Gamma", "Exif:ColorSpace", "png:cicp", "CICP")
 _NOTED_COLOR_SPACE = "remap:color_space"
 _MOST_PARTS = 4096
-_MOST_TEXELS = 1 << 30
+MOST_TEXELS = 1 << 30  # of an image that is decoded as a whole
+_MOST_BYTES_OF_A_BYTE = 1_000_000  # no format packs more
 _SMALLEST_PNG = 9
+_opening = threading.Lock()
 
 
 def _first_line(text, otherwise):
@@ -74,20 +80,70 @@ def _is_mixed(spec):
     return len(set(_types(spec))) > 1
 
 
-def _leading_png_chunks(path):
+# Where and with what files of a format begin, the extension that makes OpenImageIO choose its reader, and OpenImageIO's name.
+_MARKS = (
+    (0, b"\x89PNG\r\n\x1a\n", "png", "png"), (0, b"\xff\xd8", "jpg", "jpeg"), (8, b"WEBP", "webp", "webp"),
+    (0, b"BM", "bmp", "bmp"), (0, b"II*\0", "tif", "tiff"), (0, b"MM\0*", "tif", "tiff"), (0, b"II+\0", "tif", "tiff"),
+    (0, b"MM\0+", "tif", "tiff"), (0, b"\x76\x2f\x31\x01", "exr", "openexr"), (0, b"#?", "hdr", "hdr"),
+)
+_LONGEST_HEAD = 34
+_BMP_HEADERS = (40, 52, 56, 108, 124)  # their sizes; a header of 12 bytes has no compression
+
+
+def _format(head):
+    """The extension and OpenImageIO's name of a format, from the first bytes of a file; empty for one that is not read."""
+    for begin, mark, extension, format in _MARKS:
+        if head[begin : begin + len(mark)] == mark and (format != "webp" or head[:4] == b"RIFF"):
+            return extension, format
+    # Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
+    is_targa = len(head) > 18 and head[1] < 2 and head[2] in (1, 2, 3, 9, 10, 11) and head[16] in (8, 15, 16, 24, 32)
+    return ("tga", "targa") if is_targa else ("", "")
+
+
+def _leading_png_chunks(file):
     """Names of the chunks of a PNG before its pixels, and where they claim to end."""
-    chunks = []
-    with open(path, "rb") as file:
-        if file.read(8) != b"\x89PNG\r\n\x1a\n":
+    chunks, place = [], 8
+    while True:
+        file.seek(place)
+        head = file.read(8)
+        if len(head) < 8 or head[4:] == b"IDAT":
             return chunks
-        place = 8
-        while True:
-            file.seek(place)
-            head = file.read(8)
-            if len(head) < 8 or head[4:] == b"IDAT":
-                return chunks
-            place += int.from_bytes(head[:4], "big") + 12
-            chunks.append((head[4:], place))
+        place += int.from_bytes(head[:4], "big") + 12
+        chunks.append((head[4:], place))
+
+
+def _examined(file, fail):
+    """Extension, format and leading PNG chunks of an image; calls `fail` if its bytes would harm a reader."""
+    head = file.read(_LONGEST_HEAD)
+    extension, format = _format(head)
+    chunks = _leading_png_chunks(file) if format == "png" else []
+    size = file.seek(0, os.SEEK_END)
+    for name, end in chunks:
+        if end > size:  # libpng allocates and fills as much as a chunk claims
+            fail(f"is damaged: chunk {name.decode('latin-1')} claims to be longer than the file")
+    if format == "bmp":
+        header, bits, compression = (int.from_bytes(head[at : at + count], "little") for at, count in ((14, 4), (28, 2), (30, 4)))
+        fits = compression == 0 or (compression, bits) in ((1, 8), (2, 4), (3, 16), (3, 32))
+        if header != 12 and not (fits and header in _BMP_HEADERS):  # readers would go beyond their memory
+            fail(f"is damaged, or of an unknown kind: compression {compression} of {bits} bits")
+    return extension, format, chunks
+
+
+def _open_as(format, path):
+    """An open file, only by the reader of `format`, which must be that of the extension; None if it refuses the file."""
+    with _opening:  # the attribute is that of the process
+        others = oiio.get_int_attribute("try_all_readers", 1)
+        oiio.attribute("try_all_readers", 0)
+        try:
+            image = oiio.ImageInput.open(path, _hints())
+        finally:
+            oiio.attribute("try_all_readers", others)
+    return image if image is not None and image.format_name() == format else None
+
+
+def _require_plausible(spec, size, fail):
+    if spec.image_bytes(True) > _MOST_BYTES_OF_A_BYTE * size:
+        fail(f"is damaged: claims {spec.width}x{spec.height} texels in {size} bytes")
 
 
 def _tells_color_space(spec, format, chunks):
@@ -142,17 +198,23 @@ class StoredImage:
     """One part of an image file, open for reading."""
 
     def __init__(self, path, part):
-        self._path, self._part, self._level = path, part, 0
-        chunks = _leading_png_chunks(path)
-        for name, end in chunks:
-            if end > os.path.getsize(path):
-                self._fail(f"is damaged: chunk {name.decode('latin-1')} claims to be longer than the file")
-        self._input = oiio.ImageInput.open(path, _hints())
+        self._path, self._file, self._part, self._level = path, path, part, 0
+        with open(path, "rb") as file:
+            extension, self.format, chunks = _examined(file, self._fail)
+        if not extension:
+            self._fail("cannot be read as an image: unknown format "
+                       "(PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR and Radiance HDR are read)")
+        if not path.lower().endswith("." + extension):  # the content chooses the reader, not the name
+            self._folder = tempfile.TemporaryDirectory(prefix="texremap-")
+            self._file = os.path.join(self._folder.name, "image." + extension)
+            os.symlink(os.path.abspath(path), self._file)
+        self._input = _open_as(self.format, self._file)
         if self._input is None:
             self._fail("cannot be read as an image: " + _first_line(oiio.geterror(), "unknown format"))
         self._input.geterror()
-        self.format = self._input.format_name()
         self._find_planes()
+        for level in self.levels:
+            _require_plausible(level, os.path.getsize(path), self._fail)
         spec = self.spec
         if spec.deep:
             self._fail("deep images are not supported")
@@ -165,7 +227,7 @@ class StoredImage:
                 level.erase_attribute("oiio:ColorSpace")
 
     def _fail(self, what):
-        raise ValueError(f"{self._path}: {what}")
+        raise ValueError(f"{self._path}: {what}".replace(self._file, self._path))
 
     def _find_planes(self):
         most = 1 if self.format == "webp" else _MOST_PARTS
@@ -406,7 +468,7 @@ class NewImage:
             self._specs.append(levels)
         self._plane, self._is_open, self._plane_is_open = (0, 0), False, False
         try:
-            open(unfinished, "wb").close()
+            create_new(unfinished)
         except OSError as failure:
             self._fail(f"cannot be written: {failure.strerror}")
 
@@ -488,19 +550,7 @@ class NewImage:
         self._output = None
 
 
-_EXTENSIONS = ((b"\x89PNG", "png"), (b"\xff\xd8", "jpg"), (b"BM", "bmp"), (b"II*\0", "tif"), (b"MM\0*", "tif"))
 _UNREAD = ((0, b"\xabKTX", "KTX2"), (4, b"ftypavif", "AVIF"), (0, b"DDS ", "DDS"))
-
-
-def _extension(data):
-    for mark, extension in _EXTENSIONS:
-        if data[: len(mark)] == mark:
-            return extension
-    if data[:4] == b"RIFF" and data[8:12] == b"WEBP":
-        return "webp"
-    # Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
-    is_targa = len(data) > 18 and data[1] < 2 and data[2] in (1, 2, 3, 9, 10, 11) and data[16] in (8, 15, 16, 24, 32)
-    return "tga" if is_targa else ""
 
 
 class Images:
@@ -518,30 +568,33 @@ class Images:
 
     def decode(self, data, place):
         """(width, height, channels, pixel type, bytes) of an image in memory: uint8 or uint16, not multiplied by alpha."""
-        data = bytes(data)
-        extension = _extension(data)
-        if not extension:
-            for begin, mark, name in _UNREAD:
-                if data[begin : begin + len(mark)] == mark:
-                    raise ValueError(f"{place}: is {name}, which is not read (convert it to PNG)")
-            raise ValueError(f"{place}: is no image of a known format (PNG, JPEG, WebP, BMP, TIFF and Targa are read)")
+        def fail(what):
+            raise ValueError(f"{place}: {what}")
+
+        extension, format, _ = _examined(io.BytesIO(data), fail)
+        for begin, mark, name in _UNREAD:
+            if data[begin : begin + len(mark)] == mark:
+                fail(f"is {name}, which is not read (convert it to PNG)")
+        if extension in ("", "exr", "hdr"):
+            fail("is no image of a known format (PNG, JPEG, WebP, BMP, TIFF and Targa are read)")
 
         def refuse(reason):
-            raise ValueError(f"{place}: cannot be read: {_first_line(reason, 'the image is damaged')}")
+            fail(f"cannot be read: {_first_line(reason, 'the image is damaged')}")
 
         with tempfile.TemporaryDirectory(prefix="texremap-") as folder:  # its Python package reads files alone
             path = os.path.join(folder, "image." + extension)
             with open(path, "wb") as file:
                 file.write(data)
-            image = oiio.ImageInput.open(path, _hints())
+            image = _open_as(format, path)
             if image is None:
                 refuse(oiio.geterror())
+            _require_plausible(image.spec(), len(data), fail)
             return self._decoded(image, refuse)
 
     @staticmethod
     def _decoded(image, refuse):
         spec = image.spec()
-        if not (0 < spec.width and 0 < spec.height and spec.width * spec.height <= _MOST_TEXELS and 1 <= spec.nchannels <= 4):
+        if not (0 < spec.width and 0 < spec.height and spec.width * spec.height <= MOST_TEXELS and 1 <= spec.nchannels <= 4):
             refuse("its size or its number of channels is none of an image of an asset")
         kind = "uint16" if np.dtype(_DTYPES.get(str(spec.format), np.uint8)).itemsize > 1 else "uint8"
         values = image.read_image(0, 0, 0, spec.nchannels, kind)

@@ -13,6 +13,7 @@ from typing import List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 
 from ._error import Error
+from ._files import replacing
 from .arrays import Converter
 
 try:
@@ -93,10 +94,12 @@ def _shader_value(node, name, otherwise):
 
 def _read(texture):
     """Linear floats of shape (height, width, channels)."""
-    from .images import Images
+    from .images import MOST_TEXELS, Images
 
     image = Images().open(texture.path, 0)
     layout = image.layout()
+    if layout["width"] * layout["height"] > MOST_TEXELS:
+        raise Error(f"{texture.path}: {layout['width']}x{layout['height']} texels are more than {MOST_TEXELS}", "input")
     names = [name for name, _ in layout["channels"]]
     kinds = {kind for _, kind in layout["channels"]}
     if len(kinds) > 1:
@@ -131,12 +134,10 @@ def _write(path, values, is_color):
                           1.055 * np.maximum(values, 0.0031308) ** (1 / 2.4) - 0.055)
     stored = np.round(np.clip(values, 0, 1) * 255).astype(np.uint8)
     spec = oiio.ImageSpec(stored.shape[1], stored.shape[0], stored.shape[2], "uint8")
-    unfinished = os.path.join(os.path.dirname(path), "." + os.path.basename(path) + ".unfinished.png")
-    output = oiio.ImageOutput.create(unfinished)
-    done = output.open(unfinished, spec) and output.write_image(stored) and output.close()
-    if not done:
-        raise Error(f"{path}: cannot be written: {output.geterror()}", "output")
-    os.replace(unfinished, path)
+    with replacing(path) as unfinished:
+        output = oiio.ImageOutput.create(unfinished)
+        if not (output.open(unfinished, spec) and output.write_image(stored) and output.close()):
+            raise Error(f"{path}: cannot be written: {output.geterror()}", "output")
 
 
 class _MaterialEdit:
@@ -298,28 +299,23 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
 
 
 def _write_layer(root, edits, output, folder):
-    """Authors the edits, then saves the layer under an unfinished name and renames it."""
+    """Authors the edits into a new file, which becomes ``output``."""
     parent = os.path.dirname(os.path.abspath(output))
-    stem, extension = os.path.splitext(os.path.basename(output))
-    unfinished = os.path.join(parent, f".{stem}.unfinished{extension}")
     try:
         os.makedirs(folder if any(edit.textures() for edit in edits) else parent, exist_ok=True)
-        saved = Sdf.Layer.CreateNew(unfinished)
-        relative = os.path.relpath(root.realPath, parent).replace(os.sep, "/")
-        saved.subLayerPaths[:] = [relative if relative.startswith("../") else "./" + relative]
-        for name in _STAGE_METADATA:
-            if root.pseudoRoot.HasInfo(name):
-                saved.pseudoRoot.SetInfo(name, root.pseudoRoot.GetInfo(name))
-        target = Usd.Stage.Open(saved)
-        for edit in edits:
-            edit.author(target)
-        saved.Save()
-        os.replace(unfinished, output)
+        with replacing(os.path.abspath(output)) as unfinished:
+            saved = Sdf.Layer.CreateNew(unfinished)
+            relative = os.path.relpath(root.realPath, parent).replace(os.sep, "/")
+            saved.subLayerPaths[:] = [relative if relative.startswith("../") else "./" + relative]
+            for name in _STAGE_METADATA:
+                if root.pseudoRoot.HasInfo(name):
+                    saved.pseudoRoot.SetInfo(name, root.pseudoRoot.GetInfo(name))
+            target = Usd.Stage.Open(saved)
+            for edit in edits:
+                edit.author(target)
+            saved.Save()
     except OSError as failure:
         raise Error(f"{output}: cannot be written: {failure.strerror}", "output") from None
-    finally:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
 
 
 def main(words: Optional[List[str]] = None) -> int:
