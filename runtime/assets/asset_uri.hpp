@@ -13,8 +13,12 @@ std::string percent_decoded(std::string_view text);
 // `a%20b` of `a b`: everything but letters, digits and - . _ ~ (RFC 3986, section 2.3).
 std::string percent_encoded(std::string_view text);
 
+// A path as a URI: percent_encoded() between its slashes.
+std::string uri_of_path(const std::string& path);
+
 // What a new file beside `model` is named, without number and extension: `a/chair_wood_baseColor` of
-// `a/wood.jpg`, the prefix `chair_` and the suffix `_baseColor`.
+// `a/wood.jpg`, the prefix `chair_` and the suffix `_baseColor`. Control characters and line breaks become
+// `_`.
 std::string stem_beside(const std::string& model, std::string_view prefix, std::string_view suffix);
 
 enum class UriKind {

@@ -20,6 +20,10 @@ bool is_plain_text(std::string_view text);
 // cut to at most `longest` bytes, the last three of which are `...` where something is missing.
 std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
 
+// `text` with `_` for every character that is_plain_text() refuses, as names of new files are made of texts
+// that others wrote. Bytes that are not UTF-8 stay: names of files may be in other encodings.
+std::string plain_file_name(std::string_view text);
+
 // The parts of `text` between separators; one more than there are separators, so parts may be empty.
 std::vector<std::string> parts_between(std::string_view text, char separator);
 
