@@ -13,6 +13,8 @@ function(remap_precompile_tests owner)
   # CMake compiles the header only for a target with a source that reads it, which Catch2's main must not.
   file(CONFIGURE OUTPUT precompiled_tests.cpp CONTENT "// Reads the precompiled header of the tests.\n")
   target_sources(${owner} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/precompiled_tests.cpp)
+  # The owner is a library, whose code would be of another kind than that of the programs that read its header.
+  target_compile_options(${owner} PRIVATE $<$<PLATFORM_ID:Linux>:-fPIE>)
   target_precompile_headers(${owner} PRIVATE
     <algorithm> <cmath> <filesystem> <functional> <iostream> <optional> <string> <variant> <vector> <catch2/catch.hpp>)
 endfunction()

@@ -23,17 +23,6 @@ constexpr int kCurvePoints = 200;
 constexpr const char* kLimitColor = "#999999";
 constexpr std::size_t kCurves = 5;  // alphas whose specular is drawn
 
-// Quotes a text for gnuplot.
-std::string quoted(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '"' || c == '\\') escaped += '\\';
-    if (c == '\n') continue;
-    escaped += c;
-  }
-  return '"' + escaped + '"';
-}
-
 // The least error that is drawn. Smaller errors are rounding.
 constexpr double kLeastError = 1e-8;
 
@@ -62,8 +51,8 @@ class Plot {
     write_data();
     out_ << plot_style(1280, 1040, is_png)
          << "set multiplot layout 2,2 margins 0.07,0.98,0.16,0.92 spacing 0.08,0.11 title "
-         << quoted(fit_.source.model + " to " + fit_.target.model + ", " + std::to_string(rows_.size()) +
-                   " rows of " + fit_.table.name)
+         << gnuplot_text(fit_.source.model + " to " + fit_.target.model + ", " +
+                         std::to_string(rows_.size()) + " rows of " + fit_.table.name)
          << " noenhanced font ',16'\n"
          << "set key font ',11' noenhanced\n";
     alpha_panel();
@@ -134,8 +123,8 @@ class Plot {
   }
 
   void axes(const std::string& title, const std::string& x, const std::string& y) {
-    out_ << "set title " << quoted(title) << " noenhanced\nset xlabel " << quoted(x)
-         << " noenhanced\nset ylabel " << quoted(y) << " noenhanced\n";
+    out_ << "set title " << gnuplot_text(title) << " noenhanced\nset xlabel " << gnuplot_text(x)
+         << " noenhanced\nset ylabel " << gnuplot_text(y) << " noenhanced\n";
   }
 
   // The first line is the widest, so that overlapping lines stay visible. The rows are drawn last: `rows`, a
@@ -147,7 +136,7 @@ class Plot {
     for (std::size_t f = 0; f < fits_.size(); ++f)
       out_ << "$" << block << f << " using 1:2 with lines linewidth "
            << 1.2 + 1.8 * static_cast<double>(fits_.size() - 1 - f) << " linecolor rgb '" << kPlotColors[f]
-           << "' title " << quoted(fit_label(fits_[f])) << ", ";
+           << "' title " << gnuplot_text(fit_label(fits_[f])) << ", ";
     const auto points = [&](int at_limit, const std::string& color) {
       out_ << rows << " using " << x << ":($" << limit << "==" << at_limit << "?$" << y
            << ":NaN) with points pointtype 7 pointsize 0.25 linecolor rgb '" << color << "' title ";
@@ -188,7 +177,7 @@ class Plot {
       const double rms = column == 2 ? errors.alpha.rms : errors.specular.rms;
       out_ << (f == 0 ? "" : ", ") << "$residuals" << f << " using 1:" << column
            << " with points pointtype 7 pointsize 0.3 linecolor rgb '" << kPlotColors[f] << "' title "
-           << quoted(fit_label(fits_[f]) + ", rms " + error_text(rms));
+           << gnuplot_text(fit_label(fits_[f]) + ", rms " + error_text(rms));
     }
     out_
         << "\nunset logscale y\nunset yrange\nset format y\nset key default\nset key font ',11' noenhanced\n";

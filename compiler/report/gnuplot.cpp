@@ -57,6 +57,12 @@ std::string plot_style(int width, int height, bool is_png) {
          "set tics textcolor rgb 'black'\n";
 }
 
+std::string gnuplot_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : plain(text)) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
 void write_drawing(const std::filesystem::path& path, const std::string& script) {
   const ScratchFolder folder("remapc-plot");
   write_file(folder.file("script"), script);

@@ -18,6 +18,10 @@ inline constexpr std::array<const char*, 6> kPlotColors = {"#0072B2", "#D55E00",
 // grid.
 std::string plot_style(int width, int height, bool is_png = false);
 
+// `text` as a text of a script, in quotes between which no character has a meaning for gnuplot. In double
+// quotes gnuplot would run what stands between backquotes.
+std::string gnuplot_text(const std::string& text);
+
 // Writes the SVG or PNG that gnuplot draws for `script`. Throws kOutput if the file cannot be written, or if
 // gnuplot cannot be started or fails, with the first line of its error message.
 void write_drawing(const std::filesystem::path& path, const std::string& script);

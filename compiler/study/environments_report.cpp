@@ -182,7 +182,7 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
       curves[panel] += (curves[panel].empty() ? "plot " : ", ") + block +
                        " using 1:" + std::to_string(panel + 2) +
                        " with linespoints linewidth 2 pointtype 7 pointsize 0.5 " + "linecolor rgb '" +
-                       kColors[static_cast<std::size_t>(method)] + "' title '" + name + "'";
+                       kColors[static_cast<std::size_t>(method)] + "' title " + gnuplot_text(name);
   }
   out << plot_style(1200, 480)
       << "set multiplot layout 1,2 margins 0.07,0.98,0.13,0.85 spacing 0.09,0.1 title 'Spheres under "

@@ -73,10 +73,11 @@ std::string ranking_plot(const LobeRanking& ranking) {
                                        : kPlotColors[1 + r % (kPlotColors.size() - 1)];
     curves += (curves.empty() ? "plot " : ", ") + block + " using 1:2 with linespoints linewidth " +
               (is_own || is_best ? "3" : "1") + " pointtype " + std::to_string(1 + r % 12) +
-              " linecolor rgb '" + color + "' title \"" + rule.name + "\" noenhanced";
+              " linecolor rgb '" + color + "' title " + gnuplot_text(rule.name) + " noenhanced";
   }
-  return blocks + plot_style(1200, 640) + "set title '" + ranking.lobe +
-         " as GGX: RMSE, % of the display range (lower is better)' noenhanced\n"
+  return blocks + plot_style(1200, 640) + "set title " +
+         gnuplot_text(ranking.lobe + " as GGX: RMSE, % of the display range (lower is better)") +
+         " noenhanced\n"
          "set xlabel 'exponent'\nset xrange [-0.1:3.1]\nset yrange [0:*]\nset key outside right\n"
          "set xtics ('1 to 10' 0, '10 to 100' 1, '100 to 1000' 2, 'above' 3)\n" +
          curves + "\n";

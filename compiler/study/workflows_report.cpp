@@ -192,7 +192,7 @@ std::string plot_script(const WorkflowsOptions& options, const WorkflowsResult& 
     for (std::size_t panel = 0; panel < bars.size(); ++panel)
       bars[panel] += (bars[panel].empty() ? "plot " : ", ") + std::string("$figures using ") +
                      std::to_string(2 + 2 * m + panel) + ":xtic(1) linecolor rgb '" +
-                     kColors[m % kColors.size()] + "' title \"" + comparison.methods[m] + "\"";
+                     kColors[m % kColors.size()] + "' title " + gnuplot_text(comparison.methods[m]);
   out << plot_style(1400, 520)
       << "set grid noxtics\nset multiplot layout 1,2 margins 0.05,0.99,0.09,0.84 spacing 0.07,0.1 title "
          "'Specular to metallic, "

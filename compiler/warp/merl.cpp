@@ -5,12 +5,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <numbers>
 
 #include "core/errors.hpp"
-#include "core/files.hpp"
+#include "core/input_file.hpp"
 #include "warp/quadrature.hpp"
 #include "warp/tabulated_set.hpp"
 
@@ -41,17 +39,13 @@ std::size_t cell_of(const QuadratureDirection& direction) {
 }  // namespace
 
 std::vector<float> read_merl(const std::filesystem::path& file) {
-  require_regular_file(file);
-  const bool is_whole = std::filesystem::file_size(file) == kFileBytes;
-  std::ifstream stream(file, std::ios::binary);
+  const InputFile input(file);
   std::array<std::int32_t, 3> counts{};
-  stream.read(reinterpret_cast<char*>(counts.data()), sizeof counts);
-  const bool is_merl = is_whole && stream && counts == kCounts;
+  input.read(0, reinterpret_cast<char*>(counts.data()), sizeof counts);
+  const bool is_merl = input.size() == kFileBytes && counts == kCounts;
   std::vector<double> values(is_merl ? 3 * kCells : 0);
-  if (is_merl)
-    stream.read(reinterpret_cast<char*>(values.data()),
-                static_cast<std::streamsize>(values.size() * sizeof(double)));
-  if (!is_merl || !stream)
+  const std::size_t bytes = values.size() * sizeof(double);
+  if (!is_merl || input.read(sizeof counts, reinterpret_cast<char*>(values.data()), bytes) != bytes)
     throw input_error(file.string() +
                       ": is not a BRDF of the MERL database (90 x 90 x 180 cells of three channels)");
   std::vector<float> samples;

@@ -10,14 +10,15 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
+#include "core/plain_text.hpp"
 #include "core/process_mark.hpp"
+#include "core/read_file.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -26,6 +27,7 @@ namespace {
 constexpr std::size_t kMostLog = 8192;          // bytes of standard error that are kept
 constexpr std::size_t kShownLogLines = 4;       // lines of the log in a message
 constexpr std::size_t kLongestLine = 16 << 20;  // far above an answer of a few kilobytes
+constexpr std::size_t kMostUnread = 64 << 20;   // bytes of lines that wait for a reader
 constexpr int kWatchMilliseconds = 20;          // delay at most until the end of a process is noticed
 
 struct Pipe {
@@ -42,6 +44,9 @@ void close_end(int* end) {
   if (*end >= 0) ::close(*end);
   *end = -1;
 }
+
+// What a line that waits takes. Empty ones take memory, too.
+std::size_t bytes_of(const std::string& line) { return sizeof line + line.size(); }
 
 // Runs between fork and exec, so it makes async-signal-safe calls only.
 [[noreturn]] void become(pid_t parent, char* const* arguments, int input, int output, int errors) {
@@ -66,10 +71,12 @@ std::string new_mark() {
 
 // Whether the environment that a process began with holds `entry`; false if it cannot be read.
 bool has_in_environment(const std::filesystem::path& process, const std::string& entry) {
-  std::ifstream file(process / "environ", std::ios::binary);
-  for (std::string found; std::getline(file, found, '\0');)
-    if (found == entry) return true;
-  return false;
+  try {
+    const std::vector<std::string> entries = parts_between(read_file(process / "environ"), '\0');
+    return std::ranges::find(entries, entry) != entries.end();
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 // Processes whose names under /proc are numbers, and which have `mark`.
@@ -192,7 +199,8 @@ void ChildProcess::watch() {
         stream.fd = -1;  // poll ignores negative descriptors
       }
     }
-    if (gone && !read_something) break;  // all output before its end has been read
+    // All output before its end has been read, or none of it counts.
+    if (gone && (!read_something || fault_ != nullptr)) break;
     siginfo_t info{};
     gone = ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
            info.si_pid == id_;
@@ -228,16 +236,25 @@ void ChildProcess::reap() {
 
 void ChildProcess::take_output(std::string_view bytes) {
   const std::lock_guard lock(mutex_);
+  if (fault_ != nullptr) return;
   part_of_line_ += bytes;
   std::size_t start = 0;
-  for (std::size_t end; (end = part_of_line_.find('\n', start)) != std::string::npos; start = end + 1)
+  for (std::size_t end; (end = part_of_line_.find('\n', start)) != std::string::npos; start = end + 1) {
     lines_.push_back(part_of_line_.substr(start, end - start));
-  part_of_line_.erase(0, start);
-  if (part_of_line_.size() > kLongestLine && !overlong_) {
-    overlong_ = true;
-    ::kill(-id_, SIGKILL);
+    unread_ += bytes_of(lines_.back());
   }
+  part_of_line_.erase(0, start);
+  if (part_of_line_.size() > kLongestLine) stop_for("wrote a line of more than 16 MB");
+  if (unread_ > kMostUnread) stop_for("wrote more than 64 MB of lines that no request asked for");
   changed_.notify_all();
+}
+
+// Its output is dropped from here on: what the process has started may go on writing.
+void ChildProcess::stop_for(const char* fault) {
+  fault_ = fault;
+  lines_.clear();
+  part_of_line_ = std::string();
+  ::kill(-id_, SIGKILL);
 }
 
 void ChildProcess::take_log(std::string_view bytes) {
@@ -263,6 +280,7 @@ ChildProcess::Reading ChildProcess::read_line(Clock::time_point deadline, std::s
   std::unique_lock lock(mutex_);
   changed_.wait_until(lock, deadline, [&] { return !lines_.empty() || ended_; });
   if (lines_.empty()) return ended_ ? Reading::kEnded : Reading::kLate;
+  unread_ -= bytes_of(lines_.front());
   *line = std::move(lines_.front());
   lines_.pop_front();
   return Reading::kLine;
@@ -272,7 +290,7 @@ void ChildProcess::note(const std::string& line) { take_log(line + "\n"); }
 
 std::string ChildProcess::ending() {
   const std::lock_guard lock(mutex_);
-  if (overlong_) return "wrote a line of more than 16 MB";
+  if (fault_ != nullptr) return fault_;
   if (!ended_) return "closed its input";
   if (WIFSIGNALED(status_)) return "died with signal " + std::to_string(WTERMSIG(status_));
   return "ended with exit code " + std::to_string(WEXITSTATUS(status_));

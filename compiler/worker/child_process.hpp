@@ -68,6 +68,7 @@ class ChildProcess {
   void end_if_due();
   void leave_at(Clock::time_point time);
   void take_output(std::string_view bytes);
+  void stop_for(const char* fault);
   void take_log(std::string_view bytes);
   void reap();
 
@@ -81,8 +82,10 @@ class ChildProcess {
   bool started_ = false;
   int start_failure_ = 0;
   std::deque<std::string> lines_;
+  std::size_t unread_ = 0;  // bytes that these lines take
   std::string part_of_line_, log_;
-  bool ended_ = false, asked_ = false, overlong_ = false;
+  bool ended_ = false, asked_ = false;
+  const char* fault_ = nullptr;  // of its output, for which it was killed
   int status_ = 0;
   Clock::time_point leave_by_ = Clock::time_point::max();
 };

@@ -1,10 +1,7 @@
 #include "worker/worker.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
 #include "core/errors.hpp"
+#include "core/input_file.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "worker/folders.hpp"
@@ -146,19 +143,20 @@ Image Worker::read_picture(const PictureRequest& request, const std::filesystem:
   const auto side = static_cast<std::size_t>(request.resolution);
   const auto channels = static_cast<std::size_t>(request.channels);
   const std::size_t expected = side * side * channels * sizeof(float);
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file)
-    fail(request.shown, "the picture was not written: " + path.string() + ": " + std::strerror(errno));
-  const auto size = static_cast<std::size_t>(file.tellg());
+  Image image{request.resolution, request.resolution, request.channels,
+              std::vector<float>(expected / sizeof(float))};
+  std::uintmax_t size = 0;
+  try {
+    const InputFile file(path);
+    size = file.size();
+    if (size == expected) size = file.read(0, reinterpret_cast<char*>(image.values.data()), expected);
+  } catch (const Error& error) {
+    fail(request.shown, std::string("the picture was not written: ") + error.what());
+  }
   if (size != expected)
     fail(request.shown, "the picture has " + std::to_string(size) + " bytes (must have " +
                             std::to_string(expected) + ": " + std::to_string(side) + " x " +
                             std::to_string(side) + " pixels of " + std::to_string(channels) + " floats)");
-  Image image{request.resolution, request.resolution, request.channels,
-              std::vector<float>(expected / sizeof(float))};
-  file.seekg(0);
-  if (!file.read(reinterpret_cast<char*>(image.values.data()), static_cast<std::streamsize>(expected)))
-    fail(request.shown, "the picture cannot be read");
   if (const std::string fault = picture_fault(image); !fault.empty()) fail(request.shown, fault);
   return image;
 }

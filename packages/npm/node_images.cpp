@@ -455,7 +455,7 @@ class NodeCodec final : public ImageCodec {
 
 class NodeImages final : public ImageLibrary {
  public:
-  void set_thread_count(int) const override {}
+  void set_limits(const ImageLimits&) const override {}
   std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const override {
     return std::make_unique<StoredByNode>(path, part);
   }

@@ -52,12 +52,19 @@ std::string percent_encoded(std::string_view text) {
   return result;
 }
 
+std::string uri_of_path(const std::string& path) {
+  std::string uri;
+  for (const std::string& part : parts_between(path, '/'))
+    uri += (uri.empty() ? "" : "/") + percent_encoded(part);
+  return uri;
+}
+
 std::string stem_beside(const std::string& model, std::string_view prefix, std::string_view suffix) {
   assert(suffix.empty() || std::ranges::find(kNewImageSuffixes, suffix) != kNewImageSuffixes.end());
   const std::size_t slash = model.find_last_of('/'), dot = model.find_last_of('.');
   const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
   const std::size_t end = dot != std::string::npos && dot >= begin ? dot : model.size();
-  return model.substr(0, begin) + std::string(prefix) + model.substr(begin, end - begin) +
+  return model.substr(0, begin) + plain_file_name(std::string(prefix) + model.substr(begin, end - begin)) +
          std::string(suffix);
 }
 

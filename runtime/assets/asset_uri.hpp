@@ -19,8 +19,12 @@ inline constexpr std::array<std::string_view, 7> kNewImageSuffixes = {
     "_baseColor", "_metallicRoughness", "_roughness",         "_metallic",
     "_specular",  "_diffuse",           "_specularGlossiness"};
 
+// A path as a URI: percent_encoded() between its slashes.
+std::string uri_of_path(const std::string& path);
+
 // What a new file beside `model` is named, without number and extension: `a/chair_wood_baseColor` of
 // `a/wood.jpg`, the prefix `chair_` and the suffix `_baseColor`, which is one of kNewImageSuffixes or empty.
+// Control characters and line breaks become `_`.
 std::string stem_beside(const std::string& model, std::string_view prefix, std::string_view suffix);
 
 enum class UriKind {

@@ -94,7 +94,12 @@ bool GltfNewImages::is_in_chunk(SpanValue image) const {
 
 // `a/wood_baseColor.png` of `a/wood.jpg`, with a number where that is taken.
 std::string GltfNewImages::free_uri(const std::string& model, const NewImage& image) {
-  const std::string stem = stem_beside(model, percent_encoded(resources_.image_prefix()), image.suffix);
+  const std::string prefix = resources_.image_prefix();
+  std::string stem = stem_beside(model, percent_encoded(prefix), image.suffix);
+  // Line breaks may be encoded. A URI without any keeps its spelling.
+  if (const std::string path = stem_beside(percent_decoded(model), prefix, image.suffix);
+      path != percent_decoded(stem))
+    stem = uri_of_path(path);
   for (std::size_t number = 1;; ++number) {
     const std::string uri =
         stem + (number == 1 ? "" : "_" + std::to_string(number)) + (image.type == kJpeg ? ".jpg" : ".png");

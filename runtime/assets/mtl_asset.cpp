@@ -33,6 +33,20 @@ std::string color_text(const std::array<double, 3>& color) {
   return float_text_of(color[0]) + " " + float_text_of(color[1]) + " " + float_text_of(color[2]);
 }
 
+// A prefix of file names that is no option of a map, whatever the asset is named: `wood -s 2 2` is one
+// otherwise. A backslash would separate folders.
+std::string argument_prefix(std::string prefix) {
+  for (std::size_t i = 0; i < prefix.size(); ++i) {
+    const bool begins_word = i == 0 || prefix[i - 1] == ' ';
+    if (prefix[i] == '\\' || (begins_word && prefix[i] == '-') || (i == 0 && prefix[i] == ' '))
+      prefix[i] = '_';
+  }
+  return prefix;
+}
+
+// The name of a file as the argument of a map, where `-s` would be an option.
+std::string argument(const std::string& file) { return (file.starts_with('-') ? "./" : "") + file; }
+
 // What a material becomes: numbers, and names of new images.
 struct MtlResult {
   std::array<double, 3> base{};
@@ -163,7 +177,7 @@ class MtlEditor {
       : document_(document),
         options_(options),
         images_(resources, ""),
-        names_(resources != nullptr ? resources->image_prefix() : "") {}
+        names_(resources != nullptr ? argument_prefix(resources->image_prefix()) : "") {}
 
   AssetConversion result() {
     if (options_.profile == MaterialProfile::kExtensions)
@@ -257,7 +271,7 @@ class MtlEditor {
     const std::string name = names_.free_name(images_.place_of(model->file).value_or("material"), suffix);
     conversion_.files.push_back(
         {name, images_.resources().codec().encode_png(pixels, options_.png_level.value_or(kUsualPngLevel))});
-    return name;
+    return argument(name);
   }
 
   static std::string becomes_text_of(const MtlResult& result, const MtlSurface& surface) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/asset_uri.hpp"
 #include "assets/gltf_container.hpp"
 #include "assets/obj_buffer.hpp"
 #include "assets/obj_materials.hpp"

@@ -187,7 +187,10 @@ class ObjStream final : public std::streambuf {
       corners_.push_back(rest.substr(begin, at - begin));
       while (at < rest.size() && is_space(rest[at])) ++at;
     }
-    for (const std::string_view corner : corners_) farthest_ = std::max(farthest_, vertex_of(corner));
+    for (const std::string_view corner : corners_) {
+      require_indices(corner);
+      farthest_ = std::max(farthest_, vertex_of(corner));
+    }
     small_ += corners_.size() < 3;
     if (corners_.size() <= kMostClippedCorners) {
       ((made_ += "f ") += rest) += '\n';
@@ -198,6 +201,17 @@ class ObjStream final : public std::streambuf {
     }
     // The importer must know all vertices of the faces that it takes to triangles.
     if (++faces_ >= kMostFacesOfPart && farthest_ <= vertices_) begin_group();
+  }
+
+  // The importer takes an index beyond 32 bits for another one.
+  void require_indices(std::string_view corner) const {
+    for (std::size_t at = 0; at < corner.size(); at = std::min(corner.find('/', at), corner.size()) + 1) {
+      if (corner[at] == '+') ++at;
+      int index = 0;
+      const auto result = std::from_chars(corner.data() + at, corner.data() + corner.size(), index);
+      if (result.ec == std::errc::result_out_of_range)
+        throw input_error(place_ + ": " + plain(lines_.line(), 80) + ": an index is too large");
+    }
   }
 
   // The number of the vertex of a corner, where it counts from the first.

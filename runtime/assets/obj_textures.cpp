@@ -93,13 +93,6 @@ Json GltfTextures::info(std::size_t image, const MtlMap& map) {
 
 double float_value(double value) { return decimal_value(static_cast<float>(value)); }
 
-std::string uri_of_path(const std::string& path) {
-  std::string uri;
-  for (const std::string& part : parts_between(path, '/'))
-    uri += (uri.empty() ? "" : "/") + percent_encoded(part);
-  return uri;
-}
-
 std::string utf8_name(const std::string& text) {
   if (is_utf8(text)) return text;
   std::string result;

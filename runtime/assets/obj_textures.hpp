@@ -75,9 +75,6 @@ inline constexpr std::string_view kTextureTransform = "KHR_texture_transform";
 // Rounded to float, as viewers hold it, with the shortest text.
 double float_value(double value);
 
-// A path as a URI: percent_encoded() between its slashes.
-std::string uri_of_path(const std::string& path);
-
 // A text that JSON can hold: one that is not UTF-8 is read as Latin-1.
 std::string utf8_name(const std::string& text);
 

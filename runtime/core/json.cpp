@@ -124,7 +124,17 @@ class JsonBuilder {
   bool start_object(std::size_t) { return open(Json::object()); }
   bool start_array(std::size_t) { return open(Json::list()); }
   bool key(std::string& name) {
-    place_ = &(*open_.back())[name];
+    Open& object = open_.back();
+    auto& fields = std::get<Json::Object>(object.value->value_);
+    if (fields.size() < kFewFields) {
+      place_ = &(*object.value)[name];
+      return true;
+    }
+    if (object.places.empty())
+      for (std::size_t i = 0; i < fields.size(); ++i) object.places[fields[i].first] = i;
+    const auto [place, is_new] = object.places.try_emplace(name, fields.size());
+    if (is_new) fields.emplace_back(name, Json());
+    place_ = &fields[place->second].second;
     return true;
   }
   bool end_object() { return close(); }
@@ -135,6 +145,15 @@ class JsonBuilder {
   }
 
  private:
+  // To look through more fields for each key would take time with the square of their number.
+  static constexpr std::size_t kFewFields = 16;
+
+  // An object or list that is being read.
+  struct Open {
+    Json* value;
+    std::map<std::string, std::size_t> places;  // of the fields, by name; empty below kFewFields
+  };
+
   static Library library_value_of(std::monostate) { return nullptr; }
   static Library library_value_of(const Json::List& entries) {
     Library list = Library::array();
@@ -143,10 +162,12 @@ class JsonBuilder {
   }
   static Library library_value_of(const Json::Object& fields) {
     Library object = Library::object();
+    // Appended, since operator[] would look through all fields before.
+    auto& added = object.get_ref<Library::object_t&>();
     for (const auto& [key, value] : fields) {
-      object[key] = library_value(value);
+      added.emplace_back(key, library_value(value));
       if (const Json bytes = lost_bytes(value); !bytes.is_null())
-        object[key + "_base64"] = library_value(bytes);
+        added.emplace_back(key + "_base64", library_value(bytes));
     }
     return object;
   }
@@ -171,11 +192,11 @@ class JsonBuilder {
   Json* put(Json value) {
     if (open_.empty()) return &(root = std::move(value));
     if (place_ != nullptr) return &(*std::exchange(place_, nullptr) = std::move(value));
-    return &open_.back()->entries()->emplace_back(std::move(value));
+    return &open_.back().value->entries()->emplace_back(std::move(value));
   }
   bool add(Json value) { return put(std::move(value)) != nullptr; }
   bool open(Json value) {
-    open_.push_back(put(std::move(value)));
+    open_.push_back({put(std::move(value)), {}});
     return true;
   }
   bool close() {
@@ -183,8 +204,8 @@ class JsonBuilder {
     return true;
   }
 
-  std::vector<Json*> open_;  // objects and lists, the outermost first
-  Json* place_ = nullptr;    // of the next value, after a key
+  std::vector<Open> open_;  // the outermost first
+  Json* place_ = nullptr;   // of the next value, after a key
 };
 
 std::string Json::dump(int indent) const {

@@ -109,6 +109,16 @@ std::string without_case(std::string_view text) {
   return result;
 }
 
+std::string plain_file_name(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    result += is_plain(character) || !character.is_valid ? text.substr(0, character.bytes) : "_";
+    text.remove_prefix(character.bytes);
+  }
+  return result;
+}
+
 std::vector<std::string> parts_between(std::string_view text, char separator) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {

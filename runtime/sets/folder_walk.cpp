@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <system_error>
 
+#include "core/plain_text.hpp"
 #include "core/system.hpp"
 #include "remap/error.hpp"
 #include "sets/name_pieces.hpp"
@@ -120,18 +122,7 @@ class Walker {
 }  // namespace
 
 std::string shown(const std::filesystem::path& path) {
-  constexpr std::string_view kHexDigits = "0123456789abcdef";
-  std::string text;
-  for (const char c : path.string()) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '\n')
-      text += "\\n";
-    else if (byte < 0x20 || byte == 0x7f)
-      text += {'\\', 'x', kHexDigits[byte >> 4], kHexDigits[byte & 15u]};
-    else
-      text += c;
-  }
-  return text;
+  return plain(path.string(), std::numeric_limits<std::size_t>::max());
 }
 
 Walk walk_images(const fs::path& root, const WalkOptions& options) { return Walker(root, options).run(); }

@@ -16,6 +16,7 @@
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/packed_values.hpp"
+#include "core/plain_text.hpp"
 #include "core/report_text.hpp"
 #include "sets/naming.hpp"
 #include "texremap/commands.hpp"
@@ -79,10 +80,10 @@ Looked look_at(CheckedMaterial material, const CheckOptions& options) {
 }
 
 void print(const MaterialFinding& finding) {
-  std::cout << finding.place << (finding.channel.empty() ? "" : ":" + finding.channel) << ": "
-            << finding.message << " [" << finding.rule << ", " << name_of(kConfidences, finding.confidence)
-            << "]\n"
-            << "    " << finding.mend << '\n';
+  const std::string place = finding.place + (finding.channel.empty() ? "" : ":" + finding.channel);
+  std::cout << plain(place + ": " + finding.message) << " [" << finding.rule << ", "
+            << name_of(kConfidences, finding.confidence) << "]\n"
+            << "    " << plain(finding.mend) << '\n';
 }
 
 Json finding_json(const MaterialFinding& finding) {

@@ -170,16 +170,17 @@ void plan(const PlanOptions& options) {
   conversion.quiet = options.quiet;
   check_conversion(conversion);
 
-  const bool is_given = options.parts > 0 && options.minutes > 0 && options.memory_megabytes > 0;
-  const Measured one = is_given ? Measured() : measured(manifest, conversion);
-  const double threads = std::max(options.threads, 1u);
-  const double seconds = one.seconds_a_cost * static_cast<double>(manifest.head.cost);
   PlannedFarm farm{options.program.empty() ? own_program() : options.program,
                    whole(options.manifest),
                    manifest.head.root,
                    whole(words.options().output),
                    whole(options.folder),
                    words.for_jobs()};
+  require_writable(options.kind, farm);
+  const bool is_given = options.parts > 0 && options.minutes > 0 && options.memory_megabytes > 0;
+  const Measured one = is_given ? Measured() : measured(manifest, conversion);
+  const double threads = std::max(options.threads, 1u);
+  const double seconds = one.seconds_a_cost * static_cast<double>(manifest.head.cost);
   farm.threads = options.threads;
   farm.parts = options.parts > 0
                    ? options.parts

@@ -26,6 +26,9 @@ struct PlannedFarm {
   int minutes = 0;           // that a part may take
 };
 
+// Throws kUsage for words that the files of a plan cannot hold: a line break would begin a line of a script.
+void require_writable(PlanKind kind, const PlannedFarm& farm);
+
 // The files of a plan, by their names, and the line of a shell that submits them.
 struct PlanFiles {
   std::vector<std::pair<std::string, std::string>> files;

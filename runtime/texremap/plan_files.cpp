@@ -1,5 +1,7 @@
 // The texts of plans. Slurm: sbatch(1), job arrays and dependencies. Open Job Description: template schema
 // 2023-09 (OpenJobDescription/openjd-specifications).
+#include <algorithm>
+
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/plain_text.hpp"
@@ -125,9 +127,6 @@ Json script_json(const std::vector<std::string>& words) {
 PlanFiles openjd_files(const PlannedFarm& farm) {
   const PlannedPaths paths = {"{{Param.Program}}", "{{Param.Manifest}}", "{{Param.Tree}}", "{{Param.Output}}",
                               "{{Param.Report}}"};
-  for (const std::string& option : farm.options)
-    if (option.find("{{") != std::string::npos || option.find("}}") != std::string::npos)
-      throw usage_error(option + ": a template of OpenJD cannot hold {{ or }} (rename the file)");
   Json needs = {{"amounts", Json::list()}};
   if (farm.threads > 0) needs["amounts"].push_back({{"name", "amount.worker.vcpu"}, {"min", farm.threads}});
   needs["amounts"].push_back({{"name", "amount.worker.memory"}, {"min", farm.memory_megabytes}});
@@ -160,6 +159,29 @@ PlanFiles openjd_files(const PlannedFarm& farm) {
 }
 
 }  // namespace
+
+void require_writable(PlanKind kind, const PlannedFarm& farm) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\x7f'; };
+  const auto refuse = [](const std::string& word, const std::string& what) {
+    throw usage_error(plain(word) + ": " + what + " (rename the file or folder)");
+  };
+  std::vector<std::string> words = farm.options;
+  for (const auto& path : {farm.manifest, farm.tree, farm.output, farm.folder})
+    words.push_back(path.string());
+  words.push_back(farm.program);
+  for (const std::string& word : words) {
+    if (std::ranges::any_of(word, is_control))
+      refuse(word, "a plan cannot hold line breaks and other control characters");
+    if (kind == PlanKind::kOpenJd && !is_utf8(word)) refuse(word, "a template of OpenJD must be UTF-8");
+  }
+  for (const std::string& option : farm.options)
+    if (kind == PlanKind::kOpenJd &&
+        (option.find("{{") != std::string::npos || option.find("}}") != std::string::npos))
+      refuse(option, "a template of OpenJD cannot hold {{ or }}");
+  // sbatch would take the rest of the name as it is written, also what stands for the number of a part.
+  if (kind == PlanKind::kSlurm && farm.folder.string().find('\\') != std::string::npos)
+    refuse(farm.folder.string(), "sbatch cannot write logs to a folder with a backslash in its name");
+}
 
 PlanFiles plan_files(PlanKind kind, const PlannedFarm& farm) {
   switch (kind) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "core/report_text.hpp"
 #include "sets/folder_walk.hpp"
 
@@ -99,6 +100,9 @@ std::string plan_table(const std::vector<PlannedRole>& roles) {
   std::vector<std::array<std::string, 5>> rows = {{"role", "file", "holds", "what happens", "output"}};
   for (const PlannedRole& role : roles)
     rows.push_back({role.role, role.input, role.encoding, role.happens, role.output});
+  // Channels and roles are named by files, too.
+  for (auto& row : rows)
+    for (std::string& cell : row) cell = plain(cell);
   std::array<std::size_t, 5> widths{};
   for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());

@@ -103,6 +103,15 @@ TEST_CASE("remapc fit: gnuplot's failure is shown", "[slow]") {
   CHECK_FALSE(fs::exists(session.path("plot.svg")));
 }
 
+TEST_CASE("remapc fit: the name of a table is only text for gnuplot", "[slow]") {
+  const Session session;
+  const std::string table = "it's`>RUN`.csv";
+  session.write(table, made_table(12, 4));
+  require_success(session.remapc("fit " + table + " --model parametric -o fits --plot plot.svg"));
+  CHECK_FALSE(fs::exists(session.path("RUN")));
+  CHECK(session.content("plot.svg").find("it's`&gt;RUN`.csv") != std::string::npos);
+}
+
 TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "[slow]") {
   const Session session;
   require_success(session.remapc(session.sweep("t.csv")));

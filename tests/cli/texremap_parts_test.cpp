@@ -336,6 +336,34 @@ TEST_CASE("texremap parts: plans name every part, and refuse what would fail in 
   refused("--from mitsuba/ward --to mitsuba/as -o x --part 1/2", "is written by texremap plan itself");
 }
 
+TEST_CASE("texremap parts: plans refuse names that would become lines of their own") {
+  const Tree tree;
+  tree.map("in/x_rough.png", kGrey, OIIO::TypeUInt8);
+  index(tree);
+  const auto refused = [&](const char* kind, const std::string& folder, const std::string& results,
+                           const std::string& message) {
+    const ProcessResult result = tree.texremap(
+        Words("plan") + Words{std::string(kind)} + Words("--manifest sets.jsonl --parts 1 -o") +
+        Words{folder} + Words("-- --from mitsuba/ward --to mitsuba/as --only roughness -o") + Words{results});
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.errors, Contains(message));
+    CHECK_FALSE(exists(tree, folder));
+  };
+  const std::string why =
+      "a plan cannot hold line breaks and other control characters (rename the file or folder)";
+  for (const char* kind : {"slurm", "openjd", "commands"}) {
+    refused(kind, "p\ntouch RUN\n#", "out", "p\\x0atouch RUN\\x0a#: " + why);
+    refused(kind, "plan", "o\x7fut", "o\\x7fut: " + why);
+  }
+  refused("slurm", "a\\b", "out", "sbatch cannot write logs to a folder with a backslash in its name");
+  refused("openjd", "plan", "caf\xe9", "caf\\xe9: a template of OpenJD must be UTF-8");
+  fs::rename(tree.path("in"), tree.path("i\nn"));
+  REQUIRE(
+      tree.texremap(Words("index") + Words{std::string("i\nn")} + Words("-o sets.jsonl --force")).exit_code ==
+      0);
+  refused("commands", "plan", "out", "i\\x0an: " + why);
+}
+
 namespace {
 
 const std::string kOfAssets = "convert --manifest assets.jsonl --to gltf -o ";

@@ -263,8 +263,10 @@ class PythonCodec : public ImageCodec {
 class PythonImages : public ImageLibrary {
  public:
   explicit PythonImages(const nb::object& images) : images_(images), codec_(images) {}
-  void set_thread_count(int count) const override {
-    in_python(ErrorKind::kInput, [&] { images_->attr("set_thread_count")(count); });
+  // The objects in Python have limits of their own for memory (images.py).
+  void set_limits(const ImageLimits& limits) const override {
+    if (limits.threads > 0)
+      in_python(ErrorKind::kInput, [&] { images_->attr("set_thread_count")(limits.threads); });
   }
   std::unique_ptr<StoredImage> open(const fs::path& path, int part) const override {
     return in_python(ErrorKind::kInput, [&] {

@@ -14,6 +14,7 @@
 #include <iostream>
 #include <map>
 #include <string>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -211,6 +212,10 @@ bool misbehave(const json& request) {
   if (has_fault("refuse"))
     std::cout << json{{"id", request.at("id")}, {"error", "no licence left"}} << std::endl;
   if (has_fault("no-file")) std::cout << json{{"id", request.at("id")}} << std::endl;
+  if (has_fault("pipe")) {
+    ::mkfifo(request.at("image").get<std::string>().c_str(), 0600);
+    std::cout << json{{"id", request.at("id")}} << std::endl;
+  }
   if (has_fault("flood")) std::cout << std::string(20 << 20, 'x') << std::endl;
   const auto complain = [&](const json& error) {
     std::cout << json{{"id", request.at("id")}, {"error", error}} << std::endl;
@@ -225,8 +230,8 @@ bool misbehave(const json& request) {
     std::cerr << std::string(7000, 'y') << "\x1b[31m the end" << std::endl;
     std::exit(3);
   }
-  for (const char* fault : {"garbage", "wrong-id", "refuse", "no-file", "flood", "error-number", "error-long",
-                            "error-lines", "deep"})
+  for (const char* fault : {"garbage", "wrong-id", "refuse", "no-file", "pipe", "flood", "error-number",
+                            "error-long", "error-lines", "deep"})
     if (has_fault(fault)) return true;
   return false;
 }

@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/plain_text.hpp"
 #include "core/process_mark.hpp"
+#include "worker/child_process.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -74,6 +75,7 @@ TEST_CASE("worker: answers that violate the protocol are reported") {
   CHECK_THAT(render_error(session, "wrong-id"), Contains("without the id 2 of the request"));
   CHECK_THAT(render_error(session, "flood"), Contains("wrote a line of more than 16 MB"));
   CHECK_THAT(render_error(session, "no-file"), Contains("the picture was not written"));
+  CHECK_THAT(render_error(session, "pipe"), Contains("is a named pipe, not a file"));
   CHECK_THAT(render_error(session, "short"),
              Contains("the picture has 4092 bytes (must have 4096: 32 x 32 pixels of 1 floats)"));
   CHECK_THAT(render_error(session, "nan"), Contains("the picture is nan in row 16, column 16"));
@@ -81,6 +83,16 @@ TEST_CASE("worker: answers that violate the protocol are reported") {
   CHECK_THAT(render_error(session, "prefix"), Contains("is \"other/ggx\" (must be fake/MODEL)"));
   CHECK_THAT(render_error(session, "convention"), Contains("expected alpha, roughness, exponent"));
   CHECK(session.nobody_is_left());
+}
+
+TEST_CASE("worker: one that floods its output while nobody reads is killed") {
+  ChildProcess process("exec yes");
+  const auto deadline = ChildProcess::Clock::now() + std::chrono::seconds(60);
+  while (process.ending() == "closed its input" && ChildProcess::Clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK(process.ending() == "wrote more than 64 MB of lines that no request asked for");
+  std::string line;
+  CHECK(process.read_line(deadline, &line) == ChildProcess::Reading::kEnded);
 }
 
 TEST_CASE("worker: a reported error is passed on, and the worker stays in use") {

@@ -189,6 +189,22 @@ TEST_CASE("Images in files and in URIs stay what they are", "[assets]") {
   CHECK(require_others_kept(text, conversion.text) == 2);
 }
 
+TEST_CASE("Names of new images have no line breaks", "[assets]") {
+  PlainResources resources;
+  resources.prefix = "c\nd_";
+  resources.files["a\nb.png"] = file_of(random_pixels(3, 1));
+  resources.files["b.png"] = file_of(random_pixels(4, 2));
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"materials":[)" + textured(kBoth) +
+      R"(],"textures":[{"source":0},{"source":1}],"images":[{"uri":"a%0Ab.png"},{"uri":"b.png"}]})";
+  const AssetConversion result = convert_gltf(MemorySource(text), "file", kCoreProfile, &resources);
+  REQUIRE(result.files.size() == 2);
+  CHECK(result.files[0].path == "c_d_a_b_baseColor.png");
+  CHECK(result.files[1].path == "c_d_b_metallicRoughness.png");
+  CHECK(SpannedJson(result.text, "file").root()["images"].children()[2]["uri"].text() ==
+        result.files[0].path);
+}
+
 TEST_CASE("A material whose image is missing fails, and others go on", "[assets]") {
   PlainResources resources;
   resources.files["b.png"] = "not an image";

@@ -100,6 +100,7 @@ class PlainCodec final : public ImageCodec {
 class PlainResources final : public AssetResources {
  public:
   std::map<std::string, std::string> files;
+  std::string prefix = {};  // of new images
 
   std::unique_ptr<ByteSource> open(const std::string& path) const override {
     const auto found = files.find(path);
@@ -107,6 +108,7 @@ class PlainResources final : public AssetResources {
     return std::make_unique<MemorySource>(found->second);
   }
   const ImageCodec& codec() const override { return codec_; }
+  std::string image_prefix() const override { return prefix; }
   // The nearest texel.
   ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override {
     ImagePixels result{width, height, pixels.channels, pixels.type, {}};

@@ -308,6 +308,28 @@ TEST_CASE("Names that lead out of the folder are looked for beside the file", "[
   CHECK(above.files.at(0).path == "../up/e_baseColor.png");
 }
 
+TEST_CASE("Names of files become neither options nor statements", "[assets]") {
+  PlainResources resources;
+  const std::string bytes = map_bytes({{10, 20, 30}, {200, 100, 90}});
+  const auto converted = [&](const std::string& file) {
+    resources.files = {{file, bytes}};
+    return converted_mtl("newmtl a\nKd 1 1 1\nKs 1 1 1\nNs 20\nmap_Kd ./" + file + "\n", &resources);
+  };
+  const AssetConversion dashed = converted("-s 2 2 wood.png");
+  CHECK(value_of(dashed, "map_Kd") == "./-s 2 2 wood_baseColor.png");
+  CHECK(dashed.files.at(0).path == "-s 2 2 wood_baseColor.png");
+  CHECK(converted("a\x01\xe2\x80\xa8"
+                  "b\xff.png")
+            .files.at(0)
+            .path == "a__b\xff_baseColor.png");
+  // Where several assets name one image, the name of the asset is the prefix.
+  resources.prefix = "\\a -s 2 2\nnewmtl b\nKd 1 0 0\n#_";
+  const AssetConversion prefixed = converted("wood.png");
+  CHECK(prefixed.files.at(0).path == "_a _s 2 2_newmtl b_Kd 1 0 0_#_wood_baseColor.png");
+  CHECK(value_of(prefixed, "map_Kd") == prefixed.files.at(0).path);
+  CHECK(converted_mtl(prefixed.text).materials.size() == 1);
+}
+
 TEST_CASE("Random texts: all but converted lines stays byte for byte, and a second run changes nothing",
           "[assets]") {
   std::mt19937 random(11);

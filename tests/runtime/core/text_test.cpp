@@ -11,6 +11,7 @@
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "remap/error.hpp"
+#include "support/build_speed.hpp"
 
 using namespace remap;
 
@@ -119,6 +120,21 @@ TEST_CASE("JSON: the bytes of texts that are no UTF-8 stand beside them") {
   CHECK(lost.dump() ==
         "{\"path\":\"caf\xef\xbf\xbd\",\"path_base64\":\"Y2Fm6Q==\",\"inputs\":[\"a\",\"\xef\xbf\xbd\",null],"
         "\"inputs_base64\":[\"YQ==\",\"/w==\",null],\"name\":\"caf\xc3\xa9\"}");
+}
+
+TEST_CASE("JSON: objects of many fields are read and written in seconds, in their order") {
+  constexpr std::size_t kFields = 160'000;
+  std::string text = "{";
+  for (std::size_t i = 0; i < kFields; ++i) text += "\"k" + std::to_string(i) + "\":0,";
+  const double seconds = seconds_of([&] {
+    const Json json = parse_json(text + "\"k3\":1,\"last\":{\"k3\":2}}", "x.json");
+    CHECK(json.size() == kFields + 1);
+    CHECK(json.fields()->at(3).second.whole() == 1);
+    CHECK(json.fields()->at(kFields - 1).first == "k" + std::to_string(kFields - 1));
+    CHECK(json.find("last")->dump() == "{\"k3\":2}");
+    CHECK(json.dump().size() == text.size() + std::string("\"last\":{\"k3\":2}}").size());
+  });
+  CHECK(seconds < (kSlowBuild ? 20.0 : 4.0));
 }
 
 TEST_CASE("text: parts between separators may be empty") {
