@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "core/input_file.hpp"
 #include "remap/error.hpp"
 #include "texture/image_library.hpp"
 

@@ -5,7 +5,6 @@
 #include <mutex>
 
 #include "core/errors.hpp"
-#include "core/read_file.hpp"
 #include "core/system.hpp"
 
 namespace remap {
@@ -22,6 +21,14 @@ std::vector<Confinement> confinements;
 
 [[noreturn]] void fail_to_read(const fs::path& path) {
   throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
+}
+
+// What is not a regular file, in words.
+std::string kind_text(fs::file_type type) {
+  if (type == fs::file_type::directory) return "is a folder, not a file";
+  if (type == fs::file_type::fifo) return "is a named pipe, not a file (write its content to a file)";
+  if (type == fs::file_type::socket) return "is a socket, not a file (write its content to a file)";
+  return "is a device, not a file (give a regular file)";
 }
 
 fs::path without_end(const fs::path& folder) {
@@ -59,6 +66,13 @@ int opened(const fs::path& path) {
 }
 
 }  // namespace
+
+void require_regular_file(const fs::path& path) {
+  const std::optional<FileFacts> found = facts_of(path);
+  if (!found) fail_to_read(path);
+  if (found->type != fs::file_type::regular)
+    throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(found->type));
+}
 
 void confine_inputs(std::vector<fs::path> folders) {
   std::vector<Confinement> all;

@@ -13,6 +13,10 @@
 
 namespace remap {
 
+// Throws kInput unless `path` leads to a regular file. A reader that opens a pipe waits for a writer, and a
+// device has no end, so whoever hands a path that a user named to a library calls this first.
+void require_regular_file(const std::filesystem::path& path);
+
 // Folders whose files others may have put there. What is opened below one of them must lie below it after
 // links are resolved, too. Of the whole process; a command sets them before it reads its inputs.
 void confine_inputs(std::vector<std::filesystem::path> folders);

@@ -58,7 +58,7 @@ void add_utf8(char32_t code, std::string& text) {
   const auto add = [&text](char32_t byte) { text += static_cast<char>(byte); };
   if (code < 0x80) return add(code);
   const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;  // bytes after the first
-  add((0xf00u >> more & 0xffu) | code >> 6 * more);
+  add((0xf00u >> (more + 1) & 0xffu) | code >> 6 * more);
   for (int i = more - 1; i >= 0; --i) add(0x80u | (code >> 6 * i & 0x3fu));
 }
 

@@ -23,14 +23,6 @@ namespace {
                   (megabytes ? " MB" : " bytes") + ", the most that is read of such a file");
 }
 
-// What is not a regular file, in words.
-std::string kind_text(fs::file_type type) {
-  if (type == fs::file_type::directory) return "is a folder, not a file";
-  if (type == fs::file_type::fifo) return "is a named pipe, not a file (write its content to a file)";
-  if (type == fs::file_type::socket) return "is a socket, not a file (write its content to a file)";
-  return "is a device, not a file (give a regular file)";
-}
-
 // Whether the shell of the caller has opened what this name leads to.
 bool is_handed_down(const fs::path& path) {
   const std::string name = path.lexically_normal().string();
@@ -59,13 +51,6 @@ std::string content_of_pipe(const fs::path& path, std::uintmax_t largest) {
 }
 
 }  // namespace
-
-void require_regular_file(const fs::path& path) {
-  const std::optional<FileFacts> found = facts_of(path);
-  if (!found) fail_to_read(path, errno);
-  if (found->type != fs::file_type::regular)
-    throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(found->type));
-}
 
 std::string read_file(const fs::path& path, std::uintmax_t largest) {
   const std::optional<FileFacts> found = facts_of(path);

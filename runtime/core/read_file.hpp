@@ -11,10 +11,6 @@ namespace remap {
 // this project writes, and little enough for any machine that it runs on.
 inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
 
-// Throws kInput unless `path` leads to a regular file. A reader that opens a pipe waits for a writer, and a
-// device has no end, so whoever hands a path that a user named to a library calls this first.
-void require_regular_file(const std::filesystem::path& path);
-
 // The whole file as bytes. Apart from regular files it reads only pipes that the caller's shell has opened
 // (/dev/stdin, /dev/fd/N, /proc/self/fd/N), which end when their writer does. Throws kInput with the reason
 // of the system if it cannot be read, and for more than `largest` bytes.

@@ -1,8 +1,10 @@
 // A library to preload (LD_PRELOAD) over what opens files. The first FAULT_COUNT opens of names that contain
-// FAULT_NAME fail with the errno FAULT_CODE: storage that does not answer for a while. The names of all files
-// that are opened are lines of the file OPENS_LOG.
+// FAULT_NAME fail with the errno FAULT_CODE: storage that does not answer for a while. With FAULT_SIGNAL they
+// end the process by that signal instead, as a reader does that reads beyond its memory. The names of all
+// files that are opened are lines of the file OPENS_LOG.
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -34,7 +36,9 @@ bool fails(const char* path) {
   static std::atomic<int> faults = 0;
   note(path);
   const char *name = std::getenv("FAULT_NAME"), *count = std::getenv("FAULT_COUNT"),
-             *code = std::getenv("FAULT_CODE");
+             *code = std::getenv("FAULT_CODE"), *signal = std::getenv("FAULT_SIGNAL");
+  if (name != nullptr && signal != nullptr && std::strstr(path, name) != nullptr)
+    std::raise(std::atoi(signal));
   if (name == nullptr || count == nullptr || code == nullptr || std::strstr(path, name) == nullptr)
     return false;
   if (faults++ >= std::atoi(count)) return false;

@@ -212,11 +212,9 @@ void set_image_memory(std::uint64_t bytes) { memory = bytes; }
 void require_image_memory(std::uint64_t bytes, const std::string& place) {
   const std::uint64_t most = memory;
   if (bytes <= most) return;
-  const auto gigabytes = [](std::uint64_t size) {
-    return fixed(static_cast<double>(size) * 1e-9, 1) + " GB";
-  };
-  throw input_error(place + ": needs " + gigabytes(bytes) + " of memory, and an image of this run may take " +
-                    gigabytes(most) +
+  const auto megabytes = [](std::uint64_t size) { return std::to_string((size + 0xfffff) >> 20) + " MB"; };
+  throw input_error(place + ": needs " + megabytes(bytes) + " of memory, and an image of this run may take " +
+                    megabytes(most) +
                     " (--memory-limit MB allows more, fewer --threads leave more for each)");
 }
 
