@@ -150,8 +150,8 @@ class NamePlan {
   void take(AssetJob& job, const fs::path& name, const std::string& owner) {
     const std::string other = list_.names->take(name, owner);
     if (other.empty() || !job.refusal.empty()) return;
-    job.refusal = shown(job.input) + ": " + shown(name) + " would be written twice, from " + other +
-                  " and from " + owner + " (convert them into two folders, or rename one)";
+    job.refusal = shown(name) + ": would be written twice, from " + other + " and from " + owner +
+                  " (convert them into two folders, or rename one)";
   }
 
   // As take_stems() names it.
@@ -229,6 +229,9 @@ AssetList asset_list(const ConvertOptions& options, const Listing* listing) {
     names.take_files();
     names.set_prefixes();
   }
+  if (!list.is_tree)  // the user has typed their names
+    for (const AssetJob& job : list.jobs)
+      if (!job.refusal.empty()) throw usage_error(job.refusal);
   return list;
 }
 

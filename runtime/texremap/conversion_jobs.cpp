@@ -110,6 +110,7 @@ class FolderJobs {
   bool has_given_width(const FoundSet& set) const;
   void fail(const std::string& message) { jobs_.left_out.push_back({message, true}); }
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
+  std::string owner(const FoundSet& set) const { return shown(root_ / set.maps.front().path); }
 
   const ConvertOptions& options_;
   const WorkflowChoice& workflow_;
@@ -128,7 +129,7 @@ JobList FolderJobs::list() {
   for (const WalkProblem& problem : found_.problems) fail(problem.message);
   for (const FoundSet& set : found_.sets)
     for (const FoundMap& map : set.maps)
-      for (const fs::path& file : files_of(map)) (void)jobs_.names->take(root_ / file, place(set));
+      for (const fs::path& file : files_of(map)) (void)jobs_.names->take(root_ / file, owner(set));
   for (FoundSet& set : found_.sets) add(std::move(set));
   if (!found_.sizes.empty())
     for (ConversionJob& job : jobs_.jobs) note_sizes(job);
@@ -241,7 +242,8 @@ void FolderJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::
                     {},
                     {},
                     notes,
-                    {}};
+                    {},
+                    owner(set)};
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, job)) return;
   if (!choice_.layout.keeps_names) carry(set, tile, job.request);
@@ -337,7 +339,7 @@ void FolderJobs::require_encoding_used() const {
 // another set has one of them.
 bool FolderJobs::takes_names(const FoundSet& set) {
   const auto take = [&](const fs::path& path, const fs::path& source) {
-    const std::string other = jobs_.names->take(path, place(set));
+    const std::string other = jobs_.names->take(path, owner(set));
     if (!other.empty())
       fail(shown(path) + ": would be written twice, from " + other + " and from " + shown(root_ / source) +
            " (rename one of the sets)");

@@ -30,6 +30,7 @@ struct ConversionJob {
   std::vector<std::filesystem::path> left_behind;          // maps of the set that are neither read nor copied
   std::vector<std::string> notes;                          // which of several maps were taken
   std::map<std::filesystem::path, std::uintmax_t> listed;  // sizes of files that a manifest states
+  std::string owner = {};  // of the names of its results, for WrittenNames: two sets may have one name
 };
 
 // A set that is not converted, or a file or folder that cannot be read.

@@ -331,9 +331,9 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
     else
       report.results.push_back(result_of({copy.path, copy.parts}));
   for (const std::filesystem::path& file : results_of(plan))
-    if (const std::string other = names_.take(file, shown(job.name)); !other.empty())
+    if (const std::string other = names_.take(file, job.owner); !other.empty())
       throw Error(ErrorKind::kOutput, file.string() + ": would be written twice, from " + other +
-                                          " and from " + shown(job.name) + " (rename one of the sets)");
+                                          " and from " + job.owner + " (rename one of the sets)");
   report.warnings = job.notes;
   report.warnings.insert(report.warnings.end(), plan.left_out.begin(), plan.left_out.end());
   const bool needs_hash = options_.resume || !options_.dry_run;

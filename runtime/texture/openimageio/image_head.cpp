@@ -37,7 +37,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t place, std::size_t c
 // Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
 bool is_targa(std::string_view head) {
   const std::string_view types("\1\2\3\11\12\13", 6), depths("\10\17\20\30\40", 5);
-  return head.size() > 18 && (head[1] == 0 || head[1] == 1) &&
+  return head.size() >= 18 && (head[1] == 0 || head[1] == 1) &&
          types.find(head[2]) != std::string_view::npos && depths.find(head[16]) != std::string_view::npos;
 }
 
