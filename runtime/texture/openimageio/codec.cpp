@@ -17,9 +17,6 @@ constexpr std::uint64_t kCopies = 4;
 
 constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
 
-// Formats that glTF files hold, and those that OBJ files name.
-bool is_of_assets(const std::string& format) { return format != "openexr" && format != "hdr"; }
-
 // By libwebp itself: OpenImageIO 2.4 multiplies the colors by alpha in 8 bits, whatever it is asked for.
 ImagePixels webp_pixels(std::string_view bytes, const std::string& place) {
   const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
@@ -46,9 +43,7 @@ class AssetCodec final : public ImageCodec {
  public:
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {
     const ImageBytes image = bytes_of(bytes);
-    const ImageHead head = checked_head(image, place);
-    if (!is_of_assets(head.format))
-      throw input_error(place + ": is " + head.format + ", which assets do not hold (convert it to PNG)");
+    const ImageHead head = checked_head(image, place, ImageUse::kAsset);
     if (head.format == "webp") return webp_pixels(bytes, place);
     OIIO::ImageSpec config, ignored;
     config.attribute(kUnassociatedAlpha, 1);

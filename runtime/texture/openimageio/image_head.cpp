@@ -167,17 +167,20 @@ ImageBytes bytes_of(std::string_view memory) {
           }};
 }
 
-ImageHead checked_head(const ImageBytes& image, const std::string& place) {
+ImageHead checked_head(const ImageBytes& image, const std::string& place, ImageUse use) {
   const std::string begin = begin_of(image);
   ImageHead head{format_of(begin), {}, false};
-  if (head.format.empty()) {
-    const std::string name = known_name(begin);
-    throw input_error(
-        place + ": " +
-        (name.empty()
-             ? "is no image of a known format (PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR and Radiance HDR "
-               "are read)"
-             : "is " + name + ", which is not read (convert it to PNG)"));
+  const bool is_picture = head.format == "openexr" || head.format == "hdr";  // which no asset holds
+  if (head.format.empty() || (is_picture && use == ImageUse::kAsset)) {
+    const std::string name = is_picture ? head.format : known_name(begin);
+    throw input_error(place + ": " +
+                      (!name.empty() ? "is " + name + ", which is not read " +
+                                           (is_picture ? "in assets " : "") + "(convert it to PNG)"
+                       : use == ImageUse::kAsset
+                           ? "is no image of a known format (PNG, JPEG, WebP, BMP, TIFF and Targa are read)"
+                           : "cannot be read as an image: unknown format (PNG, JPEG, WebP, BMP, TIFF, Targa, "
+                             "OpenEXR and Radiance HDR "
+                             "are read)"));
   }
   if (head.format == "png") {
     look_at_png(image, place, head);

@@ -28,9 +28,12 @@ struct ImageHead {
   bool is_read_whole = false;           // for one row of it the reader takes the memory of all
 };
 
+// An image in memory is one of an asset, which holds fewer formats.
+enum class ImageUse { kMap, kAsset };
+
 // By the content, whatever the name: PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR and Radiance HDR. Throws
 // kInput, beginning with `place`, for every other content, and for a header that would harm a reader.
-ImageHead checked_head(const ImageBytes& image, const std::string& place);
+ImageHead checked_head(const ImageBytes& image, const std::string& place, ImageUse use = ImageUse::kMap);
 
 // Throws kInput, beginning with `place`, for a picture that its file is too small for, and for one that takes
 // more than the memory of set_image_memory().

@@ -177,9 +177,7 @@ void OpenedNewImage::check_file() const {
 void OpenedNewImage::check(bool done) const {
   const std::string message = output_ ? output_->geterror() : "";
   check_file();
-  if (!done)
-    fail("cannot be written: " +
-         in_words(first_line(message, "unknown reason")));
+  if (!done) fail("cannot be written: " + in_words(first_line(message, "unknown reason")));
 }
 
 // Reads the header of the finished file and, for TIFF, its last rows.
