@@ -109,7 +109,7 @@ TEST_CASE("remapc fit: the name of a table is only text for gnuplot", "[slow]") 
   session.write(table, made_table(12, 4));
   require_success(session.remapc("fit " + table + " --model parametric -o fits --plot plot.svg"));
   CHECK_FALSE(fs::exists(session.path("RUN")));
-  CHECK(session.content("plot.svg").find("it's`&gt;RUN`.csv") != std::string::npos);
+  CHECK(session.content("plot.svg").find("it's`>RUN`.csv") != std::string::npos);
 }
 
 TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "[slow]") {
