@@ -20,6 +20,7 @@ namespace {
 constexpr std::int64_t kFormat = 1;
 constexpr std::string_view kCostFirst = "{\"cost\":";
 constexpr std::size_t kLongestHead = 1 << 16;
+constexpr std::int64_t kMostTile = 999'999'999;
 constexpr const char* kChanged = "is incomplete, or was changed since it was written (texremap index again)";
 
 // Whether a conversion may read the channels: of a map of normals or heights none does.
@@ -228,16 +229,19 @@ void ManifestReader::add_set(const Field& field, Listing& listing) const {
     roles.require(roles.json().fields() != nullptr, "an object");
     for (const auto& [channels, role] : *roles.json().fields())
       map.meaning.push_back({value_named(kChannels, channels).value_or(Channels::kWhole),
-                             roles[channels].named(kRoles, "a role")});
+                             Field(role, path_.string()).named(kRoles, "a role")});
     map.is_converted = has_roughness_or_specular(map.meaning);
     if (!entry.contains("tiles")) {
       note_size(map.path, entry["bytes"]);
       return true;
     }
     map.pattern = tile_pattern(name);
+    if (!map.pattern) refuse(kChanged);
     entry["tiles"].list(1, [&](const Field& tile) {
-      const int number = static_cast<int>(tile.at(0, 2).count());
-      map.tiles.push_back({number, set.folder / tile_name(*map.pattern, number)});
+      const std::int64_t number = tile.at(0, 2).count();
+      if (number > kMostTile) refuse(kChanged);
+      map.tiles.push_back(
+          {static_cast<int>(number), set.folder / tile_name(*map.pattern, static_cast<int>(number))});
       note_size(map.tiles.back().path, tile.at(1, 2));
       return true;
     });

@@ -16,6 +16,9 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
+// As texremap plan makes at most.
+constexpr std::size_t kMostReports = 1'000'000;
+
 // Many of one kind are told by the first few and their number.
 constexpr std::size_t kNamed = 8;
 
@@ -59,7 +62,7 @@ std::vector<Part> ReportMerger::parts_found() const {
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, failure))
     if (const auto part = part_named(entry.path().stem().string());
-        part && entry.path().extension() == kPartReport)
+        part && part->count <= kMostReports && entry.path().extension() == kPartReport)
       parts.push_back(*part);
   std::ranges::sort(parts, {}, [](const Part& part) { return std::pair(part.count, part.index); });
   if (parts.empty())
@@ -148,9 +151,10 @@ void ReportMerger::add(const Part& part, const Field& line, std::string_view tex
   if (line.contains("summary")) {
     const Field summary = line["summary"];
     merged_.processor_seconds += summary["processor_seconds"].number();
+    constexpr std::int64_t kMost = std::int64_t{1} << 40;  // whose sum is a number, too
     std::int64_t stated = 0;
     if (merged_.kind == ListedKind::kSets) {
-      stated = summary["sets"].count() + summary["left_out"].count();
+      stated = std::min(summary["sets"].count(), kMost) + std::min(summary["left_out"].count(), kMost);
     } else {
       stated = summary["assets"].count();
       summary["problems"].list(0, [&](const Field& problem) {

@@ -140,6 +140,37 @@ void look_at_targa(const ImageBytes& image, const std::string& place) {
       refuse_damaged(place, "a text of its extension area has no end");
 }
 
+// OpenEXR allocates and fills as much as an attribute claims.
+void look_at_exr(const ImageBytes& image, const std::string& place) {
+  constexpr std::size_t kStart = 8, kMostAttributes = 100'000, kNames = 2 * 256;  // name and type
+  constexpr std::uint32_t kSeveralParts = 0x1000;
+  std::string bytes(kNames + 4, '\0');
+  const auto read_at = [&](std::uint64_t at) {
+    bytes.resize(kNames + 4);
+    bytes.resize(image.read(at, bytes.data(), bytes.size()));
+  };
+  read_at(0);
+  const bool has_parts = (number_at(bytes, 4, 4, false) & kSeveralParts) != 0;
+  std::uint64_t at = kStart;
+  for (std::size_t count = 0; count < kMostAttributes; ++count) {
+    read_at(at);
+    const std::size_t name = bytes.find('\0');
+    if (name == 0 && (!has_parts || bytes.size() < 2 || bytes[1] == '\0'))
+      return;  // the last header has ended
+    if (name == 0) {
+      ++at;
+      continue;
+    }
+    const std::size_t type = name == std::string::npos ? name : bytes.find('\0', name + 1);
+    if (type == std::string::npos || type + 5 > bytes.size()) refuse_damaged(place, "its header has no end");
+    at += type + 5 + std::uint64_t{number_at(bytes, type + 1, 4, false)};
+    if (at > image.size)
+      refuse_damaged(place,
+                     "attribute " + plain(bytes.substr(0, name)) + " claims to be longer than the file");
+  }
+  refuse_damaged(place, "it has too many attributes");
+}
+
 // A progressive JPEG is kept whole until its last scan.
 bool is_progressive(const ImageBytes& image) {
   constexpr std::size_t kMostSegments = 10'000;
@@ -188,6 +219,7 @@ ImageHead checked_head(const ImageBytes& image, const std::string& place, ImageU
   }
   if (head.format == "bmp") look_at_bmp(begin, image, place);
   if (head.format == "targa") look_at_targa(image, place);
+  if (head.format == "openexr") look_at_exr(image, place);
   if (head.format == "jpeg") head.is_read_whole = is_progressive(image);
   if (head.format == "webp" || head.format == "targa") head.is_read_whole = true;
   return head;

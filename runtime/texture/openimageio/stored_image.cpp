@@ -67,7 +67,7 @@ std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
 
 std::string first_line(const std::string& text, const std::string& otherwise) {
   const std::string line = text.substr(0, text.find('\n'));
-  return line.empty() ? otherwise : line;
+  return line.empty() ? otherwise : plain(line);
 }
 
 OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec) {
