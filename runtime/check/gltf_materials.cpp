@@ -153,7 +153,7 @@ class GltfMaterials {
       if (material.maps[i].file == file) return i;
     const bool is_embedded = embedded_.contains(*image);
     material.maps.push_back(
-        {file, is_embedded ? image_title(*image) : shown(file),
+        {file, is_embedded ? image_title(*image) : file.string(),
          is_embedded ? images_[*image]["name"].text().value_or("") : file.filename().string(), nullptr});
     return material.maps.size() - 1;
   }

@@ -1,8 +1,8 @@
 #include "check/material.hpp"
 
 #include <algorithm>
-#include <new>
 #include <map>
+#include <new>
 #include <string_view>
 
 #include "remap/error.hpp"

@@ -37,7 +37,7 @@ void add_set(const fs::path& root, const FoundSet& set, FoundMaterials& found) {
     for (const fs::path& file : files) {
       for (const ChannelMeaning& entry : map.meaning)
         material.uses.push_back({entry.role, material.maps.size(), entry.channels, "", {}, "", false});
-      material.maps.push_back({root / file, shown(root / file), file.filename().string(), nullptr});
+      material.maps.push_back({root / file, (root / file).string(), file.filename().string(), nullptr});
     }
   }
   found.materials.push_back(std::move(material));
@@ -119,7 +119,7 @@ FoundMaterials materials_of(const fs::path& path, const Naming& naming) {
     material.name = shown(path);
     for (const ChannelMeaning& entry : readings.front().meaning)
       material.uses.push_back({entry.role, 0, entry.channels, "", {}, "", false});
-    material.maps.push_back({path, shown(path), path.filename().string(), nullptr});
+    material.maps.push_back({path, path.string(), path.filename().string(), nullptr});
     found.materials.push_back(std::move(material));
   }
   return found;

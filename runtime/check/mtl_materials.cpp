@@ -35,7 +35,7 @@ void add_map(const std::string& name, const MapLine& line, CheckedMaterial& mate
   const fs::path path = material.place.parent_path() / fs::path(name).relative_path();
   material.uses.push_back(
       {line.role, material.maps.size(), Channels::kWhole, std::string(line.word), {}, "", false});
-  material.maps.push_back({path, shown(path), path.filename().string(), nullptr});
+  material.maps.push_back({path, path.string(), path.filename().string(), nullptr});
 }
 
 }  // namespace
