@@ -17,7 +17,7 @@ constexpr std::uint64_t kMostBytesOfAByte = 1'000'000;
 // An image says its size before its texels are read. More is a mistake or an attack.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 32;
 
-std::atomic<std::uint64_t> memory = std::uint64_t{4} << 30;
+std::atomic<std::uint64_t> most_memory = std::uint64_t{4} << 30;
 
 std::string begin_of(const ImageBytes& image) {
   std::string head(64, '\0');
@@ -242,10 +242,10 @@ void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const
       head.is_read_whole ? bytes : row * static_cast<std::uint64_t>(std::min(strip, spec.height)), place);
 }
 
-void set_image_memory(std::uint64_t bytes) { memory = bytes; }
+void set_image_memory(std::uint64_t bytes) { most_memory = bytes; }
 
 void require_image_memory(std::uint64_t bytes, const std::string& place) {
-  const std::uint64_t most = memory;
+  const std::uint64_t most = most_memory;
   if (bytes <= most) return;
   const auto megabytes = [](std::uint64_t size) { return std::to_string((size + 0xfffff) >> 20) + " MB"; };
   throw input_error(place + ": needs " + megabytes(bytes) + " of memory, and an image of this run may take " +
