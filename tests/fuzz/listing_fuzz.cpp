@@ -1,9 +1,41 @@
-// Manifests of texremap, of sets and of assets.
+// Manifests of texremap, of sets and of assets. What is read is written again, over files of the names that
+// it lists, and read once more.
+#include <cstdlib>
+#include <unistd.h>
+
+#include "core/files.hpp"
 #include "fuzz/fuzz.hpp"
 #include "fuzz/fuzz_file.hpp"
 #include "texremap/manifest.hpp"
 
+namespace fs = std::filesystem;
+
+namespace {
+
+void write_again(const fs::path& file) {
+  static const fs::path root = "/dev/shm/remap-fuzz-listing-" + std::to_string(::getpid());
+  constexpr std::size_t kMostFiles = 16;
+  remap::TreeManifest read = remap::read_manifest(file, {1, 1});
+  if (read.listing.found.sizes.size() > kMostFiles) return;
+  for (const auto& [name, size] : read.listing.found.sizes) {
+    const fs::path place = (root / "tree" / name).lexically_normal();
+    if (place.lexically_relative(root / "tree").string().starts_with(".."))
+      std::abort();  // leads out of the tree
+    remap::write_file(place, "x", remap::Flush::kNo);
+  }
+  const std::size_t problems = read.listing.found.problems.size();
+  const remap::ManifestHead head = remap::write_manifest(root / "m.jsonl", root / "tree", "", read.listing);
+  const remap::TreeManifest again = remap::read_manifest(root / "m.jsonl", {1, 1});
+  if (again.costs.size() != head.count || again.listing.found.problems.size() < problems) std::abort();
+  fs::remove_all(root);
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::filesystem::path file = remap::fuzz_file(data, size);
-  return remap::read_or_refuse([&] { remap::read_manifest(file, {1, 2}); });
+  const fs::path file = remap::fuzz_file(data, size);
+  return remap::read_or_refuse([&] {
+    remap::read_manifest(file, {1, 2});
+    write_again(file);
+  });
 }
