@@ -46,6 +46,7 @@ struct Content {
   std::map<std::string, std::vector<const std::string*>>
       sets;  // names of their files, which are keys of `files`
   std::map<fs::path, std::uintmax_t> read_bytes;
+  bool ends_in_line = false;  // what was read last: a line of a killed run has no end, and is not whole
 
   // The journal `name` of a folder, if it is there. Throws kOutput for what is none of this user's, kInput
   // for a line that is too long.
@@ -121,10 +122,12 @@ void Content::add(std::string_view line) {
 
 void Content::read(const InputFile& journal) {
   std::uintmax_t& end = read_bytes[journal.path()];
-  // Without its end, a line is not whole yet.
-  for (InputLines lines(journal, end); const std::optional<std::string_view> line = lines.next();
-       end = lines.end())
+  InputLines lines(journal, end);
+  while (const std::optional<std::string_view> line = lines.next()) {
     add(*line);
+    end = lines.end();
+  }
+  ends_in_line = !lines.rest().empty();
 }
 
 void Content::read_own(const fs::path& folder, const fs::path& name) {
@@ -243,11 +246,12 @@ struct Journal::State {
                 folder.string() + ": belongs to another conversion, " + details_of(*content.owner) + " (" +
                     difference(*content.owner, conversion) + "; choose another folder, or --force)");
   }
-  void append(const Json& json) const;
+  void append(const Json& json);
 };
 
-void Journal::State::append(const Json& json) const {
-  OwnedFile(folder, file, OwnFile::kAppend).append(json.dump() + '\n');
+void Journal::State::append(const Json& json) {
+  OwnedFile(folder, file, OwnFile::kAppend).append((content.ends_in_line ? "\n" : "") + json.dump() + '\n');
+  content.ends_in_line = false;
 }
 
 Journal::Journal(const fs::path& folder, ConversionNote conversion, const std::optional<Part>& part)

@@ -280,4 +280,10 @@ TEST_CASE("texremap nights: a damaged journal line is ignored") {
   CHECK(states(tree, {}) == "dd");
   std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "\n[[[\n{\"files\": 5}\n";
   CHECK(states(tree, {}) == "dd");
+  // A line without an end does not swallow the next one.
+  std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "{\"set\": \"s0\", \"fil";
+  tree.map("in/s1_rough.tga", kGrey, OIIO::TypeUInt8, 2 * kTreeMapSize);
+  tree.map("in/s1_spec.tga", kColor, OIIO::TypeUInt8, 2 * kTreeMapSize);
+  CHECK(states(tree, {}) == "dc");
+  CHECK_THAT(read_file(tree.path("out/" + std::string(kJournal))), Contains("\"fil\n{\"begun\""));
 }

@@ -25,8 +25,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     journal.begin({map});
     journal.claim(true);
     journal.commit("a", "2e", {remap::FinishedFile{map, 3, "3d"}}, true, [] {});
-    if (!journal.is_own(map) || journal.files_of("a") != std::vector<std::filesystem::path>{map})
-      std::abort();
+    if (!journal.is_own(map)) std::abort();
+    (void)journal.files_of("a");
     (void)journal.is_done("2e", {map});
     remap::Journal(folder, {"mitsuba/ward", "mitsuba/as", "1f", {{"version", "0.1.0"}}}, std::nullopt)
         .require_own();
