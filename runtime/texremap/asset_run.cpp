@@ -277,11 +277,10 @@ std::vector<AssetReport> run_assets(const AssetList& list, const ConvertOptions&
   apart.finished = [&](std::size_t i, std::string result) {
     finish(i, unpacked<AssetReport>(std::move(result)));
   };
-  apart.crashed = [&](std::size_t i, const std::string& how) {
+  apart.crashed = [&](std::size_t i, const std::string& reason) {
     AssetReport report = report_named(list.jobs[i]);
     for (const fs::path& folder : folders_of(list.jobs[i])) remove_unfinished(folder);
-    report.failure = shown(report.input) + ": the process that converted it was ended " + how +
-                     ", probably by a damaged image (texremap check names it)";
+    report.failure = shown(report.input) + ": " + reason;
     if (list.jobs.size() == 1 && !list.is_tree) throw input_error(report.failure);
     finish(i, std::move(report));
   };

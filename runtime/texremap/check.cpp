@@ -122,9 +122,8 @@ void check(const CheckOptions& options) {
     looked[i] = unpacked<Looked>(std::move(result));
     progress.advance();
   };
-  apart.crashed = [&](std::size_t i, const std::string& how) {
-    looked[i].problems.push_back(found.materials[i].name + ": the process that read its maps was ended " +
-                                 how + " (one of them is damaged; write it again as PNG)");
+  apart.crashed = [&](std::size_t i, const std::string& reason) {
+    looked[i].problems.push_back(found.materials[i].name + ": " + reason);
     progress.advance();
   };
   run_apart(apart);

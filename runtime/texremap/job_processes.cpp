@@ -148,7 +148,10 @@ class Copies {
     if (!copy.job) return;
     const std::size_t job = *copy.job;
     copy.job.reset();
-    jobs_.crashed(job, how);
+    const bool is_killed = how.starts_with("by signal 9 ");
+    jobs_.crashed(job, "its process was ended " + how +
+                           (is_killed ? ", probably because memory ran out (use fewer --threads)"
+                                      : ", probably by a damaged image (write its images again as PNG)"));
   }
 
   void take(Copy& copy, Answer answer) {

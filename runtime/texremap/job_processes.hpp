@@ -21,9 +21,8 @@ struct ApartJobs {
   // The rest is called in this process, one call at a time.
   std::function<void(std::size_t i, double share)> advanced = [](std::size_t, double) {};
   std::function<void(std::size_t i, std::string result)> finished;
-  // The process of the job was ended: `by signal 11 (Segmentation fault)`. Its unfinished files are still
-  // there.
-  std::function<void(std::size_t i, const std::string& how)> crashed;
+  // The process of the job was ended, as `reason` says. Its unfinished files are still there.
+  std::function<void(std::size_t i, const std::string& reason)> crashed;
 };
 
 // Works through all jobs. The first Error of one stops those that have not begun, and is thrown here.

@@ -537,12 +537,11 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
   apart.finished = [&](std::size_t i, std::string result) {
     finish(i, unpacked<JobReport>(std::move(result)));
   };
-  apart.crashed = [&](std::size_t i, const std::string& how) {
+  apart.crashed = [&](std::size_t i, const std::string& reason) {
     const ConversionJob& job = list.jobs[i];
     for (const std::filesystem::path& folder : {job.folder, job.diagnosis_folder}) remove_unfinished(folder);
     JobReport report = report_named(job);
-    report.failure = place_of(job) + ": the process that converted it was ended " + how +
-                     ", probably by a damaged image (texremap check names it)";
+    report.failure = place_of(job) + ": " + reason;
     report.tiles.clear();
     if (!list.is_tree) throw input_error(*report.failure);
     finish(i, std::move(report));
