@@ -36,7 +36,7 @@ fs::path without_end(const fs::path& folder) {
 }
 
 bool lies_below(const fs::path& path, const fs::path& folder) {
-  return std::ranges::mismatch(folder, path).in1 == folder.end();
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 // A name that leads elsewhere once the file is open leads to another file.
