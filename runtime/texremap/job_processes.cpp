@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -105,7 +106,7 @@ class Copies {
   bool run() {
     for (;;) {
       for (Copy& copy : copies_)
-        if (!copy.job && next_ < jobs_.count && !failure_ && !give(copy)) return false;
+        if (!copy.job && has_more() && !failure_ && !give(copy)) return false;
       std::vector<int> descriptors;
       for (const Copy& copy : copies_) descriptors.push_back(copy.job ? copy.process->descriptor : -1);
       if (std::ranges::all_of(descriptors, [](int descriptor) { return descriptor < 0; })) break;
@@ -129,13 +130,16 @@ class Copies {
     std::optional<std::size_t> job;
   };
 
+  bool has_more() const { return next_ < jobs_.count || !again_.empty(); }
+
   bool give(Copy& copy) {
     if (!copy.process) {
       copy.messages = {};
       copy.process = copy_process([this](int descriptor) { serve(descriptor, jobs_); });
     }
     if (!copy.process) return false;
-    copy.job = next_++;
+    copy.job = again_.empty() ? next_++ : again_.back();
+    if (!again_.empty()) again_.pop_back();
     (void)send_message(copy.process->descriptor, packed(*copy.job));  // an ended one is heard of below
     return true;
   }
@@ -150,7 +154,9 @@ class Copies {
     if (!copy.job) return;
     const std::size_t job = *copy.job;
     copy.job.reset();
+    // Nothing in a job ends it so, but the system, where memory runs out, or somebody else.
     const bool is_killed = how.starts_with("by signal 9 ");
+    if (is_killed && ++kills_[job] < kMostTries) return again_.push_back(job);
     jobs_.crashed(job, "its process was ended " + how +
                            (is_killed ? ", probably because memory ran out (use fewer --threads)"
                                       : ", probably by a damaged image (write its images again as PNG)"));
@@ -167,6 +173,9 @@ class Copies {
   const ApartJobs& jobs_;
   std::vector<Copy> copies_;
   std::size_t next_ = 0;
+  static constexpr int kMostTries = 3;
+  std::vector<std::size_t> again_;    // jobs whose process was killed
+  std::map<std::size_t, int> kills_;  // how often, by job
   std::optional<Error> failure_;
   bool is_stopping_ = false;
 };
