@@ -13,6 +13,7 @@
 #include <wctype.h>
 
 #include "core/open_file.hpp"
+#include "core/process_mark.hpp"
 #include "core/system.hpp"
 
 namespace remap {
@@ -43,7 +44,7 @@ void watch(int signal, unsigned flags, void (*note)(int)) {
 
 // The user that new files of a folder belong to: not this one on some network storage.
 uid_t owner_of_new_files(int folder) {
-  const std::string name = ".unfinished-" + std::to_string(::getpid()) + "-owner";
+  const std::string name = ".unfinished-owner-" + random_letters();
   const OpenFile file(
       ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
   struct stat found {};
