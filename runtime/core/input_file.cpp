@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <memory>
 #include <mutex>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/system.hpp"
@@ -17,13 +19,13 @@ struct Confinement {
 };
 
 std::mutex confinement_mutex;
-std::vector<Confinement> confinements;
+std::shared_ptr<const std::vector<Confinement>> confinements;  // null for none
 
 [[noreturn]] void fail_to_read(const fs::path& path) {
   throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
 }
 
-// What is not a regular file, in words.
+// The words for a file that is not a regular one.
 std::string kind_text(fs::file_type type) {
   if (type == fs::file_type::directory) return "is a folder, not a file";
   if (type == fs::file_type::fifo) return "is a named pipe, not a file (write its content to a file)";
@@ -40,20 +42,21 @@ bool lies_below(const fs::path& path, const fs::path& folder) {
 }
 
 // A name that leads elsewhere once the file is open leads to another file.
-void require_confined(const fs::path& path, const FileFacts& found) {
-  std::vector<Confinement> all;
+void require_confined(const fs::path& path, int descriptor) {
+  std::shared_ptr<const std::vector<Confinement>> all;
   {
     const std::lock_guard lock(confinement_mutex);
     all = confinements;
   }
-  if (all.empty()) return;
+  if (!all) return;
+  const std::optional<FileFacts> found = facts_of(descriptor);
   const fs::path name = fs::absolute(path).lexically_normal();
-  for (const Confinement& folder : all) {
+  for (const Confinement& folder : *all) {
     if (!lies_below(name, folder.name)) continue;
     std::error_code failure;
     const fs::path place = fs::canonical(path, failure);
     const std::optional<FileFacts> there = failure ? std::nullopt : facts_of(place);
-    if (!there || there->identity != found.identity || !lies_below(place, folder.place))
+    if (!there || !found || there->identity != found->identity || !lies_below(place, folder.place))
       throw input_error(path.string() + ": is a link that leads out of " + folder.name.string() +
                         " (--follow-links reads it)");
   }
@@ -82,12 +85,12 @@ void confine_inputs(std::vector<fs::path> folders) {
     if (!failure) all.push_back({without_end(fs::absolute(folder).lexically_normal()), place});
   }
   const std::lock_guard lock(confinement_mutex);
-  confinements = std::move(all);
+  confinements = all.empty() ? nullptr : std::make_shared<const std::vector<Confinement>>(std::move(all));
 }
 
 InputFile::InputFile(const fs::path& path) : path_(path), own_(opened(path)), descriptor_(own_.get()) {
   look();
-  require_confined(path, *facts_of(descriptor_));
+  require_confined(path, descriptor_);
 }
 
 InputFile::InputFile(const fs::path& path, int descriptor) : path_(path), own_(-1), descriptor_(descriptor) {

@@ -25,6 +25,10 @@ struct AssetJob {
   std::string refusal = {};                       // why it is not converted; empty for none
   ListedSizes listed = {};                        // sizes of files that a manifest states
 
+  // Where the result finds a file below the input root.
+  std::filesystem::path copy_of(const std::filesystem::path& file) const {
+    return output_root / file.lexically_relative(input_root.lexically_normal());
+  }
   // The path below the root, as bytes.
   std::string name() const { return input.lexically_relative(input_root).generic_string(); }
 };

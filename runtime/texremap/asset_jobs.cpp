@@ -120,7 +120,7 @@ class NamePlan {
     run_parallel(list_.jobs.size(), 0, [&](std::size_t i) { list_.jobs[i].files = files_of(list_.jobs[i]); });
     for (AssetJob& job : list_.jobs)
       for (const fs::path& file : job.files)
-        for (const fs::path& name : {file, copy_of(file, job)}) {
+        for (const fs::path& name : {file, job.copy_of(file)}) {
           take(job, name, shown(file));
           note_name(name);
         }
@@ -142,10 +142,6 @@ class NamePlan {
  private:
   // Who names new images after a stem; null for several.
   using Stems = std::unordered_map<std::string, const AssetJob*>;
-
-  static fs::path copy_of(const fs::path& file, const AssetJob& job) {
-    return job.output_root / file.lexically_relative(job.input_root.lexically_normal());
-  }
 
   void take(AssetJob& job, const fs::path& name, const std::string& owner) {
     const std::string other = list_.names->take(name, owner);
@@ -181,7 +177,7 @@ class NamePlan {
   static std::vector<std::string> stems_of(const AssetJob& job) {
     std::vector<std::string> stems;
     for (const fs::path& file : job.files)
-      stems.push_back(name_key(stem_beside(copy_of(file, job).generic_string(), job.image_prefix, "")));
+      stems.push_back(name_key(stem_beside(job.copy_of(file).generic_string(), job.image_prefix, "")));
     return stems;
   }
 
@@ -191,7 +187,7 @@ class NamePlan {
       const auto named = names_.find(stem);
       return named == names_.end() || std::ranges::all_of(named->second, [&](const fs::path& name) {
                return std::ranges::any_of(job.files, [&](const fs::path& file) {
-                 return file == name || copy_of(file, job) == name;
+                 return file == name || job.copy_of(file) == name;
                });
              });
     });

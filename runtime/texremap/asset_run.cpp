@@ -208,9 +208,7 @@ AssetReport report_named(const AssetJob& job) {
 // Where the result, its images and copies go.
 std::set<fs::path> folders_of(const AssetJob& job) {
   std::set<fs::path> folders = {folder_of_asset(job.output)};
-  for (const fs::path& file : job.files)
-    folders.insert(
-        folder_of_asset(job.output_root / file.lexically_relative(job.input_root.lexically_normal())));
+  for (const fs::path& file : job.files) folders.insert(folder_of_asset(job.copy_of(file)));
   return folders;
 }
 

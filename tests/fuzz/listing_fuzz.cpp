@@ -16,13 +16,13 @@ void write_again(const fs::path& file) {
   static const fs::path root = "/dev/shm/remap-fuzz-listing-" + std::to_string(::getpid());
   constexpr std::size_t kMostFiles = 16;
   remap::TreeManifest read = remap::read_manifest(file, {1, 1});
-  if (read.listing.found.sizes.size() > kMostFiles) return;
-  for (const auto& [name, size] : read.listing.found.sizes) {
-    const fs::path place = (root / "tree" / name).lexically_normal();
-    if (place.lexically_relative(root / "tree").string().starts_with(".."))
-      std::abort();  // leads out of the tree
-    remap::write_file(place, "x", remap::Flush::kNo);
-  }
+  const auto place_of = [](const fs::path& name) { return (root / "tree" / name).lexically_normal(); };
+  for (const auto& [name, size] : read.listing.found.sizes)
+    if (place_of(name).lexically_relative(root / "tree").string().starts_with(".."))
+      std::abort();                                          // leads out
+  if (read.listing.found.sizes.size() > kMostFiles) return;  // to make them all would take too long
+  for (const auto& [name, size] : read.listing.found.sizes)
+    remap::write_file(place_of(name), "x", remap::Flush::kNo);
   const std::size_t problems = read.listing.found.problems.size();
   const remap::ManifestHead head = remap::write_manifest(root / "m.jsonl", root / "tree", "", read.listing);
   const remap::TreeManifest again = remap::read_manifest(root / "m.jsonl", {1, 1});
