@@ -1,6 +1,6 @@
 // The command of the package against the program of the C++ build: the cases of packages/tests in PNG.
 import assert from 'node:assert/strict';
-import { existsSync, readlinkSync, truncateSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, readlinkSync, truncateSync, writeFileSync } from 'node:fs';
 import { hostname } from 'node:os';
 import { join } from 'node:path';
 import test from 'node:test';
@@ -55,7 +55,7 @@ test('two commands at once in one folder give what one gives', async () => {
 // FNV-1a, as runtime/core/process_mark.cpp has it.
 function tagOfMachine() {
   let hash = 0x811c9dc5;
-  for (const byte of Buffer.from(`${hostname()}/${readlinkSync('/proc/self/ns/pid')}`)) hash = Math.imul(hash ^ byte, 0x01000193);
+  for (const byte of Buffer.from(`${hostname()}/${readFileSync('/proc/sys/kernel/random/boot_id')}/${readlinkSync('/proc/self/ns/pid')}`)) hash = Math.imul(hash ^ byte, 0x01000193);
   return (hash >>> 0).toString(16).padStart(8, '0');
 }
 
@@ -63,7 +63,7 @@ test('unfinished files of processes that have ended go, by either program; those
   const noProcess = 2 ** 30;
   for (const run of [runOwn, runNative]) {
     const copy = copyOfInputs();
-    const name = (process) => join(copy, 'library', `.a.unfinished-${tagOfMachine()}-${process}.png`);
+    const name = (process) => join(copy, 'library', `.a.unfinished-${tagOfMachine()}-${process}-abc.png`);
     for (const number of [noProcess, process.pid]) writeFileSync(name(number), '');
     run(['convert', 'deep', '--from', 'mitsuba/ward', '--to', 'mitsuba/as', '-o', 'library'], copy);
     assert.deepEqual([existsSync(name(noProcess)), existsSync(name(process.pid))], [false, true], filesBelow(copy).join(' '));
