@@ -13,6 +13,7 @@
 #include "assets/asset_uri.hpp"
 #include "assets/image_codec.hpp"
 #include "assets/json_spans.hpp"
+#include "assets/mtl_maker.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
 #include "remap/workflow.hpp"
@@ -84,6 +85,7 @@ struct AssetOptions {
   // What only converted materials used goes: bytes of images, and extensions of textures.
   bool compacts = false;
   bool bakes = false;  // maps of a material whose KHR_texture_transform differ go onto the grid of the first
+  std::optional<MtlMaker> mtl_maker = std::nullopt;  // none: as the file says
   // Quality, 1 to 100, of new images of color: JPEG, unless they have alpha or come from a map of color that
   // is none. None for PNG.
   std::optional<int> jpeg_quality = std::nullopt;

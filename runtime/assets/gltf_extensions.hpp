@@ -9,6 +9,7 @@ inline constexpr std::string_view kCoreMember = "pbrMetallicRoughness";
 inline constexpr std::string_view kSpecGlossExtension = "KHR_materials_pbrSpecularGlossiness",
                                   kSpecularExtension = "KHR_materials_specular",
                                   kIorExtension = "KHR_materials_ior",
+                                  kTransmissionExtension = "KHR_materials_transmission",
                                   kUnlitExtension = "KHR_materials_unlit",
                                   kPointerExtension = "KHR_animation_pointer",
                                   kTransformExtension = "KHR_texture_transform";

@@ -141,6 +141,42 @@ bool is_map_times(const ImagePixels& result, const ImagePixels& map, const std::
   return true;
 }
 
+bool NormalShares::are_normals() const {
+  return unit > 0.9 && inwards < 0.02 && std::fabs(mean[0] - 0.5) < 0.1 && std::fabs(mean[1] - 0.5) < 0.1;
+}
+
+NormalShares normal_shares(const std::array<std::span<const float>, 3>& rgb) {
+  constexpr float kUnit = 0.12f, kInwards = -0.1f;
+  NormalShares shares;
+  const std::size_t count = rgb[0].size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = 2.0f * rgb[0][i] - 1.0f, y = 2.0f * rgb[1][i] - 1.0f, z = 2.0f * rgb[2][i] - 1.0f;
+    shares.unit += std::fabs(std::sqrt(x * x + y * y + z * z) - 1.0f) < kUnit;
+    shares.inwards += z < kInwards;
+    for (std::size_t c = 0; c < 3; ++c) shares.mean[c] += static_cast<double>(rgb[c][i]);
+  }
+  const double n = static_cast<double>(std::max<std::size_t>(1, count));
+  shares.unit /= n;
+  shares.inwards /= n;
+  for (double& mean : shares.mean) mean /= n;
+  return shares;
+}
+
+bool holds_normals(const ImagePixels& pixels) {
+  if (pixels.is_grey()) return false;
+  constexpr std::size_t kMostAlong = 256;
+  const std::size_t step = (std::max(pixels.width, pixels.height) + kMostAlong - 1) / kMostAlong;
+  std::array<std::vector<float>, 3> planes;
+  for (std::size_t y = 0; y < pixels.height; y += step)
+    for (std::size_t x = 0; x < pixels.width; x += step) {
+      std::array<float, 4> texel{};
+      load_values(pixels.type, pixels.bytes.data() + (y * pixels.width + x) * pixels.texel_bytes(),
+                  byte_count(pixels.type), pixels.channels, texel.data());
+      for (std::size_t c = 0; c < 3; ++c) planes[c].push_back(texel[c]);
+    }
+  return normal_shares({planes[0], planes[1], planes[2]}).are_normals();
+}
+
 void copy_alpha(const ImagePixels& from, ImagePixels& to) {
   (void)copy_channel(channel_of_pixels(from, from.channels - 1), channel_of_pixels(to, to.channels - 1),
                      from.width, from.height);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 
 #include "assets/image_codec.hpp"
@@ -50,6 +51,20 @@ TargetParameter value_target(ImagePixels& pixels, std::size_t channel);
 
 // Whether the colors of `result` are those of `map` times the factors, within a step of 8 bits.
 bool is_map_times(const ImagePixels& result, const ImagePixels& map, const std::array<double, 3>& factors);
+
+// What tells normals from other colors. Vectors are decoded from 0 to 1.
+struct NormalShares {
+  double unit = 0.0, inwards = 0.0;  // shares of texels: of about unit length; pointing into the surface
+  std::array<double, 3> mean{};      // of red, green and blue as stored
+
+  // Whether a map that may hold heights or normals holds normals of tangent space. Heights are grey.
+  bool are_normals() const;
+};
+// The planes have one size.
+NormalShares normal_shares(const std::array<std::span<const float>, 3>& rgb);
+
+// are_normals() of an even grid of texels.
+bool holds_normals(const ImagePixels& pixels);
 
 // Between pixels with alpha.
 void copy_alpha(const ImagePixels& from, ImagePixels& to);

@@ -52,8 +52,36 @@ struct MtlResult {
   std::array<double, 3> base{};
   double metallic = 0.0, roughness = 1.0;
   bool keeps_map = false;  // map_Kd stays
-  std::string base_file, roughness_file, metallic_file;
+  std::string base_file;
+  std::string roughness_map, metallic_map;  // arguments of map_Pr and map_Pm
 };
+
+// The options that say where an image lies on the surface.
+std::string placing_options(const MtlMap& map) {
+  const auto pair = [](const std::array<double, 2>& numbers) {
+    return number_text(numbers[0]) + " " + number_text(numbers[1]) + " ";
+  };
+  std::string text;
+  if (map.scale != std::array{1.0, 1.0}) text += "-s " + pair(map.scale);
+  if (map.offset != std::array{0.0, 0.0}) text += "-o " + pair(map.offset);
+  return text + (map.clamps ? "-clamp on " : "");
+}
+
+// They are the same in all maps of a material that are converted.
+std::string placing_options(const MtlSurface& surface) {
+  for (const std::optional<MtlMap>* map :
+       {&surface.specular_map, &surface.exponent_map, &surface.diffuse_map})
+    if (*map) return placing_options(**map);
+  return "";
+}
+
+// The arguments of a line that names the file of `map` again.
+std::string arguments_of(const MtlMap& map) {
+  std::string text = placing_options(map);
+  if (map.has_levels()) text += "-mm " + number_text(map.base) + " " + number_text(map.gain) + " ";
+  if (map.channel != '\0') text += std::string("-imfchan ") + map.channel + " ";
+  return text + argument(map.file);
+}
 
 // The images that a text names, each once.
 std::vector<AssetResource> named_images(const MtlDocument& document, MtlImages& images) {
@@ -83,35 +111,17 @@ class BlockEditor {
     } else if (surface_.diffuse_map && !result.keeps_map) {
       remove(surface_.diffuse_map->statement);
     } else if (has_own_base) {
-      add("map_Kd " + options() + result.base_file);
+      add("map_Kd " + placing_options(surface_) + result.base_file);
     }
-    add("Pr " + (result.roughness_file.empty() ? float_text_of(result.roughness) : "1"));
-    add("Pm " + (result.metallic_file.empty() ? float_text_of(result.metallic) : "1"));
-    if (!result.roughness_file.empty()) add("map_Pr " + options() + result.roughness_file);
-    if (!result.metallic_file.empty()) add("map_Pm " + options() + result.metallic_file);
+    add("Pr " + (result.roughness_map.empty() ? float_text_of(result.roughness) : "1"));
+    add("Pm " + (result.metallic_map.empty() ? float_text_of(result.metallic) : "1"));
+    if (!result.roughness_map.empty()) add("map_Pr " + result.roughness_map);
+    if (!result.metallic_map.empty()) add("map_Pm " + result.metallic_map);
     append();
   }
 
  private:
   const MtlStatement& statement(std::size_t index) const { return document_.statements()[index]; }
-
-  // Those that say where an image lies on the surface are the same in all maps of the material.
-  std::string options() const {
-    for (const std::optional<MtlMap>* map :
-         {&surface_.specular_map, &surface_.exponent_map, &surface_.diffuse_map})
-      if (*map) return placing_options(**map);
-    return "";
-  }
-
-  static std::string placing_options(const MtlMap& map) {
-    const auto pair = [](const std::array<double, 2>& numbers) {
-      return number_text(numbers[0]) + " " + number_text(numbers[1]) + " ";
-    };
-    std::string text;
-    if (map.scale != std::array{1.0, 1.0}) text += "-s " + pair(map.scale);
-    if (map.offset != std::array{0.0, 0.0}) text += "-o " + pair(map.offset);
-    return text + (map.clamps ? "-clamp on " : "");
-  }
 
   // Channels that stay keep their text.
   void write_diffuse(const std::array<double, 3>& base) {
@@ -176,6 +186,7 @@ class MtlEditor {
   MtlEditor(const MtlDocument& document, const AssetOptions& options, const AssetResources* resources)
       : document_(document),
         options_(options),
+        maker_(options.mtl_maker.value_or(maker_of(document))),
         images_(resources, ""),
         names_(resources != nullptr ? argument_prefix(resources->image_prefix()) : "") {}
 
@@ -183,6 +194,8 @@ class MtlEditor {
     if (options_.profile == MaterialProfile::kExtensions)
       conversion_.warnings.push_back(
           "MTL has no lines for --profile extensions, and is written with --profile core");
+    if (const std::string warning = maker_warning(maker_); !warning.empty())
+      conversion_.warnings.push_back(warning);
     conversion_.resources = named_images(document_, images_);
     for (const AssetResource& resource : conversion_.resources) names_.take(resource.path);
     for (std::size_t i = 0; i < document_.materials().size(); ++i) convert(i);
@@ -199,16 +212,18 @@ class MtlEditor {
     AssetMaterial& report = conversion_.materials.emplace_back();
     report.index = index;
     report.name = block.name;
-    if (is_metal_rough(document_, block)) return;
+    if (has_metal_rough_lines(document_, block)) return;
     const std::size_t splice_count = splices_.size();
     try {
-      const MtlSurface surface = read_mtl_surface(document_, block, report.warnings);
+      MtlSurface surface;
+      read_mtl_surface(document_, block, maker_, surface, report.warnings);
       if (surface.is_empty()) return;
-      const MtlReflection reflection = reflection_of(surface, report.warnings);
-      const MtlResult result = converted(surface, reflection, report);
+      const MtlResult result = surface.is_metal_rough
+                                   ? as_written(surface)
+                                   : converted(surface, reflection_of(surface, report.warnings), report);
       BlockEditor(document_, surface, splices_).write(result);
       report.becomes = becomes_text_of(result, surface);
-      if (result.roughness_file.empty() && result.metallic_file.empty() && result.base_file.empty() &&
+      if (result.roughness_map.empty() && result.metallic_map.empty() && result.base_file.empty() &&
           !result.keeps_map)
         report.factors = {{"base_color", {result.base.begin(), result.base.end()}},
                           {"metallic", {result.metallic}},
@@ -220,6 +235,16 @@ class MtlEditor {
       report.state = MaterialState::kFailed;
       report.failure = error.what();
     }
+  }
+
+  // The maker says metallic and roughness by other statements.
+  static MtlResult as_written(const MtlSurface& surface) {
+    const MetalRoughNumbers numbers = metal_rough_of(surface);
+    MtlResult result{
+        numbers.base, numbers.metallic, numbers.roughness, surface.diffuse_map.has_value(), "", "", ""};
+    if (surface.roughness_map) result.roughness_map = arguments_of(*surface.roughness_map);
+    if (surface.metallic_map) result.metallic_map = arguments_of(*surface.metallic_map);
+    return result;
   }
 
   MtlResult converted(const MtlSurface& surface, const MtlReflection& reflection, AssetMaterial& report) {
@@ -250,9 +275,11 @@ class MtlEditor {
     result.keeps_map = converted.keeps_diffuse;
     if (converted.base_color) result.base_file = add_image(*converted.base_color, surface, "_baseColor");
     if (converted.metal_rough && !is_constant_channel(*converted.metal_rough, 1))
-      result.roughness_file = add_image(channel_of(*converted.metal_rough, 1), surface, "_roughness");
+      result.roughness_map =
+          placing_options(surface) + add_image(channel_of(*converted.metal_rough, 1), surface, "_roughness");
     if (converted.metal_rough && !is_constant_channel(*converted.metal_rough, 2))
-      result.metallic_file = add_image(channel_of(*converted.metal_rough, 2), surface, "_metallic");
+      result.metallic_map =
+          placing_options(surface) + add_image(channel_of(*converted.metal_rough, 2), surface, "_metallic");
     known_[key] = result;
     return result;
   }
@@ -280,12 +307,13 @@ class MtlEditor {
       text += "map";
     else
       text += (surface.diffuse_map && result.keeps_map ? "map_Kd times " : "") + color_text(result.base);
-    text += ", metallic " + (result.metallic_file.empty() ? float_text_of(result.metallic) : "map");
-    return text + ", roughness " + (result.roughness_file.empty() ? float_text_of(result.roughness) : "map");
+    text += ", metallic " + (result.metallic_map.empty() ? float_text_of(result.metallic) : "map");
+    return text + ", roughness " + (result.roughness_map.empty() ? float_text_of(result.roughness) : "map");
   }
 
   const MtlDocument& document_;
   const AssetOptions& options_;
+  MtlMaker maker_;
   MtlImages images_;
   NewImageNames names_;
   AssetConversion conversion_;

@@ -19,34 +19,40 @@ std::string folder_of(const std::string& path) {
 
 }  // namespace
 
-MtlLibrary::MtlLibrary(std::string content, const std::string& path, const AssetResources& resources)
-    : text(std::move(content)), document(text, plain(path)), images(&resources, folder_of(path)) {}
+MtlLibrary::MtlLibrary(std::string content, const std::string& path, const AssetResources& resources,
+                       std::optional<MtlMaker> own_maker)
+    : text(std::move(content)),
+      document(text, plain(path)),
+      maker(own_maker.value_or(maker_of(document))),
+      images(&resources, folder_of(path)) {}
 
 void MtlLibraries::read(const std::vector<std::string>& lines, std::vector<std::string>& warnings) {
   for (const std::string& line : lines) {
-    if (read_file(line)) continue;
+    if (read_file(line, warnings)) continue;
     std::vector<std::string> missing;
     std::size_t found = 0;
     for (const std::string& name : parts_between(line, ' ')) {
       if (name.empty()) continue;
       // A name that leads elsewhere may lie here.
-      if (read_file(name) || read_file(file_name_of(name)))
+      if (read_file(name, warnings) || read_file(file_name_of(name), warnings))
         ++found;
       else
         missing.push_back(name);
     }
-    if (found == 0 ? read_file(file_name_of(line)) : missing.empty()) continue;
+    if (found == 0 ? read_file(file_name_of(line), warnings) : missing.empty()) continue;
     warnings.push_back("mtllib " + plain(missing.size() == 1 ? missing.front() : line, kLongestLibraryName) +
                        ": is not there; its materials count as white");
   }
 }
 
-bool MtlLibraries::read_file(const std::string& name) {
+bool MtlLibraries::read_file(const std::string& name, std::vector<std::string>& warnings) {
   const std::optional<std::string> path = relative_path("", name);
   if (!path || !is_there(resources_, *path)) return false;
   if (!paths_.insert(*path).second) return true;
-  auto library =
-      std::make_unique<MtlLibrary>(mtl_text(*resources_.open(*path), plain(*path)), *path, resources_);
+  auto library = std::make_unique<MtlLibrary>(mtl_text(*resources_.open(*path), plain(*path)), *path,
+                                              resources_, maker_);
+  if (const std::string warning = maker_warning(library->maker); !warning.empty())
+    warnings.push_back(plain(*path, kLongestLibraryName) + ": " + warning);
   const MtlDocument& document = library->document;
   for (const MtlBlock& block : document.materials())
     entries_.try_emplace(block.name, Entry{library.get(), &block});
@@ -69,7 +75,7 @@ bool MtlLibraries::has_tr_for_opaque() const {
   for (const std::unique_ptr<MtlLibrary>& library : libraries_)
     for (const MtlBlock& block : library->document.materials()) {
       try {
-        const MtlCover cover = read_mtl_cover(library->document, block, ignored);
+        const MtlCover cover = read_mtl_cover(library->document, block, library->maker, ignored);
         if (cover.opacity || cover.transparency.value_or(0.0) < 1.0) return false;
       } catch (const Error& error) {
         if (error.kind() != ErrorKind::kInput) throw;

@@ -17,11 +17,13 @@ namespace remap {
 
 // An MTL file and its images.
 struct MtlLibrary {
-  // `path`: relative to the OBJ file. `resources` must outlive it.
-  MtlLibrary(std::string content, const std::string& path, const AssetResources& resources);
+  // `path`: relative to the OBJ file. `resources` must outlive it. Without `maker`, as the file says.
+  MtlLibrary(std::string content, const std::string& path, const AssetResources& resources,
+             std::optional<MtlMaker> maker);
 
   std::string text;
   MtlDocument document;
+  MtlMaker maker;
   MtlImages images;
 };
 
@@ -32,10 +34,12 @@ class MtlLibraries {
     const MtlBlock* block = nullptr;
   };
 
-  explicit MtlLibraries(const AssetResources& resources) : resources_(resources) {}
+  MtlLibraries(const AssetResources& resources, std::optional<MtlMaker> maker)
+      : resources_(resources), maker_(maker) {}
 
-  // Reads the files that lines `mtllib` name: one name with spaces, or several names. A file that is missing
-  // appends a warning. Throws kInput for one that cannot be read.
+  // Reads the files that lines `mtllib` name: one name with spaces, or several names. Appends a warning for a
+  // file that is missing, and for one whose maker gives statements a meaning of its own. Throws kInput for
+  // one that cannot be read.
   void read(const std::vector<std::string>& lines, std::vector<std::string>& warnings);
   // A material by its name, of several the first.
   std::optional<Entry> find(const std::string& material) const;
@@ -47,9 +51,10 @@ class MtlLibraries {
   const std::set<std::string>& image_paths() const noexcept { return image_paths_; }
 
  private:
-  bool read_file(const std::string& name);
+  bool read_file(const std::string& name, std::vector<std::string>& warnings);
 
   const AssetResources& resources_;
+  std::optional<MtlMaker> maker_;
   std::vector<std::unique_ptr<MtlLibrary>> libraries_;
   std::set<std::string> paths_, image_paths_;
   std::map<std::string, Entry> entries_;

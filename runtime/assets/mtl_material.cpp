@@ -160,9 +160,8 @@ class StatementReader {
   double exponent(const MtlStatement& statement) const {
     const std::vector<TextSpan> words = document_.words(statement);
     const std::optional<double> value = words.empty() ? std::nullopt : finite(words.front());
-    if (!value || *value < 0.0)
-      throw input_error(line_of(statement) + ": expected an exponent from 0 to 1000");
-    return clamped(statement, *value, 0.0, LegacyMaterial::kMostExponent);
+    if (!value) throw input_error(line_of(statement) + ": expected an exponent from 0 to 1000");
+    return *value < 0.0 ? *value : clamped(statement, *value, 0.0, LegacyMaterial::kMostExponent);
   }
 
  private:
@@ -191,6 +190,55 @@ std::optional<MtlMap> map_at(const MtlDocument& document, std::size_t statement)
   return map.file.empty() ? std::nullopt : std::optional(std::move(map));
 }
 
+constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // a number beside a map
+
+// Blender's exporter, for materials of its Principled BSDF: roughness is 1 - sqrt(Ns / scale), metallic is Ka
+// if illum is 3 or 6 or Ka is not 1, Ks is the specular level, of which 0.5 means F0 0.04. map_Ns holds
+// roughness and map_refl metallic. A number beside a map is not used.
+void apply_blender(double scale, MtlSurface& surface) {
+  if (surface.diffuse_map) surface.diffuse = kUnused;
+  if (!surface.roughness) {
+    const double exponent = std::clamp(surface.exponent.value_or(0.0), 0.0, scale);
+    surface.roughness = surface.exponent_map ? 1.0 : 1.0 - std::sqrt(exponent / scale);
+  }
+  if (!surface.metallic) {
+    const double ambient = surface.ambient.value_or(1.0), illumination = surface.illumination.value_or(2.0);
+    const bool is_metallic = illumination == 3.0 || illumination == 6.0 || ambient < 1.0;
+    surface.metallic = surface.reflection_map ? 1.0 : is_metallic ? ambient : 0.0;
+  }
+  if (!surface.roughness_map) surface.roughness_map = surface.exponent_map;
+  if (!surface.metallic_map) surface.metallic_map = surface.reflection_map;
+  if (surface.specular && !surface.specular_map) surface.specular_level = 2.0 * surface.specular->front();
+}
+
+// nvdiffrec and its descendants: Ks and map_Ks hold nothing in red, roughness in green, metallic in blue.
+void apply_nvdiffrec(MtlSurface& surface) {
+  const std::array<double, 3> packed = surface.specular.value_or(kUnused);
+  surface.roughness = packed[1];
+  surface.metallic = surface.specular || surface.specular_map ? packed[2] : 0.0;
+  if (!surface.specular_map) return;
+  surface.roughness_map = surface.metallic_map = surface.specular_map;
+  surface.roughness_map->channel = 'g';
+  surface.metallic_map->channel = 'b';
+}
+
+// Turns what was read by the text of the format into metallic and roughness. Pr, Pm and their maps stay.
+void apply_maker(MtlMaker maker, MtlSurface& surface) {
+  switch (maker) {
+    case MtlMaker::kText:
+      return;
+    case MtlMaker::kBlender:
+    case MtlMaker::kBlender28:
+      apply_blender(blender_scale(maker), surface);
+      break;
+    case MtlMaker::kNvdiffrec:
+      if (!surface.has_pbr_bsdf) return;
+      apply_nvdiffrec(surface);
+      break;
+  }
+  surface.is_metal_rough = true;
+}
+
 }  // namespace
 
 MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement) {
@@ -203,20 +251,20 @@ std::optional<double> mtl_number(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-bool is_metal_rough(const MtlDocument& document, const MtlBlock& block) {
+bool has_metal_rough_lines(const MtlDocument& document, const MtlBlock& block) {
   constexpr std::array<std::string_view, 4> kWords = {"pr", "pm", "map_pr", "map_pm"};
   for (std::size_t i = block.first; i < block.last; ++i)
     if (std::ranges::find(kWords, document.word(document.statements()[i])) != kWords.end()) return true;
   return false;
 }
 
-MtlSurface read_mtl_surface(const MtlDocument& document, const MtlBlock& block,
-                            std::vector<std::string>& warnings) {
+void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMaker maker, MtlSurface& surface,
+                      std::vector<std::string>& warnings) {
   const StatementReader reader(document, warnings);
-  MtlSurface surface;
   surface.last_statement = block.last - 1;
   std::optional<std::size_t> exponent;
-  for (std::size_t i = block.first + 1; i < block.last; ++i) {
+  std::optional<Error> failure;
+  const auto read = [&](std::size_t i) {
     const MtlStatement& statement = document.statements()[i];
     const std::string word = document.word(statement);
     if (word == "kd") {
@@ -225,20 +273,35 @@ MtlSurface read_mtl_surface(const MtlDocument& document, const MtlBlock& block,
     }
     if (word == "ks") surface.specular = reader.color(statement, 1.0);
     if (word == "ns") exponent = i;
+    if (word == "ka" && maker != MtlMaker::kText) surface.ambient = reader.color(statement, 1.0).front();
+    if (word == "bsdf") surface.has_pbr_bsdf = in_lower_case(document.rest(statement)) == "pbr";
     if (word == "illum") surface.illumination = reader.number(statement, 0.0, 10.0, "a number from 0 to 10");
     if (word == "pr") surface.roughness = reader.number(statement, 0.0, 1.0, "a number from 0 to 1");
     if (word == "pm") surface.metallic = reader.number(statement, 0.0, 1.0, "a number from 0 to 1");
     if (word == "map_kd") surface.diffuse_map = map_at(document, i);
     if (word == "map_ks") surface.specular_map = map_at(document, i);
     if (word == "map_ns") surface.exponent_map = map_at(document, i);
+    if (word == "map_refl" || word == "refl") surface.reflection_map = map_at(document, i);
     if (word == "map_pr") surface.roughness_map = map_at(document, i);
     if (word == "map_pm") surface.metallic_map = map_at(document, i);
-  }
-  if (exponent) surface.exponent = reader.exponent(document.statements()[*exponent]);
-  return surface;
+  };
+  const auto attempt = [&](const auto& step) {
+    try {
+      step();
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
+      if (!failure) failure = error;
+    }
+  };
+  for (std::size_t i = block.first + 1; i < block.last; ++i) attempt([&] { read(i); });
+  // Of several lines Ns only the last counts, so the others may say anything.
+  if (exponent) attempt([&] { surface.exponent = reader.exponent(document.statements()[*exponent]); });
+  surface.is_metal_rough = has_metal_rough_lines(document, block);
+  apply_maker(maker, surface);
+  if (failure) throw *failure;
 }
 
-MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block,
+MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
                         std::vector<std::string>& warnings) {
   const StatementReader reader(document, warnings);
   MtlCover cover;
@@ -254,9 +317,31 @@ MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block,
     if (word == "map_d") cover.opacity_map = map_at(document, i);
     if (word == "map_ke") cover.emissive_map = map_at(document, i);
     if (word == "norm" || word == "map_kn") cover.normal_map = map_at(document, i);
-    if (word == "bump" || word == "map_bump" || word == "disp") cover.has_height = true;
+    if (word == "bump" || word == "map_bump") cover.bump_map = map_at(document, i);
+    if (word == "disp") cover.has_displacement = true;
+    if (word == "ni") cover.refraction = reader.number(statement, 0.0, 1000.0, "an index of refraction");
+    if (word == "tf") cover.filter = reader.color(statement, 1.0);
+    if (word == "illum") {
+      const double model = mtl_number(document.rest(statement)).value_or(0.0);
+      cover.refracts = model == 4.0 || model == 6.0 || model == 7.0 || model == 9.0;
+    }
   }
+  if (maker == MtlMaker::kText) return cover;
+  // Blender and others write these numbers beside maps without using them, and illum 6 and 9 for any alpha.
+  if (cover.opacity_map) cover.opacity = 1.0;
+  if (cover.emissive_map) cover.has_emissive = false, cover.emissive = {};
+  cover.refracts = false;
   return cover;
+}
+
+MetalRoughNumbers metal_rough_of(const MtlSurface& surface) {
+  MetalRoughNumbers numbers;
+  numbers.base = surface.diffuse.value_or(numbers.base);
+  numbers.metallic = surface.metallic_map ? 1.0 : surface.metallic.value_or(0.0);
+  numbers.roughness = surface.roughness_map ? 1.0 : surface.roughness.value_or(1.0);
+  // Core cannot remove the highlight of a dielectric. At roughness 1 it is seen least.
+  if (surface.specular_level == 0.0 && numbers.metallic == 0.0) numbers.roughness = 1.0;
+  return numbers;
 }
 
 MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>& warnings) {
@@ -275,8 +360,8 @@ MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>&
   if (!is_shaded_by_specular || !is_bright) return reflection;
   if (!surface.exponent && surface.exponent_map)
     throw input_error("has map_Ns but no Ns, which the map multiplies (add a line Ns)");
-  if (surface.exponent.value_or(0.0) == 0.0) {
-    warnings.push_back(std::string(surface.exponent ? "has Ns 0" : "has no Ns") +
+  if (surface.exponent.value_or(0.0) <= 0.0) {
+    warnings.push_back((surface.exponent ? "has Ns " + number_text(*surface.exponent) : "has no Ns") +
                        ", so its Ks counts as no highlight (write the exponent of the highlight as Ns)");
     return reflection;
   }

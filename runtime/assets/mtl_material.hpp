@@ -10,6 +10,7 @@
 
 #include "assets/legacy_material.hpp"
 #include "assets/mtl_document.hpp"
+#include "assets/mtl_maker.hpp"
 
 namespace remap {
 
@@ -45,10 +46,14 @@ MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement);
 // What reflects light. Of a statement that is repeated the last counts, as for other readers.
 struct MtlSurface {
   std::optional<std::array<double, 3>> diffuse, specular;  // Kd, Ks, clamped to 0 and 1
-  std::optional<double> exponent;                          // Ns, at least 0
+  std::optional<double> exponent;                          // Ns, at most 10000; may be below 0
   std::optional<double> illumination;                      // illum
+  std::optional<double> ambient;                           // red of Ka
   std::optional<double> roughness, metallic;               // Pr, Pm
-  std::optional<MtlMap> diffuse_map, specular_map, exponent_map, roughness_map, metallic_map;
+  std::optional<double> specular_level;                    // 1 means F0 0.04; only of a maker that writes it
+  std::optional<MtlMap> diffuse_map, specular_map, exponent_map, reflection_map, roughness_map, metallic_map;
+  bool has_pbr_bsdf = false;          // bsdf pbr
+  bool is_metal_rough = false;        // metallic and roughness are said, by Pr or Pm or by the maker
   std::size_t diffuse_statement = 0;  // where there is one
   std::size_t last_statement = 0;     // of the material
 
@@ -57,13 +62,13 @@ struct MtlSurface {
   }
 };
 
-// Whether a material says metallic or roughness already, as later tools add them (Pr, Pm and their maps).
-bool is_metal_rough(const MtlDocument& document, const MtlBlock& block);
+// Whether a material has lines Pr, Pm, map_Pr or map_Pm, as later tools add them.
+bool has_metal_rough_lines(const MtlDocument& document, const MtlBlock& block);
 
-// Appends warnings. Throws kInput, without the name of the material, for numbers that cannot be read and for
-// colors that are no RGB.
-MtlSurface read_mtl_surface(const MtlDocument& document, const MtlBlock& block,
-                            std::vector<std::string>& warnings);
+// Reads the surface as its maker means it. Appends warnings. Throws kInput, without the name of the material,
+// if a number cannot be read or a color is not RGB; `surface` then holds the other statements.
+void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMaker maker, MtlSurface& surface,
+                      std::vector<std::string>& warnings);
 
 // What covers and lights the surface.
 struct MtlCover {
@@ -71,13 +76,25 @@ struct MtlCover {
   std::optional<double> transparency;  // Tr, 0 to 1
   std::array<double, 3> emissive{};    // Ke
   bool has_emissive = false;
-  bool has_height = false;  // bump, disp
-  std::optional<MtlMap> opacity_map, emissive_map, normal_map;
+  bool has_displacement = false;                   // disp
+  std::optional<double> refraction;                // Ni
+  std::array<double, 3> filter = {1.0, 1.0, 1.0};  // Tf, 0 to 1
+  bool refracts = false;                           // illum 4, 6, 7 or 9
+  // bump_map: heights by the text of the format; most exporters write normals (holds_normals()).
+  std::optional<MtlMap> opacity_map, emissive_map, normal_map, bump_map;
 };
 
 // As read_mtl_surface().
-MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block,
+MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
                         std::vector<std::string>& warnings);
+
+// A surface that says metallic and roughness, as numbers. A number beside a map of roughness or metallic does
+// not count, and is 1.
+struct MetalRoughNumbers {
+  std::array<double, 3> base = {1.0, 1.0, 1.0};
+  double metallic = 0.0, roughness = 1.0;
+};
+MetalRoughNumbers metal_rough_of(const MtlSurface& surface);
 
 // The surface as factors, which its maps multiply.
 struct MtlReflection {

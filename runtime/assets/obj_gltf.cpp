@@ -176,14 +176,14 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
   GltfBuffer buffer;
   GltfTextures textures(options, resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles,
                         buffer, conversion);
-  MtlLibraries libraries(resources);
+  MtlLibraries libraries(resources, options.mtl_maker);
   libraries.read(scene.libraries, conversion.warnings);
   for (const std::string& path : libraries.image_paths()) textures.take(path);
   ObjMaterials converter(options, resources, libraries, textures, conversion);
   const std::vector<SceneMaterial> materials = converter.converted(scene.materials);
   Json file = SceneWriter(std::move(scene), materials, buffer, conversion).run();
   Json extensions = Json::list(), material_list = Json::list();
-  if (converter.has_specular()) extensions.push_back(kKhrSpecular);
+  for (const std::string& extension : converter.extensions()) extensions.push_back(extension);
   if (textures.has_transforms()) extensions.push_back(kTextureTransform);
   for (const SceneMaterial& material : materials) material_list.push_back(material.json);
   add_list(file, "extensionsUsed", std::move(extensions));
@@ -212,7 +212,7 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
 
 std::vector<AssetResource> obj_resources(const ByteSource& obj, const std::string& place,
                                          const AssetResources& resources) {
-  MtlLibraries libraries(resources);
+  MtlLibraries libraries(resources, std::nullopt);
   std::vector<std::string> ignored;
   libraries.read(obj_libraries(obj, place), ignored);
   std::vector<AssetResource> named;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
 
+#include "assets/gltf_extensions.hpp"
 #include "assets/legacy_maps.hpp"
 #include "assets/map_pixels.hpp"
 #include "assets/mtl_asset.hpp"
@@ -134,10 +136,11 @@ Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, A
   Planned planned(library, block, report);
   report.state = MaterialState::kConverted;
   if (!block.name.empty()) planned.material["name"] = utf8_name(block.name);
-  const bool is_read =
-      planned.attempt([&] { planned.surface = read_mtl_surface(library.document, block, report.warnings); });
-  planned.attempt([&] { planned.cover = read_mtl_cover(library.document, block, report.warnings); });
-  if (is_read) set_reflection(planned);
+  planned.attempt(
+      [&] { read_mtl_surface(library.document, block, library.maker, planned.surface, report.warnings); });
+  planned.attempt(
+      [&] { planned.cover = read_mtl_cover(library.document, block, library.maker, report.warnings); });
+  set_reflection(planned);
   // What lacks its opacity is not shared.
   if (!planned.attempt([&] { set_opacity(planned); })) planned.shared_image = nullptr;
   Json color = numbers_of(planned.base);
@@ -157,8 +160,8 @@ Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, A
   planned.attempt([&] { set_normals(planned); });
   planned.attempt([&] { set_emission(planned); });
   if (planned.blends) planned.material["alphaMode"] = "BLEND";
-  if (planned.cover.has_height)
-    report.warnings.push_back("loses its bump map: it is a map of heights, and glTF has maps of normals");
+  if (planned.cover.has_displacement)
+    report.warnings.push_back("loses its map of displacement (disp), which glTF does not have");
   describe(planned);
   return std::move(planned.material);
 }
@@ -190,7 +193,8 @@ std::size_t ObjMaterials::base_image_of(Planned& planned) {
 // A map that fails leaves the factors, and that of diffuse.
 void ObjMaterials::set_reflection(Planned& planned) {
   const bool is_done = planned.attempt([&] {
-    if (is_metal_rough(planned.library.document, planned.block)) return set_metal_rough(planned);
+    if (planned.surface.is_metal_rough) return set_metal_rough(planned);
+    if (is_glass(planned)) return set_glass(planned);
     const MtlReflection reflection = reflection_of(planned.surface, planned.report.warnings);
     if (options_.profile == MaterialProfile::kExtensions)
       set_dielectric(planned, reflection);
@@ -212,19 +216,57 @@ void ObjMaterials::keep_diffuse_map(Planned& planned) {
 // Later tools' lines say what glTF does. A map of them stands in the place of the number.
 void ObjMaterials::set_metal_rough(Planned& planned) {
   const MtlSurface& surface = planned.surface;
-  planned.base = surface.diffuse.value_or(kWhite);
+  const MetalRoughNumbers numbers = metal_rough_of(surface);
+  planned.base = numbers.base;
   keep_diffuse_map(planned);
-  planned.metallic = surface.metallic.value_or(0.0);
-  planned.roughness = surface.roughness.value_or(1.0);
+  planned.metallic = numbers.metallic;
+  planned.roughness = numbers.roughness;
+  set_specular_level(planned);
   if (!surface.roughness && !surface.roughness_map)
     planned.report.warnings.push_back("has metallic (Pm) but no roughness (Pr), which then counts as 1");
   const MtlMap* model = nullptr;
-  if (const auto pixels = packed_metal_rough(planned, &model)) {
-    if (surface.roughness_map) planned.roughness = 1.0;
-    if (surface.metallic_map) planned.metallic = 1.0;
+  if (const auto pixels = packed_metal_rough(planned, &model))
     planned.core["metallicRoughnessTexture"] = textures_.info(
         textures_.add_pixels(planned.library.images, *pixels, *model, "_metallicRoughness"), *model);
+}
+
+// A level of 1 is glTF's own F0 of 0.04, and a metal has none.
+void ObjMaterials::set_specular_level(Planned& planned) {
+  constexpr double kSeen = 0.25;  // F0 0.03 to 0.05 look alike
+  const double level = planned.surface.specular_level.value_or(1.0);
+  if (std::fabs(level - 1.0) < kSeen || planned.metallic == 1.0) return;
+  if (options_.profile == MaterialProfile::kCore) {
+    if (level > 0.0)
+      planned.report.warnings.push_back("loses its specular level Ks " + number_text(0.5 * level) +
+                                        " (--profile extensions keeps it)");
+    return;
   }
+  if (planned.surface.roughness) planned.roughness = *planned.surface.roughness;
+  set_extension(planned, kSpecularExtension,
+                level <= 1.0 ? Json{{"specularFactor", float_value(level)}}
+                             : Json{{"specularColorFactor", numbers_of({level, level, level})}});
+}
+
+// illum 4, 6, 7 and 9 refract. Maya writes illum 4 with an index of 1 for every opaque material.
+bool ObjMaterials::is_glass(Planned& planned) const {
+  const MtlCover& cover = planned.cover;
+  if (!cover.refracts || is_transparent(planned) || cover.refraction.value_or(2.0) <= 1.0) return false;
+  if (cover.refraction && options_.profile == MaterialProfile::kExtensions) return true;
+  planned.report.warnings.push_back(
+      cover.refraction
+          ? "is glass by illum and Ni " + number_text(*cover.refraction) +
+                ", and becomes opaque (--profile extensions keeps it)"
+          : "refracts by illum, but has no index Ni, so it becomes opaque (add a line Ni 1.5 for glass)");
+  return false;
+}
+
+// The index gives the strength of reflection, Tf the color of what comes through.
+void ObjMaterials::set_glass(Planned& planned) {
+  const MtlReflection reflection = reflection_of(planned.surface, planned.report.warnings);
+  planned.base = planned.cover.filter;
+  planned.roughness = reflection.has_highlight ? ggx_lobe(reflection.factors).roughness : 0.0;
+  set_extension(planned, kTransmissionExtension, Json{{"transmissionFactor", 1}});
+  set_extension(planned, kIorExtension, Json{{"ior", float_value(*planned.cover.refraction)}});
 }
 
 std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(Planned& planned, const MtlMap** model) {
@@ -266,7 +308,7 @@ void ObjMaterials::set_dielectric(Planned& planned, const MtlReflection& reflect
   planned.base = reflection.factors.diffuse;
   if (!reflection.has_highlight) {
     keep_diffuse_map(planned);
-    return set_specular(planned, Json{{"specularFactor", 0}});
+    return set_extension(planned, kSpecularExtension, Json{{"specularFactor", 0}});
   }
   // A map of diffuse alone is divided by 1 - F as a factor is.
   const LegacyDielectric result = dielectric_of_legacy(reflection.factors);
@@ -276,13 +318,13 @@ void ObjMaterials::set_dielectric(Planned& planned, const MtlReflection& reflect
   planned.base = result.base_color;
   planned.roughness = result.roughness;
   keep_diffuse_map(planned);
-  set_specular(planned, specular_of(result.specular, result.specular_color));
+  set_extension(planned, kSpecularExtension, specular_of(result.specular, result.specular_color));
 }
 
-void ObjMaterials::set_specular(Planned& planned, Json specular) {
-  has_specular_ = true;
-  planned.material["extensions"] = Json::object();
-  planned.material["extensions"][std::string(kKhrSpecular)] = std::move(specular);
+void ObjMaterials::set_extension(Planned& planned, std::string_view name, Json value) {
+  extensions_.emplace(name);
+  if (!planned.material.contains("extensions")) planned.material["extensions"] = Json::object();
+  planned.material["extensions"][std::string(name)] = std::move(value);
 }
 
 void ObjMaterials::set_converted_maps(Planned& planned, const MtlReflection& reflection, bool as_dielectric) {
@@ -310,7 +352,7 @@ void ObjMaterials::set_converted_maps(Planned& planned, const MtlReflection& ref
     specular["specularTexture"] = textures_.info(images.specular, data_map);
     specular["specularColorTexture"] = textures_.info(images.specular, data_map);
   }
-  set_specular(planned, std::move(specular));
+  set_extension(planned, kSpecularExtension, std::move(specular));
 }
 
 // Materials with the same maps, factors and opacity share what they become. The base color of a first one is
@@ -419,9 +461,18 @@ void ObjMaterials::set_emission(Planned& planned) {
   if (cover.emissive_map || !is_dark) planned.material["emissiveFactor"] = numbers_of(factor);
 }
 
+// Most exporters write a map of normals as map_Bump, because MTL has no statement for it that all readers
+// know.
 void ObjMaterials::set_normals(Planned& planned) {
-  const std::optional<MtlMap>& map = planned.cover.normal_map;
+  const std::optional<MtlMap>&bump = planned.cover.bump_map,
+        &map = planned.cover.normal_map ? planned.cover.normal_map : bump;
   if (!map) return;
+  if (!planned.cover.normal_map &&
+      !holds_normals(*planned.library.images.load(*bump, planned.report.warnings))) {
+    planned.report.warnings.push_back(
+        "loses its bump map: it is a map of heights, and glTF has maps of normals");
+    return;
+  }
   Json info = textures_.info(textures_.add_file(planned.library.images, *map, planned.report.warnings), *map);
   if (map->strength != 1.0) info["scale"] = float_value(map->strength);
   planned.material["normalTexture"] = std::move(info);

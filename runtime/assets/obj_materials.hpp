@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,8 +31,8 @@ class ObjMaterials {
 
   // Materials of an OBJ file in their order. One that no file has counts as white.
   std::vector<SceneMaterial> converted(const std::vector<ObjMaterialName>& names);
-  // Whether a material has KHR_materials_specular.
-  bool has_specular() const noexcept { return has_specular_; }
+  // The extensions of materials that are used.
+  const std::set<std::string>& extensions() const noexcept { return extensions_; }
 
  private:
   struct Planned;
@@ -42,12 +43,15 @@ class ObjMaterials {
   static void describe(const Planned& planned);
   void set_reflection(Planned& planned);
   void set_metal_rough(Planned& planned);
+  void set_specular_level(Planned& planned);
+  bool is_glass(Planned& planned) const;
+  void set_glass(Planned& planned);
   void set_core(Planned& planned, const MtlReflection& reflection);
   void set_dielectric(Planned& planned, const MtlReflection& reflection);
   void set_converted_maps(Planned& planned, const MtlReflection& reflection, bool as_dielectric);
   ConvertedImages& converted_images(Planned& planned, const MtlReflection& reflection, bool as_dielectric,
                                     const MtlMap& data_map);
-  void set_specular(Planned& planned, Json specular);
+  void set_extension(Planned& planned, std::string_view name, Json value);
   void keep_diffuse_map(Planned& planned);
   double alpha_of(const MtlCover& cover) const;
   bool is_transparent(const Planned& planned) const;
@@ -63,11 +67,10 @@ class ObjMaterials {
   const MtlLibraries& libraries_;
   GltfTextures& textures_;
   AssetConversion& conversion_;
-  bool reads_tr_ = true, has_specular_ = false;
+  bool reads_tr_ = true;
+  std::set<std::string> extensions_;
   std::map<std::string, std::size_t> composed_;  // images of color with alpha, by both files
   std::map<std::string, std::shared_ptr<ConvertedImages>> converted_;  // by key_of() and opacity
 };
-
-inline constexpr std::string_view kKhrSpecular = "KHR_materials_specular";
 
 }  // namespace remap

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "assets/map_pixels.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
@@ -36,23 +37,8 @@ bool is_constant(const Plane& plane) {
   return least == most;
 }
 
-// The share of texels whose normal has about unit length, decoded from 0 to 1, and of those that point to the
-// surface.
-struct NormalShares {
-  double unit = 0.0, inwards = 0.0, flat = 0.0;
-};
 NormalShares normals_of(const std::vector<const Plane*>& rgb) {
-  constexpr double kUnit = 0.12;
-  NormalShares shares;
-  const std::size_t count = rgb.front()->size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = 2.0 * (*rgb[0])[i] - 1.0, y = 2.0 * (*rgb[1])[i] - 1.0, z = 2.0 * (*rgb[2])[i] - 1.0;
-    shares.unit += std::fabs(std::sqrt(x * x + y * y + z * z) - 1.0) < kUnit;
-    shares.inwards += z < -0.1;
-    shares.flat += z > 0.98;
-  }
-  const double n = static_cast<double>(std::max<std::size_t>(1, count));
-  return {shares.unit / n, shares.inwards / n, shares.flat / n};
+  return normal_shares({*rgb[0], *rgb[1], *rgb[2]});
 }
 
 // How far slopes are from those of a surface, with green up and with green down: of a surface the slope along
@@ -366,12 +352,7 @@ void wrong_texture(const CheckedMaterial& material, const TargetReader*, const R
     if (rgb.empty() || std::ranges::all_of(rgb, [](const Plane* plane) { return is_constant(*plane); }))
       return;
     const NormalShares shares = normals_of(rgb);
-    const double mean_blue = [&] {
-      double sum = 0.0;
-      for (const float value : *rgb[2]) sum += value;
-      return sum / static_cast<double>(std::max<std::size_t>(1, rgb[2]->size()));
-    }();
-    const bool looks_like_normals = shares.unit > 0.97 && shares.inwards < 0.01 && mean_blue > 0.85;
+    const bool looks_like_normals = shares.unit > 0.97 && shares.inwards < 0.01 && shares.mean[2] > 0.85;
     if (use.role != Role::kNormal && use.role != Role::kOther && looks_like_normals &&
         named.insert(use.map).second)
       add(use, Confidence::kLikely, "its texels are unit normals of tangent space");

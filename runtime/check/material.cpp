@@ -5,6 +5,7 @@
 #include <new>
 #include <string_view>
 
+#include "assets/map_pixels.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -46,6 +47,12 @@ std::vector<std::string> CheckedMaterial::read_maps() {
     }
     read[map.file] = map.texels;
   }
+  // A bump map of MTL may hold either, and convert takes it for what it is.
+  for (MaterialUse& use : uses)
+    if (kind == MaterialKind::kMtl && use.role == Role::kHeight)
+      if (const auto rgb = colors(use);
+          rgb.size() == 3 && normal_shares({*rgb[0], *rgb[1], *rgb[2]}).are_normals())
+        use.role = Role::kNormal;
   return problems;
 }
 

@@ -76,7 +76,8 @@ struct CheckedMaterial {
   std::vector<MaterialMap> maps;
   std::vector<MaterialUse> uses;
   GltfStatements gltf;
-  std::vector<Exponent> exponents;  // of all materials of an MTL file, with the first of them
+  std::vector<std::string> failures;  // statements of MTL that a conversion refuses
+  std::vector<Exponent> exponents;    // of all materials of an MTL file, with the first of them
 
   // Reads the texels of all maps. Returns a message for each image that cannot be read.
   std::vector<std::string> read_maps();

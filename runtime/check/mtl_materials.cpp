@@ -7,6 +7,7 @@
 #include "assets/mtl_document.hpp"
 #include "assets/mtl_material.hpp"
 #include "check/material.hpp"
+#include "core/errors.hpp"
 #include "core/plain_text.hpp"
 #include "core/read_file.hpp"
 #include "sets/folder_walk.hpp"
@@ -31,11 +32,38 @@ constexpr std::array<MapLine, 11> kMapLines = {{{"map_kd", Role::kDiffuse},
                                                 {"norm", Role::kNormal},
                                                 {"map_kn", Role::kNormal}}};
 
-void add_map(const std::string& name, const MapLine& line, CheckedMaterial& material) {
+void add_map(const std::string& name, const MapLine& line, Role role, CheckedMaterial& material) {
   const fs::path path = material.place.parent_path() / fs::path(name).relative_path();
   material.uses.push_back(
-      {line.role, material.maps.size(), Channels::kWhole, std::string(line.word), {}, "", false});
+      {role, material.maps.size(), Channels::kWhole, std::string(line.word), {}, "", false});
   material.maps.push_back({path, path.string(), path.filename().string(), nullptr});
+}
+
+// What a conversion refuses or changes.
+void add_failures(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
+                  CheckedMaterial& material) {
+  const auto attempt = [&](const auto& step) {
+    try {
+      step();
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
+      material.failures.emplace_back(error.what());
+    }
+  };
+  MtlSurface surface;
+  std::vector<std::string> ignored;
+  attempt([&] { read_mtl_surface(document, block, maker, surface, ignored); });
+  attempt([&] { (void)read_mtl_cover(document, block, maker, ignored); });
+}
+
+// Roles that another maker gives to lines.
+Role role_of(const MapLine& line, MtlMaker maker) {
+  if (maker == MtlMaker::kText) return line.role;
+  const bool is_blender = maker != MtlMaker::kNvdiffrec;
+  if (is_blender && line.word == "map_ns") return Role::kRoughness;
+  if (is_blender && line.word == "map_refl") return Role::kMetallic;
+  if (!is_blender && line.word == "map_ks") return Role::kOther;
+  return line.role;
 }
 
 }  // namespace
@@ -43,6 +71,7 @@ void add_map(const std::string& name, const MapLine& line, CheckedMaterial& mate
 void add_mtl(const fs::path& file, FoundMaterials& found) {
   const std::string text = mtl_text(MemorySource(read_file(file)), shown(file));
   const MtlDocument document(text, shown(file));
+  const MtlMaker maker = maker_of(document);
   std::vector<Exponent> exponents;
   const std::size_t first = found.materials.size();
   for (const MtlBlock& block : document.materials()) {
@@ -51,15 +80,17 @@ void add_mtl(const fs::path& file, FoundMaterials& found) {
     material.kind = MaterialKind::kMtl;
     material.place = file;
     material.name = shown(file) + ": " + name;
+    add_failures(document, block, maker, material);
     for (std::size_t i = block.first; i < block.last; ++i) {
       const MtlStatement& statement = document.statements()[i];
       const std::string word = document.word(statement);
       const std::vector<TextSpan> words = document.words(statement);
-      if (word == "ns" && !words.empty())
+      if (maker == MtlMaker::kText && word == "ns" && !words.empty())
         if (const auto value = mtl_number(document.raw(words.front()))) exponents.push_back({name, *value});
       const auto line = std::ranges::find(kMapLines, word, &MapLine::word);
       if (line == kMapLines.end()) continue;
-      if (const std::string map = read_mtl_map(document, i).file; !map.empty()) add_map(map, *line, material);
+      if (const std::string map = read_mtl_map(document, i).file; !map.empty())
+        add_map(map, *line, role_of(*line, maker), material);
     }
   }
   if (first < found.materials.size()) found.materials[first].exponents = std::move(exponents);

@@ -43,7 +43,7 @@ constexpr std::array<TargetReader, 6> kReaders = {{
     {"usd", "UsdPreviewSurface", kUsd},
 }};
 
-constexpr std::array<Rule, 20> kRules = {{
+constexpr std::array<Rule, 21> kRules = {{
     {"srgb-data", "a map of numbers (roughness, metallic, normal, ...) that its file tags as sRGB",
      look::srgb_data},
     {"linear-color", "a color map in whole numbers that its file tags as linear", look::linear_color},
@@ -75,6 +75,7 @@ constexpr std::array<Rule, 20> kRules = {{
     {"ior", "an index of refraction or a specular factor that no material has", look::index_of_refraction},
     {"ignored-by-reader", "an extension of a glTF material that the given reader does not know",
      look::ignored_by_reader},
+    {"unreadable-statement", "a line of an MTL file that convert refuses", look::unreadable_statement},
     {"exponent-range", "exponents of an MTL file in another range than 0 to 1000", look::exponent_range},
     {"duplicate-map", "two files of different roles with the same texels", look::duplicate_map},
 }};

@@ -56,9 +56,10 @@ std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const 
 namespace look {
 using Look = void(const CheckedMaterial&, const TargetReader*, const Rule&, std::vector<MaterialFinding>&);
 Look linear_color, specgloss_channels, constant_map, banding, bad_values, metallic_greys, channel_order,
-    normal_space, normal_orientation, wrong_texture;                                       // single maps
-Look srgb_data, sizes, gloss_as_roughness, alpha_as_roughness, duplicate_map;              // pairs
-Look factor_zero, factor_ignored, index_of_refraction, ignored_by_reader, exponent_range;  // statements
+    normal_space, normal_orientation, wrong_texture;                           // single maps
+Look srgb_data, sizes, gloss_as_roughness, alpha_as_roughness, duplicate_map;  // pairs
+Look factor_zero, factor_ignored, index_of_refraction, ignored_by_reader, unreadable_statement,
+    exponent_range;  // statements
 }  // namespace look
 
 // Base color, diffuse, specular; and what is stored as it is: widths, metallic, occlusion, normals, heights.

@@ -108,16 +108,29 @@ void ignored_by_reader(const CheckedMaterial& material, const TargetReader* read
   }
 }
 
+void unreadable_statement(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+                          std::vector<MaterialFinding>& findings) {
+  for (const std::string& failure : material.failures)
+    findings.push_back({rule.name, Confidence::kCertain, material.name, "", failure,
+                        "write what is expected into this line"});
+}
+
 // Ns of MTL files is from 0 to 1000 (Wavefront, Advanced Visualizer manual, appendix B).
 void exponent_range(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
   double largest = 0.0;
-  std::size_t above_zero = 0, whole_tens = 0;
+  std::size_t below_zero = 0, above_zero = 0, whole_tens = 0;
   for (const Exponent& exponent : material.exponents) {
     largest = std::max(largest, exponent.value);
+    below_zero += exponent.value < 0.0;
     above_zero += exponent.value > 0.0;
     whole_tens += exponent.value > 0.0 && std::fmod(exponent.value, 5.0) == 0.0;
   }
+  if (below_zero > 0)
+    findings.push_back({rule.name, Confidence::kLikely, material.place.string(), "",
+                        std::to_string(below_zero) + (below_zero == 1 ? " exponent is" : " exponents are") +
+                            " below 0, which convert reads as no highlight",
+                        "write the exponent of the highlight as Ns, or 0 for none"});
   if (above_zero == 0) return;
   const std::string place = material.place.string(), all = std::to_string(above_zero) +
                                                            (above_zero == 1 ? " exponent" : " exponents") +

@@ -47,7 +47,7 @@ std::string outcome_text(const AssetReport& report, bool dry_run) {
   if (!report.is_written) return text + "; nothing " + verb + "written";
   if (!dry_run) text += " in " + fixed(report.seconds, 2) + " s";
   text += ": " + shown(report.output);
-  if (!report.images.empty()) text += ", plus " + counted(report.images.size(), "image");
+  if (!report.images.empty()) text += ", plus " + counted(report.images.size(), "new file");
   if (!report.copies.empty())
     text += (report.images.empty() ? ", plus " : " and ") + counted(report.copies.size(), "copied file");
   return text;

@@ -31,6 +31,7 @@ AssetOptions asset_options(const ConvertOptions& options) {
   AssetOptions asset{options.profile, options.prior, options.instructions, options.resample};
   asset.target = options.to.name == "gltf-specgloss" ? AssetTarget::kSpecGloss : AssetTarget::kMetalRough;
   asset.folds_specular = options.fold_specular;
+  asset.mtl_maker = options.mtl_maker;
   asset.compacts = options.compact;
   asset.bakes = options.bake;
   asset.jpeg_quality = options.jpeg;
@@ -275,9 +276,11 @@ std::vector<AssetReport> run_assets(const AssetList& list, const ConvertOptions&
   apart.finished = [&](std::size_t i, std::string result) {
     finish(i, unpacked<AssetReport>(std::move(result)));
   };
+  apart.clean = [&](std::size_t i) {
+    for (const fs::path& folder : folders_of(list.jobs[i])) remove_unfinished(folder);
+  };
   apart.crashed = [&](std::size_t i, const std::string& reason) {
     AssetReport report = report_named(list.jobs[i]);
-    for (const fs::path& folder : folders_of(list.jobs[i])) remove_unfinished(folder);
     report.failure = shown(report.input) + ": " + reason;
     if (list.jobs.size() == 1 && !list.is_tree) throw input_error(report.failure);
     finish(i, std::move(report));

@@ -175,6 +175,12 @@ void add_source_options(Command& command, ConvertOptions& options) {
                   "KHR_materials_specular and KHR_materials_ior")
       ->default_text("core")
       ->tag(kChangesResults | kNeedsAsset);
+  command
+      .add_option(
+          "--mtl-from MAKER", options.mtl_maker, one_of(kMtlMakers, "maker"),
+          "Read MTL files as this program writes them, instead of as their first lines say; text: as the "
+          "text of the format says")
+      ->tag(kChangesResults | kNeedsAsset);
   const auto add_asset_flag = [&](const char* name, bool& flag, const char* description) {
     command.add_flag(name, flag, description)->tag(kChangesResults | kNeedsAsset);
   };

@@ -62,6 +62,7 @@ struct ConvertOptions {
   bool assets = false;                               // the folder is of assets, not of texture sets
   std::filesystem::path asset_root;                  // below which assets may name files
   MaterialProfile profile = MaterialProfile::kCore;  // of assets
+  std::optional<MtlMaker> mtl_maker;                 // of MTL files; none: as they say
   bool fold_specular = false, compact = false, bake = false;
   std::optional<int> jpeg;  // quality
   ModelName from, to;

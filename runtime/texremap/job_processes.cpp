@@ -155,6 +155,7 @@ class Copies {
     const std::size_t job = *copy.job;
     copy.job.reset();
     // Nothing in a job ends it so, but the system, where memory runs out, or somebody else.
+    jobs_.clean(job);
     const bool is_killed = how.starts_with("by signal 9 ");
     if (is_killed && ++kills_[job] < kMostTries) return again_.push_back(job);
     jobs_.crashed(job, "its process was ended " + how +

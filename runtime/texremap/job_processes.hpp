@@ -21,7 +21,9 @@ struct ApartJobs {
   // The rest is called in this process, one call at a time.
   std::function<void(std::size_t i, double share)> advanced = [](std::size_t, double) {};
   std::function<void(std::size_t i, std::string result)> finished;
-  // The process of the job was ended, as `reason` says. Its unfinished files are still there.
+  // The process of the job was ended, and has left unfinished files.
+  std::function<void(std::size_t i)> clean = [](std::size_t) {};
+  // So it was, as `reason` says, and the job is not tried again.
   std::function<void(std::size_t i, const std::string& reason)> crashed;
 };
 

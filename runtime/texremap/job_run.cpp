@@ -537,9 +537,12 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
   apart.finished = [&](std::size_t i, std::string result) {
     finish(i, unpacked<JobReport>(std::move(result)));
   };
+  apart.clean = [&](std::size_t i) {
+    for (const std::filesystem::path& folder : {list.jobs[i].folder, list.jobs[i].diagnosis_folder})
+      remove_unfinished(folder);
+  };
   apart.crashed = [&](std::size_t i, const std::string& reason) {
     const ConversionJob& job = list.jobs[i];
-    for (const std::filesystem::path& folder : {job.folder, job.diagnosis_folder}) remove_unfinished(folder);
     JobReport report = report_named(job);
     report.failure = place_of(job) + ": " + reason;
     report.tiles.clear();

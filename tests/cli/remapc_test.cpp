@@ -104,6 +104,7 @@ TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     process.send(signal);
     const ProcessResult result = process.wait();
+    CAPTURE(signal, result.signal, result.exit_code, result.errors);
     CHECK((signal == SIGKILL ? result.signal == SIGKILL : result.exit_code == 1));
     CHECK_FALSE(fs::exists(session.path("broken.csv")));
   }

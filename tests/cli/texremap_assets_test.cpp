@@ -86,7 +86,7 @@ TEST_CASE("Textures of an asset become new files beside the old ones", "[assets]
   const ProcessResult run = session.texremap("convert in/wood.gltf --to gltf -o out --json");
   CHECK(run.exit_code == 0);
   CHECK(run.errors.find("1 material converted in ") != std::string::npos);
-  CHECK(run.errors.find("plus 2 images and 2 copied files") != std::string::npos);
+  CHECK(run.errors.find("plus 2 new files and 2 copied files") != std::string::npos);
   CHECK(session.file_count() == 5);
   const TestImage base = session.image("out/d_baseColor.png");
   CHECK(base.spec.nchannels == 3);

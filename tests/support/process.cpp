@@ -1,7 +1,9 @@
 #include "support/process.hpp"
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <fstream>
 #include <iterator>
 #include <linux/capability.h>
@@ -55,9 +57,17 @@ Process::Process(const Words& arguments, const ProcessLimits& limits)
   std::vector<char*> pointers;
   for (std::string& word : start.arguments) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
   pid_ = ::fork();
   if (pid_ < 0) throw std::runtime_error("fork failed");
   if (pid_ == 0) become(pointers.data(), start, limits.keeps_permissions);
+  // Until exec closes the other end, signals meet the handlers of this program.
+  ::close(ends[1]);
+  char none = 0;
+  while (::read(ends[0], &none, 1) < 0 && errno == EINTR) {
+  }
+  ::close(ends[0]);
 }
 
 Process::~Process() {

@@ -104,14 +104,15 @@ TEST_CASE("Numbers that cannot be read fail, others are clamped with a warning",
     const MtlDocument document(text, "file");
     std::vector<std::string> warnings;
     try {
-      const MtlSurface surface = read_mtl_surface(document, document.materials()[0], warnings);
+      MtlSurface surface;
+      read_mtl_surface(document, document.materials()[0], MtlMaker::kText, surface, warnings);
       if (surface.exponent) warnings.push_back("n " + std::to_string(*surface.exponent));
       return warnings.empty() ? std::string("fine") : warnings.front();
     } catch (const Error& error) {
       return std::string(error.what());
     }
   };
-  CHECK(read("Ns -5") == "Ns -5: expected an exponent from 0 to 1000");
+  CHECK(read("Ns -5") == "n -5.000000");
   CHECK(read("Ns nan") == "Ns nan: expected an exponent from 0 to 1000");
   CHECK(read("Ns inf") == "Ns inf: expected an exponent from 0 to 1000");
   CHECK(read("Ns shiny") == "Ns shiny: expected an exponent from 0 to 1000");
