@@ -445,12 +445,25 @@ inline void find_shares(const Conventions& use, float prior, const SpecularTexel
   }
 }
 
+// A surface without a highlight has no width either, but the metallic workflow adds the highlight of its
+// dielectrics: it shows least where it is widest. Below a fortieth of their F0 the width goes there in proportion.
+inline void widen_matte(const Conventions& use, ClampedBlock<7, kMetallicBlock>& block) noexcept {
+  const float widest = use.width_in == WidthParameter::kGlossiness ? 0.0f : 1.0f;
+  const float scale = use.dielectric_f0 > 0.0f ? 40.0f / use.dielectric_f0 : 1e30f;
+  auto& row = block.row;
+  for_each_texel<kMetallicBlock>([&](std::size_t i) {
+    const float matte = clamped(1.0f - scale * larger(larger(row[3][i], row[4][i]), row[5][i]));
+    row[6][i] += matte * (widest - row[6][i]);
+  });
+}
+
 // Diffuse (three rows), specular (three rows), width to base color (three rows), metallic, width.
 inline std::size_t project(const Conventions& use, float prior, const std::array<const float*, 7>& in,
                            const std::array<float*, 5>& out) noexcept {
   constexpr std::size_t kBlock = kMetallicBlock;
   SpecularTexels texels;
   const std::size_t outside = read_specular(use, in, texels);
+  widen_matte(use, texels.clamped);
   float alpha[kBlock], share[kBlock], dielectric[kBlock], by_diffuse[kBlock], by_f0[kBlock];
   for_each_texel<kBlock>(
       [&](std::size_t i) { alpha[i] = width_to_alpha(use.width_in, texels.clamped.row[6][i]); });

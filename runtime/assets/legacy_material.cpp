@@ -39,12 +39,14 @@ GgxLobe ggx_lobe(const LegacyMaterial& material) {
 MetalRoughFactors core_of_legacy(const LegacyMaterial& material) {
   const GgxLobe lobe = ggx_lobe(material);
   const double share = dielectric_share(mean_of(material.diffuse), mean_of(lobe.f0));
+  // Below a fortieth of the F0 that core adds, it becomes core_of_diffuse() in proportion.
+  const double matte = std::clamp(1.0 - 40.0 * *std::ranges::max_element(lobe.f0) / kDielectricF0, 0.0, 1.0);
   MetalRoughFactors core;
   for (std::size_t c = 0; c < 3; ++c)
-    core.base_color[c] =
-        static_cast<float>(std::clamp(material.diffuse[c] + lobe.f0[c] - kDielectricF0 * share, 0.0, 1.0));
+    core.base_color[c] = static_cast<float>(
+        std::clamp(material.diffuse[c] + lobe.f0[c] - kDielectricF0 * share * (1.0 - matte), 0.0, 1.0));
   core.metallic = static_cast<float>(1.0 - share);
-  core.roughness = static_cast<float>(lobe.roughness);
+  core.roughness = static_cast<float>(lobe.roughness + matte * (1.0 - lobe.roughness));
   return core;
 }
 

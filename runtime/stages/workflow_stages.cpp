@@ -132,12 +132,13 @@ class KeepDielectrics final : public Stage {
 class Project final : public Stage {
  public:
   // `conversion`: by projection. `width`: the parameter that the block has; `conversion` has the same or, if
-  // its workflows do not know it, alpha.
-  Project(const WorkflowConversion& conversion, RoughnessConvention width, InstructionSet set)
+  // its workflows do not know it, alpha. `widens`: surfaces without a highlight become rough.
+  Project(const WorkflowConversion& conversion, RoughnessConvention width, bool widens, InstructionSet set)
       : use_(conventions_of(conversion)),
         prior_(static_cast<float>(std::get<Projection>(conversion.formula).prior)),
         width_(width),
         reads_alpha_(conversion.specular.width != width),
+        widens_(widens && !reads_alpha_),
         kernels_(kernels(set)) {}
 
   std::size_t run(Block& block, std::uint8_t*) const override {
@@ -153,7 +154,7 @@ class Project final : public Stage {
                                             specular[1], specular[2], width};
     const auto base = block.make_color(Parameter::kBaseColor);
     const MetallicRows<float> to = {base[0], base[1], base[2], block.make(Parameter::kMetallic),
-                                    block.make_unused()};
+                                    widens_ ? block.make(Parameter::kRoughness) : block.make_unused()};
     kernels_.project(use_, prior_, block.size(), from, to);
     if (block.has(Parameter::kMetalMask))
       kernels_.follow(use_, block.size(), from, block.row(Parameter::kMetalMask), to);
@@ -169,7 +170,7 @@ class Project final : public Stage {
   workflow_code::Conventions use_;
   float prior_;
   RoughnessConvention width_;
-  bool reads_alpha_;
+  bool reads_alpha_, widens_;
   const Kernels& kernels_;
 };
 
@@ -279,8 +280,9 @@ std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
   else
     list.insert(list.end(), brdf.begin(), brdf.end());
   if (target != nullptr)
-    list.push_back(std::make_shared<Project>(
-        conversion_of(*target, between, width, Projection{stages.prior}, info.id), target_width, set));
+    list.push_back(
+        std::make_shared<Project>(conversion_of(*target, between, width, Projection{stages.prior}, info.id),
+                                  target_width, source == nullptr, set));
   else if (diffuse_of(stages.target) != between)
     list.push_back(std::make_shared<ScaleDiffuse>(diffuse_of(stages.target)));
   return std::make_unique<Converter>(std::move(info), parameters_of(stages.source), targets_of(stages.target),

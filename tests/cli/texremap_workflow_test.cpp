@@ -332,3 +332,30 @@ TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a s
              Contains("holds whole numbers, and an exponent is wanted"));
   CHECK(session.texremap(command + " --roughness-factor 128").exit_code == 0);
 }
+
+TEST_CASE("reports: 11 without a highlight a surface is rough in metallic workflows, from every source") {
+  const Session session;
+  for (const std::string source :
+       {"radiance/plastic --roughness 0", "mujoco --roughness 64", "mtl --roughness 1000",
+        "gltf-specgloss --roughness 1 --roughness-encoding glossiness"}) {
+    const ProcessResult numbers = require_success(
+        session.texremap("convert --from " + source + " --to gltf --specular 0 --diffuse 0.7"));
+    INFO(source << ": " << numbers.output);
+    CHECK_THAT(numbers.output, Contains("roughness 1\n"));
+    CHECK_THAT(numbers.output, Contains("base_color 0.71"));
+    CHECK_THAT(numbers.output, Contains("metallic 0\n"));
+  }
+  // Texels: no highlight, a fourth of the ramp, and a dielectric that keeps its width.
+  const std::vector<float> f0 = {0.0f, 0.00075f, 0.04f};
+  write_colors(
+      session, "d.exr", [](int, int, int) { return 0.5f; }, OIIO::TypeFloat, 3);
+  write_colors(
+      session, "s.exr", [&](int x, int, int) { return f0[static_cast<std::size_t>(x)]; }, OIIO::TypeFloat, 3);
+  write_grey(
+      session, "r.exr", [](int, int, int) { return 0.2f; }, OIIO::TypeFloat, 3);
+  require_success(convert(session, specular_words("specular", "gltf")));
+  const TestImage rough = session.image("out/roughness.exr");
+  CHECK(rough.at(0, 0, 0) == 1.0f);
+  CHECK(rough.at(1, 0, 0) == Approx(0.4f));
+  CHECK(rough.at(2, 0, 0) == 0.2f);
+}

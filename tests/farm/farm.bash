@@ -18,7 +18,7 @@ sets=2000 parts=40 least_kills=20
 declare -A troubles=([slurm]="task batch frozen node job task daemon task lost batch task node task job"
   [openjd]="task task task task task task" [commands]="task task task task task task task task")
 if [[ $form == short ]]; then
-  sets=120 parts=6 least_kills=2
+  sets=120 parts=6 least_kills=1
   troubles=([slurm]="task batch node" [openjd]="task task" [commands]="task task task")
 fi
 

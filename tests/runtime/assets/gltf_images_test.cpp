@@ -107,7 +107,7 @@ TEST_CASE("A texture info keeps what it holds", "[assets]") {
 
 TEST_CASE("Constant maps are factors", "[assets]") {
   const Reread after =
-      reread(container_of({constant_pixels({255, 255, 0, 255}), constant_pixels({0, 0, 0, 51})},
+      reread(container_of({constant_pixels({255, 255, 0, 255}), constant_pixels({58, 58, 58, 51})},
                           textured(kBoth + R"(,"diffuseFactor":[0.5,0.5,0.5,0.5])")));
   CHECK(after.root()["images"].size() == 2);
   const SpanValue core = after.material(0)["pbrMetallicRoughness"];
