@@ -51,9 +51,12 @@ std::size_t GltfNewImages::add_image(const ImagePixels& pixels, std::size_t mode
                                      const ImageCoding& coding) {
   const ImageCodec& codec = resources_.codec();
   const std::optional<int> quality = coding.jpeg_quality;
-  new_images_.push_back(
-      {quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.png_level),
-       quality ? kJpeg : kPng, model, std::string(suffix)});
+  std::string bytes =
+      quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.png_level);
+  // Materials that differ in color alone often have the same metallic and roughness.
+  const auto same = std::ranges::find(new_images_, bytes, &NewImage::bytes);
+  if (same != new_images_.end()) return static_cast<std::size_t>(same - new_images_.begin());
+  new_images_.push_back({std::move(bytes), quality ? kJpeg : kPng, model, std::string(suffix)});
   return new_images_.size() - 1;
 }
 

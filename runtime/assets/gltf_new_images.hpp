@@ -33,7 +33,7 @@ class GltfNewImages {
                 const std::string& place);
 
   // Adds an image beside its model, an image of the file. `suffix` goes to names: `_baseColor`.
-  // Returns its number among the new ones.
+  // Returns its number among the new ones, of one that was added before where their bytes are equal.
   std::size_t add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
                         const ImageCoding& coding);
   // A texture of that new image with the sampler of its model, a texture of the file. Returns its number, of

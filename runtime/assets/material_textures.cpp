@@ -64,20 +64,44 @@ void MaterialTextures::align(const std::vector<UsedTexture*>& textures, const Gr
     require_one_grid(first, *texture, reason);
     wraps_alike = wraps_alike && images_.wraps_alike(first.info.texture, texture->info.texture);
   }
-  for (UsedTexture* const texture : textures) {
-    if (texture->info.transform == first.info.transform) continue;
-    resample(*texture, {first.pixels().width, first.pixels().height, first.info.transform});
-    texture->bake = bake_key(texture->info.transform, first.info.transform);
-    texture->info.value = first.info.value;
-    texture->info.transform = first.info.transform;
-    warnings.push_back("its " + std::string(texture->name) + " texture is resampled onto the grid of its " +
-                       std::string(first.name) + " texture, which holds within 0 to 1");
-  }
+  if (std::ranges::any_of(textures, [&](const UsedTexture* texture) {
+        return texture->info.transform != first.info.transform;
+      }))
+    bake(textures, reason, warnings);
   enlarge(textures);
   if (!wraps_alike)
     warnings.emplace_back(
         "its textures are repeated differently; each result is as the map that it follows, so they may "
         "differ outside of 0 to 1");
+}
+
+void MaterialTextures::bake(const std::vector<UsedTexture*>& textures, const GridReason& reason,
+                            std::vector<std::string>& warnings) const {
+  std::vector<PlacedTexture> placed;
+  for (const UsedTexture* const texture : textures)
+    placed.push_back({texture->pixels().width, texture->pixels().height, texture->info.transform});
+  const std::optional<CommonGrid> common = common_grid(placed);
+  if (!common)
+    throw input_error("its " + std::string(textures.front()->name) + " and " +
+                      std::string(textures.back()->name) +
+                      " textures repeat differently, and no image can hold both (bake them onto one in a "
+                      "modeller" +
+                      std::string(reason.otherwise) + ")");
+  const UsedTexture& model = *textures[common->of];
+  const TextureInfo place = model.info;
+  for (UsedTexture* const texture : textures) {
+    const ImagePixels& own = texture->pixels();
+    texture->bake = bake_key(texture->info.transform, place.transform);
+    if (texture->info.transform != place.transform || own.width != common->grid.width ||
+        own.height != common->grid.height)
+      resample(*texture, common->grid);
+    texture->info.value = place.value;
+    texture->info.transform = place.transform;
+    if (texture != &model && !common->repeats)
+      warnings.push_back("its " + std::string(texture->name) + " texture is drawn onto the image of its " +
+                         std::string(model.name) +
+                         " texture, which is right where texture coordinates are within 0 to 1");
+  }
 }
 
 // All get the largest size.

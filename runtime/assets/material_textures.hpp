@@ -48,7 +48,7 @@ class MaterialTextures {
   // None without an info. Throws kInput for an image that cannot be read.
   std::optional<UsedTexture> load(SpanValue texture_info, std::string_view name,
                                   Transfer transfer = Transfer::kSrgb);
-  // Gives all one size and the grid of the first, as far as the options allow. Throws kInput otherwise.
+  // Gives all one size and one grid, as far as the options allow. Throws kInput otherwise.
   void align(const std::vector<UsedTexture*>& textures, const GridReason& reason,
              std::vector<std::string>& warnings) const;
 
@@ -65,6 +65,9 @@ class MaterialTextures {
   int png_level() const {
     return options_.png_level.value_or(options_.compacts ? kSmallestPngLevel : kUsualPngLevel);
   }
+  // Brings textures with different transforms onto the grid of one of them.
+  void bake(const std::vector<UsedTexture*>& textures, const GridReason& reason,
+            std::vector<std::string>& warnings) const;
   void enlarge(const std::vector<UsedTexture*>& textures) const;
   void resample(UsedTexture& texture, const TextureGrid& grid) const;
 

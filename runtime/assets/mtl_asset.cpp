@@ -295,9 +295,13 @@ class MtlEditor {
                                          : surface.specular_map          ? surface.specular_map
                                          : surface.exponent_map          ? surface.exponent_map
                                                                          : surface.diffuse_map;
+    std::string png =
+        images_.resources().codec().encode_png(pixels, options_.png_level.value_or(kUsualPngLevel));
+    if (const auto same = std::ranges::find(conversion_.files, png, &NewResource::bytes);
+        same != conversion_.files.end())
+      return argument(same->path);
     const std::string name = names_.free_name(images_.place_of(model->file).value_or("material"), suffix);
-    conversion_.files.push_back(
-        {name, images_.resources().codec().encode_png(pixels, options_.png_level.value_or(kUsualPngLevel))});
+    conversion_.files.push_back({name, std::move(png)});
     return argument(name);
   }
 

@@ -39,7 +39,8 @@ class GltfTextures {
   // warnings. Throws kInput where it is missing, cannot be read, or has options that change what it looks
   // like.
   std::size_t add_file(MtlImages& images, const MtlMap& map, std::vector<std::string>& warnings);
-  // A new image, named after the file of `model`. Returns its index.
+  // A new image, named after the file of `model`, or one that was added before with the same bytes. Returns
+  // its index.
   std::size_t add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
                          std::string_view suffix);
   // A reference to a texture of an image, which lies on the surface as `map` says.
@@ -64,7 +65,8 @@ class GltfTextures {
   AssetConversion& conversion_;
   Json textures_ = Json::list(), images_ = Json::list(), samplers_ = Json::list();
   NewImageNames names_;
-  std::map<std::string, std::size_t> of_files_;                    // images by path, and options with -mm
+  std::map<std::string, std::size_t> of_files_;  // images by path, and options with -mm
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_bytes_;  // new images by size and hash
   std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;  // textures by image and whether they clamp
   std::size_t info_count_ = 0;
   bool has_transforms_ = false;

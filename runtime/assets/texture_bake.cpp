@@ -1,6 +1,9 @@
 #include "assets/texture_bake.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -83,7 +86,80 @@ class GridSampler {
   const TextureGrid& grid_;
 };
 
+// What moves texture coordinates of `from` by one, moves those of `to` by its columns.
+using Matrix = std::array<std::array<double, 2>, 2>;
+Matrix steps_between(const TextureTransform& from, const TextureTransform& to) {
+  Matrix steps{};
+  const TextureCoordinates origin = transformed(to, untransformed(from, {0.0, 0.0}));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TextureCoordinates moved =
+        transformed(to, untransformed(from, {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0}));
+    steps[0][i] = moved.u - origin.u;
+    steps[1][i] = moved.v - origin.v;
+  }
+  return steps;
+}
+
+bool is_whole(const Matrix& steps) {
+  constexpr double kRounding = 1e-4;
+  for (const auto& row : steps)
+    for (const double step : row)
+      if (!(std::fabs(step - std::round(step)) < kRounding)) return false;
+  return true;
+}
+
+// Whether texture coordinates from 0 to 1 stay there.
+bool is_within_one(const TextureTransform& transform) {
+  constexpr double kRounding = 1e-6;
+  for (const double u : {0.0, 1.0})
+    for (const double v : {0.0, 1.0}) {
+      const TextureCoordinates at = transformed(transform, {u, v});
+      for (const double coordinate : {at.u, at.v})
+        if (!(coordinate > -kRounding && coordinate < 1.0 + kRounding)) return false;
+    }
+  return true;
+}
+
+// As fine as the finest of the textures.
+TextureGrid grid_of(const std::vector<PlacedTexture>& textures, const TextureTransform& place) {
+  constexpr double kMostTexels = 4096.0;
+  double width = 0.0, height = 0.0, most = kMostTexels;
+  for (const PlacedTexture& texture : textures) {
+    const Matrix steps = steps_between(place, texture.transform);
+    const auto own_width = static_cast<double>(texture.width),
+               own_height = static_cast<double>(texture.height);
+    most = std::max({most, own_width, own_height});
+    width = std::max({width, own_width * std::fabs(steps[0][0]), own_height * std::fabs(steps[1][0])});
+    height = std::max({height, own_width * std::fabs(steps[0][1]), own_height * std::fabs(steps[1][1])});
+  }
+  const auto texels = [most](double count) {
+    return static_cast<std::size_t>(std::clamp(std::round(count), 1.0, most));
+  };
+  return {texels(width), texels(height), place};
+}
+
 }  // namespace
+
+std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures) {
+  const auto area = [&](std::size_t i) {
+    const TextureTransform& transform = textures[i].transform;
+    return std::fabs(transform.scale[0] * transform.scale[1]);
+  };
+  std::vector<std::size_t> order(textures.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, area);
+  const auto repeats_in = [&](std::size_t i) {
+    return std::ranges::all_of(textures, [&](const PlacedTexture& other) {
+      return is_whole(steps_between(textures[i].transform, other.transform));
+    });
+  };
+  if (const auto found = std::ranges::find_if(order, repeats_in); found != order.end())
+    return CommonGrid{*found, grid_of(textures, textures[*found].transform), true};
+  const auto covers = [&](std::size_t i) { return area(i) > 0.0 && is_within_one(textures[i].transform); };
+  if (const auto found = std::ranges::find_if(order, covers); found != order.end())
+    return CommonGrid{*found, grid_of(textures, textures[*found].transform), false};
+  return std::nullopt;
+}
 
 ImagePixels baked(const ImagePixels& map, Transfer transfer, const TextureTransform& transform,
                   const TextureGrid& grid) {
