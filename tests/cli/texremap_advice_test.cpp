@@ -326,6 +326,14 @@ std::vector<Fault> faults() {
   return all;
 }
 
+// What `texremap convert` refuses, what it proposes, and the command with that.
+struct Refusal {
+  std::string proposal;
+  std::string refused;   // words
+  std::string repaired;  // instead of them
+  std::function<void(const AdviceSession&)> make;
+};
+
 }  // namespace
 
 TEST_CASE("texremap check: what each rule advises runs, and the rule is silent about the result",
@@ -360,6 +368,82 @@ TEST_CASE("texremap check: what each rule advises runs, and the rule is silent a
     CHECK(session.findings(fault.rule, fault.checked).empty());
   }
   for (const Rule& rule : rules()) CHECK(rules_with_a_fault.contains(std::string(rule.name)));
+}
+
+TEST_CASE("texremap convert: what a refusal proposes is what the command lacks", "[slow]") {
+  using S = const AdviceSession&;
+  const std::vector<Shape> color = {bumps, opposite, patches};
+  const auto specgloss = [color](S s, int size, const std::string& more) {
+    s.map("in/x.png", color);
+    s.map("in/y.png", {bumps, bumps, bumps, opposite}, "", OIIO::TypeUInt8, size, size);
+    s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},)"
+           R"("specularGlossinessTexture":{"index":1)" +
+               more + "}}}",
+           {"x.png", "y.png"});
+  };
+  const std::string asset = "convert in/a.gltf --to gltf -o out", plain_asset = R"("name":"plain")";
+  const std::string set = "convert in --from specular --to gltf -o out";
+  const std::string one =
+      "convert --from mitsuba/ward --to mitsuba/as --specular 0.04 -o out --roughness in/";
+  const auto legacy_set = [color](S s) {
+    s.map("in/a_Diffuse.png", color);
+    s.map("in/a_Specular.png", color);
+    s.map("in/a_Glossiness.png", {opposite});
+  };
+  const std::vector<Refusal> refusals = {
+      {"--resample", asset, asset + " --resample", [=](S s) { specgloss(s, 24, ""); }},
+      {"--bake", asset, asset + " --bake",
+       [=](S s) { specgloss(s, kAdviceSide, R"(,"extensions":{"KHR_texture_transform":{"scale":[2,2]}})"); }},
+      {"--force", asset, asset + " --force",
+       [=](S s) {
+         s.gltf(plain_asset);
+         require_success(s.texremap(asset));
+       }},
+      {"--root", asset, asset + " --root .",
+       [=](S s) {
+         s.map("x.png", color);
+         s.gltf(plain_asset, {"../x.png"});
+       }},
+      {"--profile core", asset + " --profile extensions", asset + " --profile core",
+       [](S s) {
+         s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{},"KHR_materials_specular":{}})");
+       }},
+      {"--format glb", "convert in/a.obj --to gltf -o out", "convert in/a.obj --to gltf -o out --format glb",
+       [](S s) {
+         s.put("in/a.mtl", "newmtl m\nKd 1 1 1\nKs 1 1 1\nNs 50\n");
+         s.put("in/a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+       }},
+      {"--layout separate", set + " --layout as-inputs", set + " --layout separate", legacy_set},
+      {"--layout separate", "convert in --from specular --to specular -o out --output-encoding roughness",
+       "convert in --from specular --to specular -o out --output-encoding roughness --layout separate",
+       legacy_set},
+      {"use uint16", one + "a.png --type half", one + "a.png --type uint16",
+       [](S s) { s.map("in/a.png", {bumps}); }},
+      {"--force", one + "../first/a.png", one + "../first/a.png --force",
+       [](S s) {
+         s.map("in/a.png", {bumps});
+         require_success(
+             s.texremap("convert --from mitsuba/ward --to mitsuba/as --specular 0.04 -o first "
+                        "--roughness in/a.png"));
+       }},
+      {"--recursive", "convert . --from mitsuba/ward --to mitsuba/as --specular 0.04 -o out",
+       "convert . --from mitsuba/ward --to mitsuba/as --specular 0.04 -o out --recursive",
+       [](S s) { s.map("in/a_Roughness.png", {bumps}); }},
+      {"--assets", "convert in --from specular --to gltf -o out", "convert in --to gltf -o out --assets",
+       [=](S s) { s.gltf(plain_asset); }},
+  };
+  for (const Refusal& refusal : refusals) {
+    INFO(refusal.refused);
+    const AdviceSession session;
+    refusal.make(session);
+    const ProcessResult refused = session.texremap(refusal.refused);
+    CHECK(refused.exit_code != 0);
+    INFO(refused.errors);
+    CHECK(refused.errors.find(refusal.proposal) != std::string::npos);
+    const ProcessResult repaired = session.texremap(refusal.repaired);
+    INFO(repaired.errors);
+    CHECK(repaired.exit_code == 0);
+  }
 }
 
 TEST_CASE("texremap check: an image that is part of an asset has no command, and no path of a copy") {
