@@ -213,7 +213,7 @@ void linear_color(const CheckedMaterial& material, const TargetReader*, const Ru
          "is a color in whole numbers that its file tags as linear; readers that ignore the tag (glTF does) "
          "decode it as sRGB",
          image_mend(
-             map,
+             material, map,
              "export it again as sRGB if its values are linear; if they are sRGB, as in most files, tag "
              "it as sRGB",
              "--attrib oiio:ColorSpace sRGB --eraseattrib oiio:Gamma --eraseattrib remap:color_space")});
@@ -319,7 +319,7 @@ void bad_values(const CheckedMaterial& material, const TargetReader*, const Rule
     if (what.empty()) return;
     findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, "",
                         "has values that are no " + std::string(role_name(use.role)) + ": " + what,
-                        image_mend(material.maps[use.map],
+                        image_mend(material, material.maps[use.map],
                                    has_range ? "move them into the range from 0 to 1"
                                              : "fill such texels from those around them",
                                    has_range ? "--fixnan box3 --clamp:min=0:max=1" : "--fixnan box3")});
@@ -363,7 +363,7 @@ void channel_order(const CheckedMaterial& material, const TargetReader*, const R
                           "metallic is read from " + channel_text(use) +
                               (varies ? ", which varies like roughness; " : ", which is constant; ") + name +
                               " is black and white like metallic",
-                          image_mend(map, "swap the channels",
+                          image_mend(material, map, "swap the channels",
                                      "--ch " + shell_word(swapped(texels, *material.channel(use), c)))});
       return;
     }
@@ -409,7 +409,7 @@ void normal_orientation(const CheckedMaterial& material, const TargetReader* rea
         {rule.name, Confidence::kLikely, map.shown, "G",
          "its slopes are those of a surface only as " + text(seen) + ", but " +
              (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or reader says ") + text(name),
-         image_mend(map, "invert its green channel", inversion_of(material, green))});
+         image_mend(material, map, "invert its green channel", inversion_of(material, green))});
   });
 }
 

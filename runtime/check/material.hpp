@@ -32,7 +32,7 @@ struct TexelSample {
 
 // Reads an image of any size in bands. Throws kInput, naming the file.
 TexelSample sample_of(const std::filesystem::path& file);
-// The same of a texture of an asset, which may also be an image that only conversions of assets can decode.
+// The same of a texture of an asset: WebP with alpha, too, which only conversions of assets read.
 TexelSample sample_of_texture(const std::filesystem::path& file);
 
 // A file of a material, or an image that is part of one.
@@ -83,6 +83,7 @@ struct CheckedMaterial {
   MaterialKind kind = MaterialKind::kFolder;
   std::string name;             // `assets/robot`, `model.glb: material "Paint"`
   std::filesystem::path place;  // the folder or the asset file
+  std::filesystem::path below;  // its folder as seen from the checked path; empty for that itself
   std::vector<MaterialMap> maps;
   std::vector<MaterialUse> uses;
   std::vector<MaterialUse> unread;  // that a factor of 0 turns off: nothing in them can be wrong

@@ -29,6 +29,7 @@ void add_asset(const fs::path& file, FoundMaterials& found) {
 void add_set(const fs::path& root, const FoundSet& set, FoundMaterials& found) {
   CheckedMaterial material;
   material.place = root / set.folder;
+  material.below = set.folder;
   material.name = shown(root / set.folder / set.name);
   for (const FoundMap& map : set.maps) {
     std::vector<Tile> files = map.tiles;
@@ -93,7 +94,12 @@ void add_folder(const fs::path& folder, const Naming& naming, FoundMaterials& fo
   const Discovery discovery = find_sets(folder, options);
   for (const WalkProblem& problem : discovery.problems) found.problems.push_back(problem.message);
   for (const FoundSet& set : discovery.sets) add_set(folder, set, found);
-  for (const fs::path& asset : discovery.others) add_asset(folder / asset, found);
+  for (const fs::path& asset : discovery.others) {
+    const std::size_t first = found.materials.size();
+    add_asset(folder / asset, found);
+    for (std::size_t i = first; i < found.materials.size(); ++i)
+      found.materials[i].below = asset.parent_path();
+  }
   remove_used_by_assets(found);
   add_neighbours(found);
   std::erase_if(found.materials, [](const CheckedMaterial& material) {

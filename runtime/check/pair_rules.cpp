@@ -109,7 +109,7 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
     add(map, Confidence::kLikely,
         "holds " + std::string(role_name(use.role)) +
             ", which is data, but its file is tagged sRGB: readers that follow the tag decode it",
-        image_mend(map, "read it as raw (non-color), or remove the tag",
+        image_mend(material, map, "read it as raw (non-color), or remove the tag",
                    "--attrib oiio:ColorSpace Linear --eraseattrib Exif:ColorSpace "
                    "--eraseattrib remap:color_space"));
   }
@@ -125,7 +125,7 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
       add(map, Confidence::kCertain,
           "holds what " + place_of(material, is_second ? a : b) +
               " holds, through the curve of sRGB: it was exported as a color",
-          image_mend(map, "export it again as linear (raw, non-color), or decode it",
+          image_mend(material, map, "export it again as linear (raw, non-color), or decode it",
                      "--colorconvert sRGB linear"));
     }
   });
@@ -141,42 +141,43 @@ void gloss_as_roughness(const CheckedMaterial& material, const TargetReader*, co
         const MaterialUse& wrong =
             b.role == Role::kRoughness && !b.is_neighbour && a.role != Role::kRoughness ? b : a;
         const MaterialUse& other = &wrong == &a ? b : a;
-        findings.push_back(
-            {rule.name, Confidence::kCertain, place_of(material, wrong), "",
-             "is read as " + std::string(role_name(wrong.role)) + ", but " + place_of(material, other) +
-                 " (" + std::string(role_name(other.role)) +
-                 ") says the opposite in every texel: one of them is inverted",
-             image_mend(material.maps[wrong.map], "keep the right one; if that is the other, invert this one",
-                        inversion_of(material, wrong))});
+        findings.push_back({rule.name, Confidence::kCertain, place_of(material, wrong), "",
+                            "is read as " + std::string(role_name(wrong.role)) + ", but " +
+                                place_of(material, other) + " (" + std::string(role_name(other.role)) +
+                                ") says the opposite in every texel: one of them is inverted",
+                            image_mend(material, material.maps[wrong.map],
+                                       "keep the right one; if that is the other, invert this one",
+                                       inversion_of(material, wrong))});
       });
 }
 
 void alpha_as_roughness(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
                         std::vector<MaterialFinding>& findings) {
-  for_width_pairs(material, [&](const MaterialUse& a, const MaterialUse& b, const Plane& first,
-                                const Plane& second) {
-    if (distance(first, second, [](double value) { return value; }) < kSame) return;
-    // Maps named alpha hold opacity, or a width.
-    for (const double power : {2.0, 0.5, 4.0, 0.25}) {
-      if (distance(first, second, [&](double value) { return std::pow(std::max(0.0, value), power); }) >=
-          kSame)
-        continue;
-      if (b.role == Role::kOpacity && power == 0.5) return;  // alpha beside its root, as it should be
-      const bool second_is_wrong = power < 1.0;
-      const MaterialUse &wrong = second_is_wrong ? b : a, &other = second_is_wrong ? a : b;
-      const double squared = second_is_wrong ? 1.0 / power : power;
-      findings.push_back(
-          {rule.name, Confidence::kCertain, place_of(material, wrong), "",
-           "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
-               (squared == 2.0 ? "square" : "fourth power") + " of what " + place_of(material, other) + " (" +
-               std::string(role_name(other.role)) + ") says: " +
-               (squared == 2.0 ? "it holds alpha, or its root was taken of the other"
-                               : "it was squared twice"),
-           image_mend(material.maps[wrong.map], "keep the other map, or take the root of this one (alpha)",
-                      root_of(material, wrong, other.role == Role::kOpacity, squared))});
-      return;
-    }
-  });
+  for_width_pairs(
+      material, [&](const MaterialUse& a, const MaterialUse& b, const Plane& first, const Plane& second) {
+        if (distance(first, second, [](double value) { return value; }) < kSame) return;
+        // Maps named alpha hold opacity, or a width.
+        for (const double power : {2.0, 0.5, 4.0, 0.25}) {
+          if (distance(first, second, [&](double value) { return std::pow(std::max(0.0, value), power); }) >=
+              kSame)
+            continue;
+          if (b.role == Role::kOpacity && power == 0.5) return;  // alpha beside its root, as it should be
+          const bool second_is_wrong = power < 1.0;
+          const MaterialUse &wrong = second_is_wrong ? b : a, &other = second_is_wrong ? a : b;
+          const double squared = second_is_wrong ? 1.0 / power : power;
+          findings.push_back({rule.name, Confidence::kCertain, place_of(material, wrong), "",
+                              "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
+                                  (squared == 2.0 ? "square" : "fourth power") + " of what " +
+                                  place_of(material, other) + " (" + std::string(role_name(other.role)) +
+                                  ") says: " +
+                                  (squared == 2.0 ? "it holds alpha, or its root was taken of the other"
+                                                  : "it was squared twice"),
+                              image_mend(material, material.maps[wrong.map],
+                                         "keep the other map, or take the root of this one (alpha)",
+                                         root_of(material, wrong, other.role == Role::kOpacity, squared))});
+          return;
+        }
+      });
 }
 
 void sizes(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
@@ -204,7 +205,7 @@ void sizes(const CheckedMaterial& material, const TargetReader*, const Rule& rul
         {rule.name, other_shape ? Confidence::kCertain : Confidence::kLikely, map.shown, "",
          "is " + text(b) + ", but " + largest->shown + " is " + text(a) +
              (other_shape ? ", of another shape" : ""),
-         image_mend(map, "export it again in this size, or resample it", "--resize " + text(a))});
+         image_mend(material, map, "export it again in this size, or resample it", "--resize " + text(a))});
   }
 }
 

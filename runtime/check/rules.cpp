@@ -111,7 +111,7 @@ void unite_conversions(const std::vector<MaterialFinding*>& findings) {
     if (mend.asset.empty()) continue;
     mend.command = "texremap convert " + shell_word(mend.asset) + " --to gltf";
     for (const std::string& option : options[mend.asset]) mend.command += " " + option;
-    mend.command += " -o mended";
+    mend.command += " -o " + shell_word(mend.output);
   }
 }
 
@@ -124,11 +124,19 @@ bool is_data_role(Role role) {
          role == Role::kHeight || role == Role::kCavity;
 }
 
-Mend image_mend(const MaterialMap& map, const std::string& words, const std::string& changes) {
+std::filesystem::path mended_folder(const CheckedMaterial& material) { return "mended" / material.below; }
+
+Mend image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
+                const std::string& changes) {
   if (map.is_embedded) return words + " (the image is part of the asset)";
-  // Without the first option colors would be multiplied by alpha, and divided again.
-  return {words, "mkdir -p mended && oiiotool --no-autopremult " + shell_word(map.file.string()) + " " +
-                     changes + " -o " + shell_word("mended/" + map.name)};
+  const std::filesystem::path home =
+      material.kind == MaterialKind::kFolder ? material.place : material.place.parent_path();
+  std::filesystem::path name = map.file.lexically_relative(home.empty() ? "." : home);
+  if (name.empty() || name == "." || *name.begin() == "..") name = map.name;
+  const std::filesystem::path result = mended_folder(material) / name;
+  // Without its first option oiiotool would multiply colors by alpha, and divide them again.
+  return {words, "mkdir -p " + shell_word(result.parent_path().string()) + " && oiiotool --no-autopremult " +
+                     shell_word(map.file.string()) + " " + changes + " -o " + shell_word(result.string())};
 }
 
 std::string numbers_for(const CheckedMaterial& material, const MaterialUse& use, double value,

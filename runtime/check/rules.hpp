@@ -31,8 +31,9 @@ struct Mend {
   std::string words;  // an edit; of a command what it does
   // Can be typed where texremap was started, and writes into the folder `mended`; empty for none.
   std::string command;
-  // Of a conversion of an asset: its file and options. unite_conversions() makes the command of all findings.
-  std::string asset = {};
+  // Of a conversion of an asset: its file, folder of results and options. unite_conversions() makes the
+  // command of all findings.
+  std::string asset = {}, output = {};
   std::vector<std::string> options = {};
 
   std::string text() const { return words + (command.empty() ? "" : ": " + command); }
@@ -86,9 +87,13 @@ void unite_conversions(const std::vector<MaterialFinding*>& findings);
 bool is_color_role(Role role);
 bool is_data_role(Role role);
 
+// Where a command writes what it makes of a file: `mended`, and there the same folders as in the checked
+// path.
+std::filesystem::path mended_folder(const CheckedMaterial& material);
 // Changes of the image of a map by oiiotool, in words and as its options. An image that is part of an asset
 // has no command: nothing puts it back.
-Mend image_mend(const MaterialMap& map, const std::string& words, const std::string& changes);
+Mend image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
+                const std::string& changes);
 // A number for each channel of a map: `value` for that of the use, `otherwise` for the others. All channels
 // of a map without names of channels are of the use, but for alpha.
 std::string numbers_for(const CheckedMaterial& material, const MaterialUse& use, double value,

@@ -49,6 +49,7 @@ Mend asset_mend(const CheckedMaterial& material, const std::string& words, std::
     options.emplace_back("--resample");
   Mend mend = words;
   mend.asset = material.place.string();
+  mend.output = mended_folder(material).string();
   mend.options = std::move(options);
   return mend;
 }

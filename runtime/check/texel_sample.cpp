@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "check/material.hpp"
+#include "core/input_file.hpp"
 #include "core/read_file.hpp"
-#include "remap/error.hpp"
 #include "texture/image_library.hpp"
 #include "texture/image_reader.hpp"
 
@@ -77,6 +78,12 @@ class SampledRows {
   bool has_floats_ = false;
 };
 
+bool is_webp(const std::filesystem::path& file) {
+  std::array<char, 12> head{};
+  const std::string_view text(head.data(), InputFile(file).read(0, head.data(), head.size()));
+  return text.starts_with("RIFF") && text.ends_with("WEBP");
+}
+
 constexpr std::uintmax_t kLargestTexture = std::uintmax_t{4} << 30;  // as much as a glb can say
 
 }  // namespace
@@ -101,11 +108,7 @@ TexelSample sample_of(const std::filesystem::path& file) {
 }
 
 TexelSample sample_of_texture(const std::filesystem::path& file) {
-  try {
-    return sample_of(file);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kInput) throw;
-  }
+  if (!is_webp(file)) return sample_of(file);
   const ImagePixels pixels = image_library().codec().decode(read_file(file, kLargestTexture), file.string());
   constexpr std::array<std::string_view, 4> kGrey = {"Y", "A"}, kColor = {"R", "G", "B", "A"};
   ImageLayout layout;

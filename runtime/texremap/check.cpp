@@ -29,7 +29,7 @@ namespace remap {
 // All members, for another process (packed_values.hpp). Names of rules are constants of both.
 template <typename Archive>
 void fields(Archive& archive, Mend& mend) {
-  archive(mend.words, mend.command, mend.asset, mend.options);
+  archive(mend.words, mend.command, mend.asset, mend.output, mend.options);
 }
 template <typename Archive>
 void fields(Archive& archive, MaterialFinding& finding) {

@@ -132,6 +132,22 @@ std::vector<Fault> faults() {
           s.map("in/x.png", {flat(1), bumps, patches}, "sRGB");
           s.gltf(kRoughTexture, {"x.png"});
         }},
+       {"srgb-data", "a map alone", Help::kCommand, "in/a_Roughness.png",
+        [](S s) { s.map("in/a_Roughness.png", {bumps}, "sRGB"); }},
+       {"srgb-data", "maps of one name in two folders", Help::kCommand, "in",
+        [](S s) {
+          for (const std::string folder : {"in/a", "in/b/c"}) {
+            fs::create_directories(s.path(folder));
+            s.map(folder + "/roughness.png", {bumps}, "sRGB");
+            s.map(folder + "/basecolor.png", {bumps, opposite, patches});
+          }
+        }},
+       {"srgb-data", "a texture of an asset in a folder of its own", Help::kCommand, "in",
+        [](S s) {
+          fs::create_directories(s.path("in/textures"));
+          s.map("in/textures/x.png", {flat(1), bumps, patches}, "sRGB");
+          s.gltf(kRoughTexture, {"textures/x.png"});
+        }},
        {"srgb-data", "a name that a shell would split", Help::kCommand, "in",
         [](S s) { s.map("in/it's a_Roughness.png", {bumps}, "sRGB"); }},
        {"srgb-data", "stored through the curve", Help::kCommand, "in",
@@ -213,6 +229,18 @@ std::vector<Fault> faults() {
           s.map("in/a_Roughness.png", {bumps}, "", OIIO::TypeUInt8, 64, 64);
           s.map("in/a_Metallic.png", {patches}, "", OIIO::TypeUInt8, 64, 32);
         }},
+       {"metallic-greys", "an asset", Help::kWords, "in/a.gltf",
+        [](S s) {
+          s.map("in/x.png", {flat(1), bumps, bumps});
+          s.gltf(kRoughTexture, {"x.png"});
+        }},
+       {"wrong-texture", "a set", Help::kWords, "in",
+        [](S s) { s.map("in/a_BaseColor.png", normals(false)); }},
+       {"duplicate-map", "an asset", Help::kWords, "in/a.mtl",
+        [](S s) {
+          s.map("in/x.png", {bumps});
+          s.put("in/a.mtl", "newmtl m\nmap_Pr x.png\nmap_Pm x.png\n");
+        }},
        {"metallic-greys", "a set", Help::kWords, "in", [](S s) { s.map("in/a_Metallic.png", {bumps}); }},
        {"factor-zero", "roughness", Help::kWords, "in/a.gltf",
         [](S s) {
@@ -280,6 +308,14 @@ std::vector<Fault> faults() {
        {"ignored-by-reader", "specular-glossiness", Help::kCommand, "in/a.gltf --for threejs",
         [](S s) {
           s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5}})");
+        }},
+       {"ignored-by-reader", "two assets of one name", Help::kCommand, "in --for threejs",
+        [](S s) {
+          s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5}})");
+          for (const std::string folder : {"in/b", "in/c"}) {
+            fs::create_directories(s.path(folder));
+            fs::copy(s.path("in/a.gltf"), s.path(folder + "/a.gltf"));
+          }
         }},
        {"ignored-by-reader", "maps of two sizes", Help::kCommand, "in/a.gltf --for threejs",
         [=](S s) {
