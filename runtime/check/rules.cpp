@@ -124,7 +124,9 @@ bool is_data_role(Role role) {
          role == Role::kHeight || role == Role::kCavity;
 }
 
-std::filesystem::path mended_folder(const CheckedMaterial& material) { return "mended" / material.below; }
+std::filesystem::path mended_folder(const CheckedMaterial& material) {
+  return material.below.empty() ? "mended" : "mended" / material.below;
+}
 
 Mend image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
                 const std::string& changes) {

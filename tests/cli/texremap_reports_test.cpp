@@ -150,6 +150,23 @@ TEST_CASE("reports: 06 formats without a place for a color space have no tag", "
   }
 }
 
+// texremap_advice_test.cpp types the command of every rule.
+TEST_CASE("reports: 09 the command for an asset converts it") {
+  const ReportSession session;
+  const auto advice = [&](const std::string& extension, const std::string& reader) {
+    session.put("in/a.gltf", R"({"asset":{"version":"2.0"},"materials":[{"pbrMetallicRoughness":)"
+                             R"({"metallicFactor":0},"extensions":{)" +
+                                 extension + "}}]}");
+    const ProcessResult run = session.texremap("check in/a.gltf --json --quiet --for " + reader);
+    CHECK(run.exit_code == 1);
+    return nlohmann::json::parse(run.output)["findings"].back()["command"].get<std::string>();
+  };
+  CHECK(advice(R"("KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.6})", "threejs") ==
+        "texremap convert in/a.gltf --to gltf -o mended");
+  CHECK(advice(R"("KHR_materials_specular":{"specularColorFactor":[1.5,1.5,1.5]})", "godot") ==
+        "texremap convert in/a.gltf --to gltf --fold-specular -o mended");
+}
+
 TEST_CASE("reports: 12 channels of one packed map are no duplicates") {
   const ReportSession session;
   session.image("orm.png", kReportColor, {{0, 1.0f}});
