@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "assets/gltf_bytes.hpp"
 #include "assets/gltf_container.hpp"
 #include "assets/gltf_extensions.hpp"
+#include "assets/gltf_images.hpp"
 #include "assets/json_spans.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
@@ -26,7 +28,16 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr double kUsualIor = 1.5;
 constexpr std::uintmax_t kLargestAsset = std::uintmax_t{4} << 30;  // as much as a glb can say
+
+// What a factor of 0 means for the texture that it multiplies.
+enum class Zero {
+  kLost,          // what the texture holds is lost
+  kOff,           // the material does without: nothing reads the texture
+  kOffByDefault,  // the same, and so it is where there is no factor
+  kLostByDefault,
+};
 
 // A place of a texture in a material.
 struct TexturePlace {
@@ -35,31 +46,92 @@ struct TexturePlace {
   std::string_view factor;   // the number or color that it is multiplied by
   Role role;
   Channels channels;
-  bool zero_is_default = false;  // without a factor the texture is multiplied by 0
+  Zero zero = Zero::kLost;
+  bool is_in_texture = false;  // the factor stands beside the index
 };
 
 constexpr std::array<TexturePlace, 16> kPlaces = {{
     {kCoreMember, "baseColorTexture", "baseColorFactor", Role::kBaseColor, Channels::kRgb},
     {kCoreMember, "metallicRoughnessTexture", "roughnessFactor", Role::kRoughness, Channels::kGreen},
-    {kCoreMember, "metallicRoughnessTexture", "metallicFactor", Role::kMetallic, Channels::kBlue},
-    {"", "normalTexture", "", Role::kNormal, Channels::kRgb},
-    {"", "occlusionTexture", "", Role::kOcclusion, Channels::kRed},
-    {"", "emissiveTexture", "emissiveFactor", Role::kEmissive, Channels::kRgb, true},
+    {kCoreMember, "metallicRoughnessTexture", "metallicFactor", Role::kMetallic, Channels::kBlue, Zero::kOff},
+    {"", "normalTexture", "scale", Role::kNormal, Channels::kRgb, Zero::kOff, true},
+    {"", "occlusionTexture", "strength", Role::kOcclusion, Channels::kRed, Zero::kOff, true},
+    {"", "emissiveTexture", "emissiveFactor", Role::kEmissive, Channels::kRgb, Zero::kOffByDefault},
     {kSpecGlossExtension, "diffuseTexture", "diffuseFactor", Role::kDiffuse, Channels::kRgb},
-    {kSpecGlossExtension, "specularGlossinessTexture", "specularFactor", Role::kSpecular, Channels::kRgb},
+    {kSpecGlossExtension, "specularGlossinessTexture", "specularFactor", Role::kSpecular, Channels::kRgb,
+     Zero::kOff},
     {kSpecGlossExtension, "specularGlossinessTexture", "glossinessFactor", Role::kGlossiness,
      Channels::kAlpha},
-    {kSpecularExtension, "specularTexture", "specularFactor", Role::kOther, Channels::kAlpha},
-    {kSpecularExtension, "specularColorTexture", "specularColorFactor", Role::kOther, Channels::kRgb},
-    {"KHR_materials_clearcoat", "clearcoatTexture", "clearcoatFactor", Role::kOther, Channels::kRed, true},
+    {kSpecularExtension, "specularTexture", "specularFactor", Role::kOther, Channels::kAlpha, Zero::kOff},
+    {kSpecularExtension, "specularColorTexture", "specularColorFactor", Role::kOther, Channels::kRgb,
+     Zero::kOff},
+    {"KHR_materials_clearcoat", "clearcoatTexture", "clearcoatFactor", Role::kOther, Channels::kRed,
+     Zero::kOffByDefault},
     {"KHR_materials_clearcoat", "clearcoatRoughnessTexture", "clearcoatRoughnessFactor", Role::kOther,
-     Channels::kGreen, true},
-    {"KHR_materials_sheen", "sheenColorTexture", "sheenColorFactor", Role::kOther, Channels::kRgb, true},
+     Channels::kGreen, Zero::kLostByDefault},
+    {"KHR_materials_sheen", "sheenColorTexture", "sheenColorFactor", Role::kOther, Channels::kRgb,
+     Zero::kOffByDefault},
     {"KHR_materials_sheen", "sheenRoughnessTexture", "sheenRoughnessFactor", Role::kOther, Channels::kAlpha,
-     true},
+     Zero::kLostByDefault},
     {"KHR_materials_transmission", "transmissionTexture", "transmissionFactor", Role::kTransmission,
-     Channels::kRed, true},
+     Channels::kRed, Zero::kOffByDefault},
 }};
+
+// What an extension of a material adds is as strong as one factor, and nothing without it.
+struct Strength {
+  std::string_view extension, factor;
+  double by_default = 0.0;
+};
+constexpr std::array<Strength, 9> kStrengths = {{
+    {"KHR_materials_anisotropy", "anisotropyStrength"},
+    {"KHR_materials_clearcoat", "clearcoatFactor"},
+    {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor"},
+    {"KHR_materials_dispersion", "dispersion"},
+    {"KHR_materials_iridescence", "iridescenceFactor"},
+    {"KHR_materials_sheen", "sheenColorFactor"},
+    {kSpecularExtension, "specularFactor", 1.0},
+    {"KHR_materials_transmission", "transmissionFactor"},
+    {"KHR_materials_volume", "thicknessFactor"},
+}};
+
+// A number, or up to three of a color; empty for none.
+std::vector<double> numbers_of(SpanValue value) {
+  if (const auto number = value.number()) return {*number};
+  std::vector<double> numbers;
+  for (const SpanValue entry : value.entries())
+    if (numbers.size() < 3) numbers.push_back(entry.number().value_or(1.0));
+  return numbers;
+}
+
+bool all_are(double wanted, const std::vector<double>& numbers) {
+  return std::ranges::all_of(numbers, [&](double number) { return number == wanted; });
+}
+
+// Whether nothing that the extension says can be seen, whatever its textures hold.
+bool is_off(std::string_view extension, SpanValue value) {
+  const auto strength = std::ranges::find(kStrengths, extension, &Strength::extension);
+  if (strength == kStrengths.end()) return false;
+  const std::vector<double> numbers = numbers_of(value[strength->factor]);
+  return numbers.empty() ? strength->by_default == 0.0 : all_are(0.0, numbers);
+}
+
+// Whether a material looks the same without the extension.
+bool changes_nothing(std::string_view extension, SpanValue extensions) {
+  const SpanValue value = extensions[extension];
+  if (extension == kIorExtension) return value["ior"].number().value_or(kUsualIor) == kUsualIor;
+  if (extension == kSpecularExtension)
+    return all_are(1.0, numbers_of(value["specularFactor"])) &&
+           all_are(1.0, numbers_of(value["specularColorFactor"])) && !value["specularTexture"] &&
+           !value["specularColorTexture"];
+  const auto transmits = [&](std::string_view name) {
+    return extensions[name].is(SpanKind::kObject) && !is_off(name, extensions[name]);
+  };
+  // A volume is seen through its surface.
+  if ((extension == "KHR_materials_volume" || extension == "KHR_materials_dispersion") &&
+      !transmits("KHR_materials_transmission") && !transmits("KHR_materials_diffuse_transmission"))
+    return true;
+  return is_off(extension, value);
+}
 
 // A whole file in memory.
 class WholeFile final : public ByteSource {
@@ -112,18 +184,26 @@ class GltfMaterials {
     material.name =
         shown(file_) + ": material " + (name ? "\"" + plain(*name) + "\"" : std::to_string(index));
     const SpanValue extensions = entry["extensions"];
+    const bool is_unlit = extensions[kUnlitExtension].is(SpanKind::kObject);
+    // Readers of these read no other extension of the surface.
+    const bool is_alone = is_unlit || extensions[kSpecGlossExtension].is(SpanKind::kObject);
     if (extensions.is(SpanKind::kObject))
       for (const SpanValue& extension : extensions.children())
-        material.gltf.extensions.insert(extension.key());
-    for (const TexturePlace& place : kPlaces) add_use(entry, place, material);
-    material.gltf.ior = extensions[kIorExtension]["ior"].number();
-    material.gltf.specular_factor = extensions[kSpecularExtension]["specularFactor"].number();
+        if (!(is_alone && is_reflecting(extension.key())) && !changes_nothing(extension.key(), extensions))
+          material.gltf.extensions.insert(extension.key());
+    for (const TexturePlace& place : kPlaces) add_use(entry, place, is_unlit, material);
+    material.gltf.metallic_factor = entry[kCoreMember]["metallicFactor"].number().value_or(1.0);
+    if (!is_alone) {
+      material.gltf.ior = extensions[kIorExtension]["ior"].number();
+      material.gltf.specular_factor = extensions[kSpecularExtension]["specularFactor"].number();
+    }
     const SpanValue transmission = extensions["KHR_materials_transmission"];
     material.gltf.transmits = transmission["transmissionFactor"].number().value_or(0.0) > 0.0;
+    material.gltf.has_volume = extensions["KHR_materials_volume"] || extensions["KHR_materials_dispersion"];
     found_.materials.push_back(std::move(material));
   }
 
-  void add_use(SpanValue entry, const TexturePlace& place, CheckedMaterial& material) {
+  void add_use(SpanValue entry, const TexturePlace& place, bool is_unlit, CheckedMaterial& material) {
     SpanValue object = entry;
     if (!place.object.empty())
       object = place.object == kCoreMember ? entry[kCoreMember] : entry["extensions"][place.object];
@@ -132,30 +212,53 @@ class GltfMaterials {
     if (!map) return;
     MaterialUse use{
         place.role, *map, place.channels, std::string(place.texture), {}, std::string(place.factor), false};
-    const SpanValue factor = place.factor.empty() ? SpanValue() : object[place.factor];
-    if (!factor && place.zero_is_default) use.factors = {0.0};
-    if (factor.number()) use.factors = {*factor.number()};
-    const std::vector<SpanValue> numbers = factor.entries();
-    for (std::size_t c = 0; c < std::min<std::size_t>(3, numbers.size()); ++c)
-      use.factors.push_back(numbers[c].number().value_or(1.0));
+    use.factors = numbers_of((place.is_in_texture ? object[place.texture] : object)[place.factor]);
+    const SpanValue transform = object[place.texture]["extensions"][kTransformExtension];
+    use.tex_coord =
+        transform["texCoord"].whole().value_or(object[place.texture]["texCoord"].whole().value_or(0));
+    if (transform) use.transform = transform.raw();
+    if (use.factors.empty() && place.zero == Zero::kLostByDefault) use.factors = {0.0};
     if (place.object == kSpecularExtension) material.gltf.has_specular_map = true;
-    material.uses.push_back(std::move(use));
+    const bool is_off_by_default = use.factors.empty() && place.zero == Zero::kOffByDefault;
+    const bool is_off_by_factor = !use.factors.empty() && all_are(0.0, use.factors) &&
+                                  (place.zero == Zero::kOff || place.zero == Zero::kOffByDefault);
+    // Nobody reads the texture, whatever its own factor is.
+    const bool is_unseen = (is_unlit && place.role != Role::kBaseColor) ||
+                           (!is_off_by_default && !is_off_by_factor && is_off(place.object, object));
+    if (is_unseen) use.factors.clear();
+    if (is_unseen) use.factor_name.clear();
+    const bool is_unread = is_unseen || is_off_by_default || is_off_by_factor;
+    (is_unread ? material.unread : material.uses).push_back(std::move(use));
   }
 
-  // The map of a texture, which is added to the material where it is new; none where nothing says where it
-  // is.
+  // The map of a texture, which is added to the material where it is new; none, with a problem, where no
+  // image is known. The images of a texture are those that a conversion reads.
   std::optional<std::size_t> map_of(std::size_t texture, CheckedMaterial& material) {
-    if (texture >= textures_.size()) return std::nullopt;
-    const std::optional<std::size_t> image = textures_[texture]["source"].whole();
-    if (!image || *image >= images_.size()) return std::nullopt;
-    const fs::path file = file_of_image(*image);
+    std::vector<MaterialMap> images;
+    if (texture < textures_.size())
+      for (const std::size_t image : images_of_texture(textures_[texture]))
+        if (image < images_.size()) images.push_back(map_of_image(image));
+    if (images.empty()) {
+      found_.problems.push_back(material.name + ": texture " + std::to_string(texture) +
+                                " has no image that is known here");
+      return std::nullopt;
+    }
+    MaterialMap map = std::move(images.front());
+    map.others.assign(std::make_move_iterator(images.begin() + 1), std::make_move_iterator(images.end()));
     for (std::size_t i = 0; i < material.maps.size(); ++i)
-      if (material.maps[i].file == file) return i;
-    const bool is_embedded = embedded_.contains(*image);
-    material.maps.push_back(
-        {file, is_embedded ? image_title(*image) : file.string(),
-         is_embedded ? images_[*image]["name"].text().value_or("") : file.filename().string(), nullptr});
+      if (material.maps[i].file == map.file) return i;
+    material.maps.push_back(std::move(map));
     return material.maps.size() - 1;
+  }
+
+  MaterialMap map_of_image(std::size_t image) {
+    const fs::path file = file_of_image(image);
+    MaterialMap map;
+    map.file = file;
+    map.is_embedded = embedded_.contains(image);
+    map.shown = map.is_embedded ? image_title(image) : file.string();
+    map.name = map.is_embedded ? images_[image]["name"].text().value_or("") : file.filename().string();
+    return map;
   }
 
   std::string image_title(std::size_t image) const {

@@ -37,6 +37,10 @@ bool is_constant(const Plane& plane) {
   return least == most;
 }
 
+bool all_are_constant(const std::vector<const Plane*>& planes) {
+  return std::ranges::all_of(planes, [](const Plane* plane) { return is_constant(*plane); });
+}
+
 NormalShares normals_of(const std::vector<const Plane*>& rgb) {
   return normal_shares({*rgb[0], *rgb[1], *rgb[2]});
 }
@@ -93,11 +97,81 @@ double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   return plane.empty() ? 0.0 : static_cast<double>(inside) / static_cast<double>(plane.size());
 }
 
+// The channels of a color, or of a use with one.
+std::vector<const Plane*> planes_of(const CheckedMaterial& material, const MaterialUse& use) {
+  const bool is_color =
+      use.role == Role::kBaseColor || use.role == Role::kDiffuse || use.role == Role::kNormal;
+  std::vector<const Plane*> planes = is_color ? material.colors(use) : std::vector<const Plane*>{};
+  if (const Plane* plane = material.plane(use); planes.empty() && plane != nullptr) planes = {plane};
+  return planes;
+}
+
+// Of constant channels.
+std::vector<float> values_of(const std::vector<const Plane*>& planes) {
+  std::vector<float> values;
+  for (const Plane* plane : planes) values.push_back(plane->front());
+  return values;
+}
+
+std::string list_text(const std::vector<float>& values) {
+  std::string text;
+  for (const float value : values) text += (text.empty() ? "" : ",") + number_text(rounded(value, 3));
+  return text;
+}
+
+// The tiles of one map differ in nothing else.
+bool is_tile_of(const CheckedMaterial& material, const MaterialUse& use, const MaterialUse& other) {
+  return material.maps[other.map].tile != 0 && use.role == other.role && use.channels == other.channels;
+}
+
+bool is_first_tile(const CheckedMaterial& material, const MaterialUse& use) {
+  const auto first = std::ranges::find_if(
+      material.uses, [&](const MaterialUse& other) { return is_tile_of(material, use, other); });
+  return &*first == &use;
+}
+
+// Whether all tiles have the value of this one in every texel: else no number replaces them.
+bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
+  const std::vector<float> own = values_of(planes_of(material, use));
+  return std::ranges::all_of(material.uses, [&](const MaterialUse& other) {
+    if (!is_tile_of(material, use, other)) return true;
+    const std::vector<const Plane*> planes = planes_of(material, other);
+    return all_are_constant(planes) && values_of(planes) == own;
+  });
+}
+
+// What replaces a map of one value. Factors and options take linear numbers.
+Mend number_mend(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
+  if (use.role == Role::kNormal) return "remove the map: it changes nothing";
+  const ImageLayout& layout = material.texels(use)->layout;
+  if (is_color_role(use.role) && is_integer(layout.channels.front().type) &&
+      layout.tagged_transfer.value_or(Transfer::kSrgb) == Transfer::kSrgb)
+    to_linear(Transfer::kSrgb, values);
+  for (std::size_t c = 0; c < std::min(values.size(), use.factors.size()); ++c)
+    values[c] *= static_cast<float>(use.factors[c]);
+  const std::string number = list_text(values);
+  if (material.kind == MaterialKind::kGltf)
+    return "set " + use.factor_name + " to " + number + " in " + material.place.filename().string() +
+           ", and remove the map";
+  return "remove the map, and use the number " + number + (values.size() > 1 ? " (linear)" : "") +
+         " instead of it";
+}
+
 // Whether a role of the material is read from a channel.
 bool is_used(const CheckedMaterial& material, std::size_t map, std::size_t channel) {
   return std::ranges::any_of(material.uses, [&](const MaterialUse& use) {
     return use.map == map && material.plane(use) == &material.texels(use)->channels[channel];
   });
+}
+
+// The channels of a map in the order in which two have changed places: `R=R,G=B,B=G`.
+std::string swapped(const TexelSample& texels, std::size_t a, std::size_t b) {
+  std::string text;
+  for (std::size_t c = 0; c < texels.channels.size(); ++c) {
+    const std::size_t source = c == a ? b : c == b ? a : c;
+    text += (c > 0 ? "," : "") + texels.layout.channels[c].name + "=" + texels.layout.channels[source].name;
+  }
+  return text;
 }
 
 // Runs `judge(use)` for the uses that are judged and whose image is read; the same map and channel once.
@@ -120,14 +194,15 @@ void linear_color(const CheckedMaterial& material, const TargetReader*, const Ru
     if (!is_color_role(use.role) || use.channels == Channels::kAlpha ||
         !is_integer(layout.channels.front().type) || layout.tagged_transfer != Transfer::kLinear)
       return;
-    const std::string option(use.role == Role::kBaseColor ? "base_color" : role_name(use.role));
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "",
          "is a color in whole numbers that its file tags as linear; readers that ignore the tag (glTF does) "
          "decode it as sRGB",
-         "store it as sRGB: texremap convert " + shell_word(material.place.string()) +
-             " --from gltf --to gltf --color-space " + option + "=linear --output-color-space " + option +
-             "=srgb -o mended; or remove the tag, if the values are sRGB"});
+         image_mend(
+             material, map,
+             "export it again as sRGB if its values are linear; if they are sRGB, as in most files, tag "
+             "it as sRGB",
+             "--attrib oiio:ColorSpace sRGB --eraseattrib oiio:Gamma --eraseattrib remap:color_space")});
   });
 }
 
@@ -144,8 +219,7 @@ void specgloss_channels(const CheckedMaterial& material, const TargetReader*, co
         {rule.name, Confidence::kCertain, map.shown, "A",
          "has " + std::to_string(count) + (count == 1 ? " channel" : " channels") + " and no alpha, which " +
              std::string(role_name(use.role)) + " is read from: it is 1 everywhere",
-         "add it as alpha: oiiotool " + shell_word(map.file.string()) +
-             " glossiness.png --chappend --chnames R,G,B,A -o mended/" + shell_word(map.name)});
+         "export it again with four channels, " + std::string(role_name(use.role)) + " in alpha"});
   });
 }
 
@@ -156,26 +230,28 @@ void constant_map(const CheckedMaterial& material, const TargetReader*, const Ru
     const bool is_color =
         use.role == Role::kBaseColor || use.role == Role::kDiffuse || use.role == Role::kNormal;
     if (!is_color && !is_roughness(use.role)) return;
-    std::vector<const Plane*> planes = is_color ? material.colors(use) : std::vector<const Plane*>{};
-    if (const Plane* plane = material.plane(use); planes.empty() && plane != nullptr) planes = {plane};
+    const std::vector<const Plane*> planes = planes_of(material, use);
     const int alpha = material.texels(use)->layout.alpha_channel;
     if (is_color && alpha >= 0 &&
         !is_constant(material.texels(use)->channels[static_cast<std::size_t>(alpha)]))
       return;                  // the color of a label that alpha cuts out
     constexpr int kSmall = 4;  // of images that stand for a number on purpose
     const ImageLayout& layout = material.texels(use)->layout;
-    if (planes.empty() || std::min(layout.width, layout.height) <= kSmall ||
-        !std::ranges::all_of(planes, [](const Plane* plane) { return is_constant(*plane); }))
+    if (planes.empty() || std::min(layout.width, layout.height) <= kSmall || !all_are_constant(planes))
       return;
-    std::string value;
-    for (const Plane* plane : planes)
-      value += (value.empty() ? "" : ", ") + number_text(rounded(plane->front(), 3));
-    findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, channel_text(use),
-                        std::string(role_name(use.role)) + " is " + value + " in every texel",
-                        use.role == Role::kNormal ? "remove the map: it changes nothing"
-                                                  : "use the number as the factor of the material and remove "
-                                                    "the map (for a folder: texremap convert "
-                                                    "DIR takes numbers, as --base-color VALUE)"});
+    // A packed map is there for its other channels.
+    if (!std::ranges::all_of(material.uses, [&](const MaterialUse& other) {
+          return other.map != use.map || all_are_constant(planes_of(material, other));
+        }))
+      return;
+    const MaterialMap& map = material.maps[use.map];
+    if (map.tile != 0 && (!is_first_tile(material, use) || !tiles_are_equal(material, use))) return;
+    const std::string value = list_text(values_of(planes));
+    findings.push_back({rule.name, map.tile != 0 ? Confidence::kPossible : Confidence::kCertain, map.shown,
+                        channel_text(use),
+                        std::string(role_name(use.role)) + " is " + value + " in every texel" +
+                            (map.tile != 0 ? " of every tile" : ""),
+                        number_mend(material, use, values_of(planes))});
   });
 }
 
@@ -206,7 +282,7 @@ void banding(const CheckedMaterial& material, const TargetReader*, const Rule& r
         {rule.name, Confidence::kLikely, material.maps[use.map].shown, channel_text(use),
          percent(share) + " of its texels vary in " + std::to_string(levels.size()) + " steps up to " +
              std::to_string(last) + " / 255, each of which widens highlights by 20 % and more",
-         "export it with 16 bits or as half float (for copies by texremap: --type uint16 or --format exr)"});
+         "export it again with 16 bits or as half float; the bits that it lacks are in no conversion of it"});
   });
 }
 
@@ -229,8 +305,10 @@ void bad_values(const CheckedMaterial& material, const TargetReader*, const Rule
     if (what.empty()) return;
     findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, "",
                         "has values that are no " + std::string(role_name(use.role)) + ": " + what,
-                        "texremap convert " + shell_word(material.place.string()) +
-                            " --bad-texels clamp (with --from and --to) moves them into the range"});
+                        image_mend(material, material.maps[use.map],
+                                   has_range ? "move them into the range from 0 to 1"
+                                             : "fill such texels from those around them",
+                                   has_range ? "--fixnan box3 --clamp:min=0:max=1" : "--fixnan box3")});
   });
 }
 
@@ -246,9 +324,8 @@ void metallic_greys(const CheckedMaterial& material, const TargetReader*, const 
     findings.push_back({rule.name, Confidence::kPossible, material.maps[use.map].shown, channel_text(use),
                         "metallic is between 0.15 and 0.85 over areas of " + percent(share) +
                             " of the map; materials are metal or not, and greys belong to edges",
-                        "if it was made from a specular map, make it again from the original maps: texremap "
-                        "convert FOLDER --from "
-                        "gltf-specgloss --to gltf -o mended"});
+                        "if it was made from a specular map, convert the original maps of the specular "
+                        "workflow again"});
   });
 }
 
@@ -268,13 +345,12 @@ void channel_order(const CheckedMaterial& material, const TargetReader*, const R
       if (!varies && is_used(material, use.map, c)) continue;
       const std::string& name = texels.layout.channels[c].name;
       const MaterialMap& map = material.maps[use.map];
-      findings.push_back(
-          {rule.name, Confidence::kLikely, map.shown, channel_text(use),
-           "metallic is read from " + channel_text(use) +
-               (varies ? ", which varies like roughness; " : ", which is constant; ") + name +
-               " is black and white like metallic",
-           "say which channel is which (--metallic " + shell_word(map.name + ":" + name) +
-               " with single files, or a rule of a --names file), or swap the channels: oiiotool --ch"});
+      findings.push_back({rule.name, Confidence::kLikely, map.shown, channel_text(use),
+                          "metallic is read from " + channel_text(use) +
+                              (varies ? ", which varies like roughness; " : ", which is constant; ") + name +
+                              " is black and white like metallic",
+                          image_mend(material, map, "swap the channels",
+                                     "--ch " + shell_word(swapped(texels, *material.channel(use), c)))});
       return;
     }
   });
@@ -304,6 +380,8 @@ void normal_orientation(const CheckedMaterial& material, const TargetReader* rea
     const Orientation name = claimed(material, map, reader);
     if (rgb.empty() || name == Orientation::kUnknown || normals_of(rgb).unit < 0.8) return;
     const TexelSample& texels = *material.texels(use);
+    MaterialUse green = use;
+    green.channels = Channels::kGreen;
     const Curl curl = curl_of(rgb, texels.columns, texels.rows);
     constexpr double kClear = 2.0;  // noise and rounding add the same to both
     const Orientation seen = curl.down > kClear * curl.up   ? Orientation::kOpenGl
@@ -317,8 +395,7 @@ void normal_orientation(const CheckedMaterial& material, const TargetReader* rea
         {rule.name, Confidence::kLikely, map.shown, "G",
          "its slopes are those of a surface only as " + text(seen) + ", but " +
              (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or reader says ") + text(name),
-         "turn green: oiiotool " + shell_word(map.file.string()) + " --mulc 1,-1,1 --addc 0,1,0 -o mended/" +
-             shell_word(map.name)});
+         image_mend(material, map, "invert its green channel", inversion_of(material, green))});
   });
 }
 

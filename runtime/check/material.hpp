@@ -32,13 +32,18 @@ struct TexelSample {
 
 // Reads an image of any size in bands. Throws kInput, naming the file.
 TexelSample sample_of(const std::filesystem::path& file);
+// The same of a texture of an asset: WebP with alpha, too, which only conversions of assets read.
+TexelSample sample_of_texture(const std::filesystem::path& file);
 
 // A file of a material, or an image that is part of one.
 struct MaterialMap {
   std::filesystem::path file;
-  std::string shown;                          // in messages: the file, or `model.glb: image 2 (metal)`
-  std::string name;                           // what may tell of a convention: the name of the file
-  std::shared_ptr<const TexelSample> texels;  // null where the image cannot be read
+  std::string shown;                               // in messages: the file, or `model.glb: image 2 (metal)`
+  std::string name;                                // what may tell of a convention: the name of the file
+  std::shared_ptr<const TexelSample> texels = {};  // null where the image cannot be read
+  bool is_embedded = false;                        // `file` is a copy that goes when the program ends
+  int tile = 0;                                    // number; 0 for a map without tiles
+  std::vector<MaterialMap> others = {};  // other images of the texture: the first that can be read counts
 };
 
 // One role of a material.
@@ -50,15 +55,20 @@ struct MaterialUse {
   std::vector<double> factors;  // that an asset multiplies the map by; empty for none
   std::string factor_name;      // `metallicFactor`
   bool is_neighbour = false;    // of another material in the same folder: compared with, not judged
+  // Where the map lies on the surface (glTF).
+  std::size_t tex_coord = 0;
+  std::string transform = {};  // KHR_texture_transform as it stands; empty for none
 };
 
 // What a material of glTF says besides its maps (names and defaults of glTF 2.0 and its extensions).
 struct GltfStatements {
-  std::set<std::string> extensions;
+  std::set<std::string> extensions;  // that change what the material looks like
+  double metallic_factor = 1.0;
   std::optional<double> ior;              // KHR_materials_ior
   std::optional<double> specular_factor;  // KHR_materials_specular
   bool has_specular_map = false;
   bool transmits = false;
+  bool has_volume = false;  // or dispersion, whose index of refraction cannot go into core
 };
 
 // A material of a Wavefront MTL file.
@@ -73,19 +83,26 @@ struct CheckedMaterial {
   MaterialKind kind = MaterialKind::kFolder;
   std::string name;             // `assets/robot`, `model.glb: material "Paint"`
   std::filesystem::path place;  // the folder or the asset file
+  std::filesystem::path below;  // its folder as seen from the checked path; empty for that itself
   std::vector<MaterialMap> maps;
   std::vector<MaterialUse> uses;
+  std::vector<MaterialUse> unread;  // that a factor of 0 turns off: nothing in them can be wrong
   GltfStatements gltf;
   std::vector<std::string> failures;  // statements of MTL that a conversion refuses
   std::vector<Exponent> exponents;    // of all materials of an MTL file, with the first of them
 
   // Reads the texels of all maps. Returns a message for each image that cannot be read.
   std::vector<std::string> read_maps();
-  // The values of a use with one channel, as stored; null for a color, and where the image lacks the channel.
+  // The channel of the image that a use with one channel reads; none for a color, and where the image lacks
+  // it.
+  std::optional<std::size_t> channel(const MaterialUse& use) const;
+  // Its values, as stored.
   const std::vector<float>* plane(const MaterialUse& use) const;
   // The three channels of a use; empty where the image has fewer.
   std::vector<const std::vector<float>*> colors(const MaterialUse& use) const;
   const TexelSample* texels(const MaterialUse& use) const { return maps[use.map].texels.get(); }
+  // Whether every texel is metal, which has the base color as its reflectance and transmits nothing.
+  bool is_all_metal() const;
   // Whether two uses have texels at the same places.
   bool same_size(const MaterialUse& a, const MaterialUse& b) const;
 };

@@ -29,15 +29,17 @@ void add_asset(const fs::path& file, FoundMaterials& found) {
 void add_set(const fs::path& root, const FoundSet& set, FoundMaterials& found) {
   CheckedMaterial material;
   material.place = root / set.folder;
+  material.below = set.folder;
   material.name = shown(root / set.folder / set.name);
   for (const FoundMap& map : set.maps) {
-    std::vector<fs::path> files;
-    for (const Tile& tile : map.tiles) files.push_back(tile.path);
-    if (files.empty()) files.push_back(map.path);
-    for (const fs::path& file : files) {
+    std::vector<Tile> files = map.tiles;
+    if (files.empty()) files.push_back({0, map.path});
+    for (const Tile& tile : files) {
       for (const ChannelMeaning& entry : map.meaning)
         material.uses.push_back({entry.role, material.maps.size(), entry.channels, "", {}, "", false});
-      material.maps.push_back({root / file, (root / file).string(), file.filename().string(), nullptr});
+      const fs::path file = root / tile.path;
+      material.maps.push_back(
+          {.file = file, .shown = file.string(), .name = file.filename().string(), .tile = tile.number});
     }
   }
   found.materials.push_back(std::move(material));
@@ -74,7 +76,10 @@ void remove_used_by_assets(FoundMaterials& found) {
   std::set<fs::path> used;
   for (const CheckedMaterial& material : found.materials)
     if (material.kind != MaterialKind::kFolder)
-      for (const MaterialMap& map : material.maps) used.insert(map.file.lexically_normal());
+      for (const MaterialMap& map : material.maps) {
+        used.insert(map.file.lexically_normal());
+        for (const MaterialMap& other : map.others) used.insert(other.file.lexically_normal());
+      }
   for (CheckedMaterial& material : found.materials)
     if (material.kind == MaterialKind::kFolder)
       std::erase_if(material.uses, [&](const MaterialUse& use) {
@@ -89,7 +94,12 @@ void add_folder(const fs::path& folder, const Naming& naming, FoundMaterials& fo
   const Discovery discovery = find_sets(folder, options);
   for (const WalkProblem& problem : discovery.problems) found.problems.push_back(problem.message);
   for (const FoundSet& set : discovery.sets) add_set(folder, set, found);
-  for (const fs::path& asset : discovery.others) add_asset(folder / asset, found);
+  for (const fs::path& asset : discovery.others) {
+    const std::size_t first = found.materials.size();
+    add_asset(folder / asset, found);
+    for (std::size_t i = first; i < found.materials.size(); ++i)
+      found.materials[i].below = asset.parent_path();
+  }
   remove_used_by_assets(found);
   add_neighbours(found);
   std::erase_if(found.materials, [](const CheckedMaterial& material) {
@@ -119,7 +129,7 @@ FoundMaterials materials_of(const fs::path& path, const Naming& naming) {
     material.name = shown(path);
     for (const ChannelMeaning& entry : readings.front().meaning)
       material.uses.push_back({entry.role, 0, entry.channels, "", {}, "", false});
-    material.maps.push_back({path, path.string(), path.filename().string(), nullptr});
+    material.maps.push_back({path, path.string(), path.filename().string()});
     found.materials.push_back(std::move(material));
   }
   return found;

@@ -32,11 +32,44 @@ constexpr std::array<MapLine, 11> kMapLines = {{{"map_kd", Role::kDiffuse},
                                                 {"norm", Role::kNormal},
                                                 {"map_kn", Role::kNormal}}};
 
-void add_map(const std::string& name, const MapLine& line, Role role, CheckedMaterial& material) {
-  const fs::path path = material.place.parent_path() / fs::path(name).relative_path();
-  material.uses.push_back(
-      {role, material.maps.size(), Channels::kWhole, std::string(line.word), {}, "", false});
-  material.maps.push_back({path, path.string(), path.filename().string(), nullptr});
+Channels channels_of(const MtlMap& map) {
+  switch (map.channel) {
+    case 'r':
+      return Channels::kRed;
+    case 'g':
+      return Channels::kGreen;
+    case 'b':
+      return Channels::kBlue;
+    case 'm':
+      return Channels::kAlpha;
+    default:
+      return Channels::kWhole;
+  }
+}
+
+// Whether anything reads what a material says of its highlight: not without illumination of highlights, and
+// not where Ks is 0, which its map multiplies.
+bool has_highlight(const MtlDocument& document, const MtlBlock& block) {
+  constexpr double kFirstWithHighlight = 2.0;  // of illum
+  bool is_lit = true, is_black = false;
+  for (std::size_t i = block.first; i < block.last; ++i) {
+    const MtlStatement& statement = document.statements()[i];
+    const std::string word = document.word(statement);
+    if (word != "illum" && word != "ks") continue;
+    std::vector<double> numbers;
+    for (const TextSpan& span : document.words(statement))
+      numbers.push_back(mtl_number(document.raw(span)).value_or(kFirstWithHighlight));
+    if (word == "ks") is_black = std::ranges::all_of(numbers, [](double number) { return number == 0.0; });
+    if (word == "illum" && !numbers.empty()) is_lit = numbers.front() >= kFirstWithHighlight;
+  }
+  return is_lit && !is_black;
+}
+
+void add_map(const MtlMap& map, std::string_view word, Role role, bool is_read, CheckedMaterial& material) {
+  const fs::path path = material.place.parent_path() / fs::path(map.file).relative_path();
+  std::vector<MaterialUse>& uses = is_read ? material.uses : material.unread;
+  uses.push_back({role, material.maps.size(), channels_of(map), std::string(word), {}, "", false});
+  material.maps.push_back({path, path.string(), path.filename().string()});
 }
 
 // What a conversion refuses or changes.
@@ -81,16 +114,18 @@ void add_mtl(const fs::path& file, FoundMaterials& found) {
     material.place = file;
     material.name = shown(file) + ": " + name;
     add_failures(document, block, maker, material);
+    const bool shines = maker != MtlMaker::kText || has_highlight(document, block);
     for (std::size_t i = block.first; i < block.last; ++i) {
       const MtlStatement& statement = document.statements()[i];
       const std::string word = document.word(statement);
       const std::vector<TextSpan> words = document.words(statement);
-      if (maker == MtlMaker::kText && word == "ns" && !words.empty())
+      if (maker == MtlMaker::kText && word == "ns" && !words.empty() && shines)
         if (const auto value = mtl_number(document.raw(words.front()))) exponents.push_back({name, *value});
       const auto line = std::ranges::find(kMapLines, word, &MapLine::word);
       if (line == kMapLines.end()) continue;
-      if (const std::string map = read_mtl_map(document, i).file; !map.empty())
-        add_map(map, *line, role_of(*line, maker), material);
+      if (const MtlMap map = read_mtl_map(document, i); !map.file.empty())
+        add_map(map, word, role_of(*line, maker),
+                map.strength != 0.0 && (shines || line->role != Role::kSpecular), material);
     }
   }
   if (first < found.materials.size()) found.materials[first].exponents = std::move(exponents);

@@ -75,6 +75,19 @@ void for_width_pairs(const CheckedMaterial& material, Judge judge) {
     }
 }
 
+// Options of oiiotool that take the root of the roughness that a map holds in its way. `power` is of the
+// other map, which holds alpha where it is called so.
+std::string root_of(const CheckedMaterial& material, const MaterialUse& use, bool is_other_alpha,
+                    double power) {
+  const auto raised = [&](double exponent) { return "--powc " + numbers_for(material, use, exponent, 1.0); };
+  if (use.role == Role::kOpacity) return raised(2.0 / power);  // alpha, which stays a square
+  const std::string root = raised((is_other_alpha ? 0.5 : 1.0) / power), turn = inversion_of(material, use);
+  if (use.role == Role::kGlossiness) return turn + " " + root + " " + turn;
+  if (use.role == Role::kGlossinessSquared)
+    return raised(0.5) + " " + turn + " " + root + " " + turn + " " + raised(2.0);
+  return root;
+}
+
 }  // namespace
 
 // By its tag, or by another map of the set that holds the same without the curve.
@@ -82,7 +95,7 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
                std::vector<MaterialFinding>& findings) {
   std::set<std::filesystem::path> seen;
   const auto add = [&](const MaterialMap& map, Confidence confidence, const std::string& what,
-                       const std::string& mend) {
+                       const Mend& mend) {
     if (seen.insert(map.file).second) findings.push_back({rule.name, confidence, map.shown, "", what, mend});
   };
   for (const MaterialUse& use : material.uses) {
@@ -96,9 +109,9 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
     add(map, Confidence::kLikely,
         "holds " + std::string(role_name(use.role)) +
             ", which is data, but its file is tagged sRGB: readers that follow the tag decode it",
-        "remove the tag: oiiotool " + shell_word(map.file.string()) +
-            " --attrib oiio:ColorSpace Linear -o mended/" + shell_word(map.name) +
-            " (or read it as raw, non-color)");
+        image_mend(material, map, "read it as raw (non-color), or remove the tag",
+                   "--attrib oiio:ColorSpace Linear --eraseattrib Exif:ColorSpace "
+                   "--eraseattrib remap:color_space"));
   }
   for_width_pairs(material, [&](const MaterialUse& a, const MaterialUse& b, const Plane&, const Plane&) {
     const Plane &first = *material.plane(a), &second = *material.plane(b);
@@ -112,8 +125,8 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
       add(map, Confidence::kCertain,
           "holds what " + place_of(material, is_second ? a : b) +
               " holds, through the curve of sRGB: it was exported as a color",
-          "export it again as linear (raw, non-color), or: oiiotool " + shell_word(map.file.string()) +
-              " --colorconvert sRGB linear -o mended/" + shell_word(map.name));
+          image_mend(material, map, "export it again as linear (raw, non-color), or decode it",
+                     "--colorconvert sRGB linear"));
     }
   });
 }
@@ -128,12 +141,13 @@ void gloss_as_roughness(const CheckedMaterial& material, const TargetReader*, co
         const MaterialUse& wrong =
             b.role == Role::kRoughness && !b.is_neighbour && a.role != Role::kRoughness ? b : a;
         const MaterialUse& other = &wrong == &a ? b : a;
-        findings.push_back(
-            {rule.name, Confidence::kCertain, place_of(material, wrong), "",
-             "is read as " + std::string(role_name(wrong.role)) + ", but " + place_of(material, other) +
-                 " (" + std::string(role_name(other.role)) +
-                 ") says the opposite in every texel: one of them is inverted",
-             "keep the right one; where the first holds gloss: " + width_command(material, "glossiness")});
+        findings.push_back({rule.name, Confidence::kCertain, place_of(material, wrong), "",
+                            "is read as " + std::string(role_name(wrong.role)) + ", but " +
+                                place_of(material, other) + " (" + std::string(role_name(other.role)) +
+                                ") says the opposite in every texel: one of them is inverted",
+                            image_mend(material, material.maps[wrong.map],
+                                       "keep the right one; if that is the other, invert this one",
+                                       inversion_of(material, wrong))});
       });
 }
 
@@ -151,14 +165,16 @@ void alpha_as_roughness(const CheckedMaterial& material, const TargetReader*, co
           const bool second_is_wrong = power < 1.0;
           const MaterialUse &wrong = second_is_wrong ? b : a, &other = second_is_wrong ? a : b;
           const double squared = second_is_wrong ? 1.0 / power : power;
-          findings.push_back(
-              {rule.name, Confidence::kCertain, place_of(material, wrong), "",
-               "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
-                   (squared == 2.0 ? "square" : "fourth power") + " of what " + place_of(material, other) +
-                   " (" + std::string(role_name(other.role)) + ") says: " +
-                   (squared == 2.0 ? "it holds alpha, or its root was taken of the other"
-                                   : "it was squared twice"),
-               "keep the other map, or read this one as alpha: " + width_command(material, "alpha")});
+          findings.push_back({rule.name, Confidence::kCertain, place_of(material, wrong), "",
+                              "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
+                                  (squared == 2.0 ? "square" : "fourth power") + " of what " +
+                                  place_of(material, other) + " (" + std::string(role_name(other.role)) +
+                                  ") says: " +
+                                  (squared == 2.0 ? "it holds alpha, or its root was taken of the other"
+                                                  : "it was squared twice"),
+                              image_mend(material, material.maps[wrong.map],
+                                         "keep the other map, or take the root of this one (alpha)",
+                                         root_of(material, wrong, other.role == Role::kOpacity, squared))});
           return;
         }
       });
@@ -167,23 +183,29 @@ void alpha_as_roughness(const CheckedMaterial& material, const TargetReader*, co
 void sizes(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
            std::vector<MaterialFinding>& findings) {
   if (material.kind != MaterialKind::kFolder) return;  // textures of assets have sizes of their own
-  const MaterialMap* first = nullptr;
+  const auto area = [](const MaterialMap& map) {
+    return map.texels == nullptr
+               ? 0LL
+               : static_cast<long long>(map.texels->layout.width) * map.texels->layout.height;
+  };
   for (const MaterialMap& map : material.maps) {
+    // Tiles may differ in size.
+    const MaterialMap* largest = nullptr;
+    for (const MaterialMap& other : material.maps)
+      if (other.tile == map.tile && (largest == nullptr || area(other) > area(*largest))) largest = &other;
     if (map.texels == nullptr) continue;
-    if (first == nullptr) first = &map;
-    const ImageLayout &a = first->texels->layout, &b = map.texels->layout;
+    const ImageLayout &a = largest->texels->layout, &b = map.texels->layout;
     if (a.width == b.width && a.height == b.height) continue;
     const bool other_shape =
         static_cast<long long>(a.width) * b.height != static_cast<long long>(b.width) * a.height;
     const auto text = [](const ImageLayout& layout) {
       return std::to_string(layout.width) + "x" + std::to_string(layout.height);
     };
-    findings.push_back({rule.name, other_shape ? Confidence::kCertain : Confidence::kLikely, map.shown, "",
-                        "is " + text(b) + ", but " + first->shown + " is " + text(a) +
-                            (other_shape ? ", of another shape" : ""),
-                        "texremap convert " + shell_word(material.place.string()) +
-                            " --resample (with --from and --to) enlarges the smaller maps"});
-    return;
+    findings.push_back(
+        {rule.name, other_shape ? Confidence::kCertain : Confidence::kLikely, map.shown, "",
+         "is " + text(b) + ", but " + largest->shown + " is " + text(a) +
+             (other_shape ? ", of another shape" : ""),
+         image_mend(material, map, "export it again in this size, or resample it", "--resize " + text(a))});
   }
 }
 
@@ -193,7 +215,9 @@ void duplicate_map(const CheckedMaterial& material, const TargetReader*, const R
   for (std::size_t i = 0; i < material.uses.size(); ++i)
     for (std::size_t k = i + 1; k < material.uses.size(); ++k) {
       const MaterialUse &a = material.uses[i], &b = material.uses[k];
-      if (a.map == b.map || a.role == b.role || a.is_neighbour || b.is_neighbour || !material.same_size(a, b))
+      const bool one_file = material.maps[a.map].file == material.maps[b.map].file;
+      if (a.map == b.map || (one_file && material.channel(a) != material.channel(b)) || a.role == b.role ||
+          a.is_neighbour || b.is_neighbour || !material.same_size(a, b))
         continue;
       if (is_color(a.role) && is_color(b.role)) continue;
       const Plane *first = material.plane(a), *second = material.plane(b);

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <optional>
 #include <set>
+
+#include "core/number_text.hpp"
 
 namespace remap {
 namespace {
@@ -99,6 +103,19 @@ std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const 
   return findings;
 }
 
+void unite_conversions(const std::vector<MaterialFinding*>& findings) {
+  std::map<std::string, std::set<std::string>> options;
+  for (const MaterialFinding* finding : findings)
+    options[finding->mend.asset].insert(finding->mend.options.begin(), finding->mend.options.end());
+  for (MaterialFinding* finding : findings) {
+    Mend& mend = finding->mend;
+    if (mend.asset.empty()) continue;
+    mend.command = "texremap convert " + shell_word(mend.asset) + " --to gltf";
+    for (const std::string& option : options[mend.asset]) mend.command += " " + option;
+    mend.command += " -o " + shell_word(mend.output);
+  }
+}
+
 bool is_color_role(Role role) {
   return role == Role::kBaseColor || role == Role::kDiffuse || role == Role::kSpecular;
 }
@@ -108,13 +125,40 @@ bool is_data_role(Role role) {
          role == Role::kHeight || role == Role::kCavity;
 }
 
-std::string width_command(const CheckedMaterial& material, std::string_view encoding) {
-  const bool is_specular = std::ranges::any_of(material.uses, [](const MaterialUse& use) {
-    return use.role == Role::kSpecular || use.role == Role::kGlossiness;
-  });
-  const std::string model = is_specular ? "gltf-specgloss" : "gltf";
-  return "texremap convert " + shell_word(material.place.string()) + " --from " + model + " --to " + model +
-         " --roughness-encoding " + std::string(encoding) + " --output-encoding roughness -o mended";
+std::filesystem::path mended_folder(const CheckedMaterial& material) {
+  return material.below.empty() ? "mended" : "mended" / material.below;
+}
+
+Mend image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
+                const std::string& changes) {
+  if (map.is_embedded) return words + " (the image is part of the asset)";
+  const std::filesystem::path home =
+      material.kind == MaterialKind::kFolder ? material.place : material.place.parent_path();
+  std::filesystem::path name = map.file.lexically_relative(home.empty() ? "." : home);
+  if (name.empty() || name == "." || *name.begin() == "..") name = map.name;
+  const std::filesystem::path result = mended_folder(material) / name;
+  // Without its first option oiiotool would multiply colors by alpha, and divide them again.
+  return {words, "mkdir -p " + shell_word(result.parent_path().string()) + " && oiiotool --no-autopremult " +
+                     shell_word(map.file.string()) + " " + changes + " -o " + shell_word(result.string())};
+}
+
+std::string numbers_for(const CheckedMaterial& material, const MaterialUse& use, double value,
+                        double otherwise) {
+  const ImageLayout& layout = material.texels(use)->layout;
+  const std::optional<std::size_t> own = material.channel(use);
+  const bool is_whole = use.channels == Channels::kWhole || use.channels == Channels::kRgb;
+  std::string text;
+  for (std::size_t c = 0; c < layout.channels.size(); ++c) {
+    const bool is_alpha = static_cast<int>(c) == layout.alpha_channel;
+    const bool is_changed = is_whole && !is_alpha ? true : own == c;
+    text += (c > 0 ? "," : "") + number_text(is_changed ? value : otherwise);
+  }
+  return text;
+}
+
+std::string inversion_of(const CheckedMaterial& material, const MaterialUse& use) {
+  return "--mulc " + numbers_for(material, use, -1.0, 1.0) + " --addc " +
+         numbers_for(material, use, 1.0, 0.0);
 }
 
 }  // namespace remap

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "check/material.hpp"
@@ -20,13 +21,31 @@ inline constexpr NamedValues<Confidence, 3> kConfidences = {{{Confidence::kCerta
                                                              {Confidence::kLikely, "likely"},
                                                              {Confidence::kPossible, "possible"}}};
 
+// What puts a finding right.
+struct Mend {
+  Mend() = default;
+  Mend(std::string in_words, std::string as_command = "")
+      : words(std::move(in_words)), command(std::move(as_command)) {}
+  Mend(const char* in_words) : words(in_words) {}
+
+  std::string words;  // an edit; of a command what it does
+  // Can be typed where texremap was started, and writes into the folder `mended`; empty for none.
+  std::string command;
+  // Of a conversion of an asset: its file, folder of results and options. unite_conversions() makes the
+  // command of all findings.
+  std::string asset = {}, output = {};
+  std::vector<std::string> options = {};
+
+  std::string text() const { return words + (command.empty() ? "" : ": " + command); }
+};
+
 struct MaterialFinding {
   std::string_view rule;  // name of the rule
   Confidence confidence = Confidence::kLikely;
   std::string place;    // the map or material, as messages show it
   std::string channel;  // `G`; empty for the whole map
   std::string message;  // what is seen
-  std::string mend;     // a command, or an edit of the file
+  Mend mend;
 };
 
 // A program that files are checked for, by its documentation (docs/check.md has the links).
@@ -62,10 +81,25 @@ Look factor_zero, factor_ignored, index_of_refraction, ignored_by_reader, unread
     exponent_range;  // statements
 }  // namespace look
 
+// Gives the findings in one asset that its conversion puts right one command, with the options of all.
+void unite_conversions(const std::vector<MaterialFinding*>& findings);
+
 // Base color, diffuse, specular; and what is stored as it is: widths, metallic, occlusion, normals, heights.
 bool is_color_role(Role role);
 bool is_data_role(Role role);
-// A command that rewrites the roughness of a material from what its maps hold.
-std::string width_command(const CheckedMaterial& material, std::string_view encoding);
+
+// Where a command writes what it makes of a file: `mended`, and there the same folders as in the checked
+// path.
+std::filesystem::path mended_folder(const CheckedMaterial& material);
+// Changes of the image of a map by oiiotool, in words and as its options. An image that is part of an asset
+// has no command: nothing puts it back.
+Mend image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
+                const std::string& changes);
+// A number for each channel of a map: `value` for that of the use, `otherwise` for the others. All channels
+// of a map without names of channels are of the use, but for alpha.
+std::string numbers_for(const CheckedMaterial& material, const MaterialUse& use, double value,
+                        double otherwise);
+// Options of oiiotool that make 1 - x of the channels of a use.
+std::string inversion_of(const CheckedMaterial& material, const MaterialUse& use);
 
 }  // namespace remap

@@ -1,7 +1,13 @@
 // Rules of what assets state in words and numbers.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "assets/gltf_extensions.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
 
@@ -9,6 +15,44 @@ namespace remap::look {
 namespace {
 
 std::string file_of(const CheckedMaterial& material) { return material.place.filename().string(); }
+
+// Metal reflects by its base color, and transmits nothing.
+bool is_of_dielectrics(std::string_view extension) {
+  constexpr std::array<std::string_view, 6> kNames = {
+      kSpecularExtension,           kIorExtension,
+      "KHR_materials_transmission", "KHR_materials_volume",
+      "KHR_materials_dispersion",   "KHR_materials_diffuse_transmission"};
+  return std::ranges::find(kNames, extension) != kNames.end();
+}
+
+// Whether `texremap convert --fold-specular` takes it: the index of refraction of a volume stays.
+bool can_fold(const CheckedMaterial& material, std::string_view extension) {
+  return (extension == kSpecularExtension || extension == kIorExtension) && !material.gltf.has_volume;
+}
+
+// A conversion of the asset, with what its maps need to lie on one grid.
+Mend asset_mend(const CheckedMaterial& material, const std::string& words, std::vector<std::string> options) {
+  std::vector<MaterialUse> uses = material.uses;
+  uses.insert(uses.end(), material.unread.begin(), material.unread.end());
+  std::erase_if(uses, [](const MaterialUse& use) {
+    return use.is_neighbour || !(is_color_role(use.role) || is_roughness(use.role) ||
+                                 use.role == Role::kMetallic || use.slot.starts_with("specular"));
+  });
+  const auto all_agree = [&](auto same) {
+    return std::ranges::all_of(uses, [&](const MaterialUse& use) { return same(use, uses.front()); });
+  };
+  if (!all_agree([](const auto& a, const auto& b) { return a.tex_coord == b.tex_coord; }))
+    return words + ", when its textures lie on one set of texture coordinates";
+  if (!all_agree([](const auto& a, const auto& b) { return a.transform == b.transform; }))
+    options.emplace_back("--bake");
+  if (!all_agree([&](const auto& a, const auto& b) { return material.same_size(a, b); }))
+    options.emplace_back("--resample");
+  Mend mend = words;
+  mend.asset = material.place.string();
+  mend.output = mended_folder(material).string();
+  mend.options = std::move(options);
+  return mend;
+}
 
 bool all_zero(const std::vector<double>& factors) {
   return !factors.empty() && std::ranges::all_of(factors, [](double factor) { return factor == 0.0; });
@@ -18,35 +62,44 @@ bool all_zero(const std::vector<double>& factors) {
 
 void factor_zero(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
                  std::vector<MaterialFinding>& findings) {
+  const auto add = [&](const MaterialUse& use, Confidence confidence, const std::string& what) {
+    findings.push_back({rule.name, confidence, material.name, "", use.factor_name + what,
+                        "set " + use.factor_name + " to 1 in " + file_of(material) +
+                            (use.channels == Channels::kRgb ? " (for each channel)" : "") +
+                            ", or remove the texture"});
+  };
   for (const MaterialUse& use : material.uses) {
     // glTF packs metallic and roughness: a factor of 0 says that the channel of the other is not used.
     const std::vector<float>* plane = material.plane(use);
     const bool is_unused =
         plane != nullptr && std::ranges::minmax(*plane).min == std::ranges::minmax(*plane).max;
     if (all_zero(use.factors) && !is_unused)
-      findings.push_back(
-          {rule.name, Confidence::kCertain, material.name, "",
-           use.factor_name + " 0 times the map " + material.maps[use.map].shown + " is 0 everywhere",
-           "set " + use.factor_name + " to 1 in " + file_of(material) +
-               (use.factors.size() > 1 ? " (for each channel)" : "") + ", or remove the texture"});
+      add(use, Confidence::kCertain, " 0 times the map " + material.maps[use.map].shown + " is 0 everywhere");
   }
+  for (const MaterialUse& use : material.unread)
+    if (use.factors.empty() && !use.factor_name.empty())
+      add(use, Confidence::kPossible,
+          " is missing, which means 0: the map " + material.maps[use.map].shown + " is not used");
 }
 
 void factor_ignored(const CheckedMaterial& material, const TargetReader* reader, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
   if (reader == nullptr || !reader->ignores_factors_beside_maps) return;
-  for (const MaterialUse& use : material.uses) {
-    if (use.is_neighbour || (use.role != Role::kMetallic && use.role != Role::kRoughness)) continue;
-    if (use.factors.empty() || use.factors.front() == 1.0 || use.factors.front() == 0.0) continue;
+  const auto judge = [&](const MaterialUse& use) {
+    if (use.is_neighbour || (use.role != Role::kMetallic && use.role != Role::kRoughness)) return;
+    if (use.factors.empty() || use.factors.front() == 1.0) return;
     const std::string role(role_name(use.role)), factor = number_text(use.factors.front());
     findings.push_back(
         {rule.name, Confidence::kLikely, material.name, "",
          use.factor_name + " " + factor + " beside a map: " + std::string(reader->title) + " takes " + role +
              " from the map alone",
-         "multiply the map by it (texremap convert " +
-             shell_word(material.place.parent_path().empty() ? "." : material.place.parent_path().string()) +
-             " --from gltf --to gltf --" + role + "-factor " + factor + " -o mended), and set " +
-             use.factor_name + " to 1"});
+         "multiply " + role + " in the map by " + factor + ", and set " + use.factor_name + " to 1"});
+  };
+  for (const MaterialUse& use : material.uses)
+    if (!all_zero(use.factors)) judge(use);  // of others factor_zero speaks
+  for (const MaterialUse& use : material.unread) {
+    const std::vector<float>* plane = material.plane(use);
+    if (plane != nullptr && std::ranges::any_of(*plane, [](float value) { return value > 0.0f; })) judge(use);
   }
 }
 
@@ -54,6 +107,7 @@ void factor_ignored(const CheckedMaterial& material, const TargetReader* reader,
 // (diamond).
 void index_of_refraction(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
                          std::vector<MaterialFinding>& findings) {
+  if (material.is_all_metal()) return;
   const GltfStatements& stated = material.gltf;
   const auto add = [&](Confidence confidence, const std::string& message, const std::string& mend) {
     findings.push_back({rule.name, confidence, material.name, "", message, mend});
@@ -93,18 +147,19 @@ void ignored_by_reader(const CheckedMaterial& material, const TargetReader* read
   if (reader == nullptr) return;
   for (const std::string_view extension : reader->ignored) {
     if (!material.gltf.extensions.contains(std::string(extension))) continue;
-    const bool is_specgloss = extension == "KHR_materials_pbrSpecularGlossiness";
-    findings.push_back(
-        {rule.name, Confidence::kCertain, material.name, "",
-         std::string(extension) + " is ignored by " + std::string(reader->title) +
-             (is_specgloss ? ", which shows the material by its metallic values instead" : ""),
-         is_specgloss
-             ? "convert the maps to the metallic workflow: texremap convert " +
-                   shell_word(material.place.parent_path().empty() ? "."
-                                                                   : material.place.parent_path().string()) +
-                   " --from gltf-specgloss --to gltf --preset gltf -o mended"
-             : "state what it says by base color, metallic and roughness, or remove " +
-                   std::string(extension)});
+    if (material.is_all_metal() && is_of_dielectrics(extension)) continue;
+    const std::string what = std::string(extension) + " is ignored by " + std::string(reader->title);
+    if (extension == kSpecGlossExtension)
+      findings.push_back({rule.name, Confidence::kCertain, material.name, "",
+                          what + ", which shows the material by its metallic values instead",
+                          asset_mend(material, "convert the material to the metallic workflow", {})});
+    else
+      findings.push_back(
+          {rule.name, Confidence::kCertain, material.name, "", what,
+           can_fold(material, extension)
+               ? asset_mend(material, "fold it into base color, metallic and roughness", {"--fold-specular"})
+               : Mend("express it by base color, metallic and roughness, or remove " +
+                      std::string(extension))});
   }
 }
 

@@ -28,6 +28,10 @@ namespace remap {
 
 // All members, for another process (packed_values.hpp). Names of rules are constants of both.
 template <typename Archive>
+void fields(Archive& archive, Mend& mend) {
+  archive(mend.words, mend.command, mend.asset, mend.output, mend.options);
+}
+template <typename Archive>
 void fields(Archive& archive, MaterialFinding& finding) {
   archive(finding.rule, finding.confidence, finding.place, finding.channel, finding.message, finding.mend);
 }
@@ -39,6 +43,7 @@ struct CheckOptions {
   std::string names;
   const TargetReader* reader = nullptr;
   std::vector<std::string> ignored;  // names of rules
+  Confidence fails_on = Confidence::kCertain;
   unsigned thread_count = 0;
   int memory_megabytes = 0;
   bool json = false;
@@ -83,13 +88,14 @@ void print(const MaterialFinding& finding) {
   const std::string place = finding.place + (finding.channel.empty() ? "" : ":" + finding.channel);
   std::cout << plain(place + ": " + finding.message) << " [" << finding.rule << ", "
             << name_of(kConfidences, finding.confidence) << "]\n"
-            << "    " << plain(finding.mend) << '\n';
+            << "    " << plain(finding.mend.text()) << '\n';
 }
 
 Json finding_json(const MaterialFinding& finding) {
-  return {{"rule", finding.rule},       {"confidence", name_of(kConfidences, finding.confidence)},
-          {"path", finding.place},      {"channel", finding.channel},
-          {"message", finding.message}, {"mend", finding.mend}};
+  return {{"rule", finding.rule},           {"confidence", name_of(kConfidences, finding.confidence)},
+          {"path", finding.place},          {"channel", finding.channel},
+          {"message", finding.message},     {"mend", finding.mend.text()},
+          {"command", finding.mend.command}};
 }
 
 void check(const CheckOptions& options) {
@@ -128,19 +134,25 @@ void check(const CheckOptions& options) {
   };
   run_apart(apart);
   progress.hide();
+  std::vector<MaterialFinding*> findings;
+  for (Looked& one : looked)
+    for (MaterialFinding& finding : one.findings) findings.push_back(&finding);
+  unite_conversions(findings);
   Json json = {{"version", 1},
                {"for", options.reader != nullptr ? Json(options.reader->name) : Json()},
                {"materials", looked.size()},
                {"maps", 0},
                {"findings", Json::list()},
                {"problems", Json::list()}};
-  std::size_t count = 0, maps = 0;
+  std::size_t count = 0, failing = 0, maps = 0;
   for (const Looked& one : looked) {
     std::ranges::copy(one.problems, std::back_inserter(found.problems));
     maps += one.map_count;
     count += one.findings.size();
-    for (const MaterialFinding& finding : one.findings)
+    for (const MaterialFinding& finding : one.findings) {
+      failing += finding.confidence <= options.fails_on;
       options.json ? json["findings"].push_back(finding_json(finding)) : print(finding);
+    }
   }
   const std::set<std::string> problems(found.problems.begin(), found.problems.end());
   for (const std::string& problem : problems) {
@@ -150,10 +162,15 @@ void check(const CheckOptions& options) {
   json["maps"] = maps;
   if (options.json) std::cout << json.dump(2) << '\n';
   const std::string all = counted(looked.size(), "material") + ", " + counted(maps, "map");
-  if (count > 0 || !problems.empty())
+  if (failing > 0 || !problems.empty())
     throw input_error(all + ": " + counted(count, "finding") +
                       (problems.empty() ? "" : ", " + counted(problems.size(), "file") + " not read"));
-  if (!options.quiet) print_message(kProgram, all + ": nothing looks wrong");
+  if (options.quiet) return;
+  print_message(kProgram, all + ": " +
+                              (count == 0 ? "nothing looks wrong"
+                                          : counted(count, "finding") + ", none of which is " +
+                                                std::string(name_of(kConfidences, options.fails_on)) +
+                                                " (--fail-on possible fails on these, too)"));
 }
 
 }  // namespace
@@ -168,12 +185,14 @@ void add_check_command(Command& app) {
                       "Also name what this reader ignores or takes otherwise");
   command->add_option("--ignore RULES", options.ignored, rule_names(),
                       "Rules to leave out, with commas between");
+  command->add_option("--fail-on CONFIDENCE", options.fails_on, one_of(kConfidences, "confidence"),
+                      "Exit with 1 on findings that are at least this sure (default: certain)");
   command->add_option("--names FILE", options.names, "More file-name habits (JSON)");
   command->add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core");
   add_memory_option(*command, options.memory_megabytes);
   command->add_flag("--json", options.json, "Print the findings as JSON to standard output");
   command->add_flag("--quiet", options.quiet, "Print nothing but findings and errors");
-  std::string text = "The exit code is 1 if anything looks wrong. Rules:\n";
+  std::string text = "The exit code is 1 if something certain is wrong (--fail-on). Rules:\n";
   for (const Rule& rule : rules())
     text += "  " + std::string(rule.name) + "\n      " + wrapped(rule.sees, 6) + "\n";
   command->footer(text + "\nExample:\n  texremap check assets\n  texremap check model.glb --for godot");

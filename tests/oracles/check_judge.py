@@ -24,7 +24,7 @@ SCHEMA = json.loads((Path(__file__).resolve().parents[2] / "docs" / "check.schem
 
 def check(texremap, paths, reader):
     """The findings in some paths, and what is wrong with the run itself ("" if nothing)."""
-    command = [texremap, "check", *map(str, paths), "--json", "--quiet"] + (["--for", reader] if reader else [])
+    command = [texremap, "check", *map(str, paths), "--json", "--quiet", "--fail-on", "possible"] + (["--for", reader] if reader else [])
     try:
         run = subprocess.run(command, capture_output=True, text=True, timeout=120)
         report = json.loads(run.stdout)

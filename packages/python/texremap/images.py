@@ -152,7 +152,7 @@ def _tells_color_space(spec, format, chunks):
         return any(name in (b"sRGB", b"gAMA") for name, _ in chunks)
     if format in ("jpeg", "tiff"):
         return spec.getattribute("Exif:ColorSpace") == 1
-    return True
+    return format != "webp"  # which has no place for it
 
 
 def _tagged_transfer(spec):

@@ -22,12 +22,6 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// Why an image is refused: OpenImageIO 2.4 multiplies the colors of WebP by alpha in 8 bits, whatever it is
-// asked for.
-constexpr const char* kSpoiledWebP =
-    "is WebP with alpha, by which OpenImageIO multiplies the colors when it reads them, so that they are "
-    "lost (convert it to PNG: dwebp IN.webp -o OUT.png)";
-
 // The name of a lossy compression; empty for a lossless one.
 std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& format) {
   if (format == "jpeg" || format == "hdr" || format == "webp") return format;
@@ -44,7 +38,7 @@ bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, c
     return std::ranges::any_of(head.png_chunks,
                                [](const std::string& name) { return name == "sRGB" || name == "gAMA"; });
   if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
-  return true;
+  return format != "webp";  // which has no place for it
 }
 
 // A material has fewer maps, and every part takes the memory and time of all headers.
@@ -252,6 +246,7 @@ void OpenedImage::open_input() {
   fail("cannot be read as an image: " + first_line(reason, "it is damaged"));
 }
 
+// OpenImageIO 2.4 multiplies the colors of WebP by alpha in 8 bits, whatever it is asked for.
 void OpenedImage::refuse_spoiled_webp() {
   if (layout_.format != "webp" || layout_.alpha_channel < 0) return;
   std::vector<std::byte> row(layout_.row_bytes());
@@ -259,7 +254,12 @@ void OpenedImage::refuse_spoiled_webp() {
   for (int y = 0; y < layout_.height; ++y) {
     read_rows(y, 1, row.data());
     for (std::size_t i = alpha; i < row.size(); i += layout_.texel_bytes)
-      if (row[i] != std::byte{255}) fail(kSpoiledWebP);
+      if (row[i] != std::byte{255})
+        fail(
+            "is WebP with alpha, by which OpenImageIO multiplies the colors when it reads them, so that they "
+            "are lost (convert it to PNG: dwebp " +
+            shell_word(path().string()) + " -o " +
+            shell_word(fs::path(path()).replace_extension(".png").string()) + ")");
   }
 }
 
