@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/report_text.hpp"
 #include "remap/error.hpp"
 #include "sets/discovery.hpp"
@@ -96,11 +97,13 @@ class FolderJobs {
   bool takes_names(const FoundSet& set);
   void note_sizes(ConversionJob& job) const;
   void require_encoding_used() const;
-  // The pattern with `*` for the name of a set that an option gives for a parameter; null for none.
-  const MapName* pattern_of(Parameter parameter) const {
+  // The map that an option gives for a parameter: one for all sets, or a pattern; null for none.
+  const MapName* given_map(Parameter parameter) const {
     const MapSource* source = options_.map_of(parameter);
     return source != nullptr ? std::get_if<MapName>(source) : nullptr;
   }
+  fs::path file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const;
+  void leave_out_shared();
   // The width that the source model takes, where one is known.
   std::optional<RoughnessConvention> own_width() const {
     if (workflow_.is_material()) return width_of(*workflow_.source);
@@ -124,6 +127,7 @@ class FolderJobs {
 
 JobList FolderJobs::list() {
   jobs_.is_tree = true;
+  leave_out_shared();
   for (const fs::path& image : found_.unrecognised) jobs_.unrecognised.push_back(root_ / image);
   jobs_.asset_count = found_.others.size();
   for (const WalkProblem& problem : found_.problems) fail(problem.message);
@@ -154,16 +158,44 @@ fs::path named_after(const fs::path& pattern, const FoundSet& set, const std::st
   return name;
 }
 
+// The name of a map as a pattern for all sets: `*_rough.jpg` of set sand.
+std::string pattern_of(std::string name, const std::string& set) {
+  if (const std::size_t at = name.find(set); at != std::string::npos && !set.empty())
+    name.replace(at, set.size(), "*");
+  return name;
+}
+
 bool is_file(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
 }
 
+// The file that an option gives for a set: one for all sets, or one in the folder of the set.
+fs::path FolderJobs::file_of_set(const fs::path& given, const FoundSet& set,
+                                 const std::string& number) const {
+  return shared_map(options_, given).value_or(root_ / set.folder / named_after(given, set, number));
+}
+
+// A map that an option gives for all sets is not a set of its own.
+void FolderJobs::leave_out_shared() {
+  const std::vector<fs::path> shared = shared_maps(options_);
+  if (shared.empty()) return;
+  const auto is_shared = [&](const fs::path& file) {
+    return std::ranges::any_of(shared, [&](const fs::path& map) { return same_file(map, root_ / file); });
+  };
+  for (const fs::path& map : shared) jobs_.notes.push_back(shown(map) + " is used for every set");
+  std::erase_if(found_.sets, [&](const FoundSet& set) {
+    return std::ranges::all_of(set.maps, [&](const FoundMap& map) { return is_shared(map.path); });
+  });
+  std::erase_if(found_.unrecognised, is_shared);
+}
+
 bool FolderJobs::has_given_width(const FoundSet& set) const {
-  if (!pattern_of(Parameter::kRoughness) && !is_given(defaults_.parameters.at(Parameter::kRoughness)))
+  if (given_map(Parameter::kRoughness) == nullptr &&
+      !is_given(defaults_.parameters.at(Parameter::kRoughness)))
     return false;
   return std::ranges::any_of(workflow_.sources(), [&](Parameter parameter) {
-    return pattern_of(parameter) != nullptr || !uses_of(set, parameter).empty();
+    return given_map(parameter) != nullptr || !uses_of(set, parameter).empty();
   });
 }
 
@@ -191,7 +223,7 @@ void FolderJobs::add(FoundSet set) {
                   " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
                   "--diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
-    if (found.empty() && !pattern_of(parameter) && !is_given(defaults_.parameters.at(parameter)))
+    if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))
       return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
                   " VALUE for such sets)");
   }
@@ -203,14 +235,17 @@ void FolderJobs::add(FoundSet set) {
 // Puts the map of a parameter into the job. Notes a message and returns false where the set lacks the tile.
 bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                              ConversionJob& job) {
-  if (const MapName* pattern = pattern_of(parameter)) {
-    const fs::path file = root_ / set.folder / named_after(pattern->file, set, number);
+  const bool is_glossiness = parameter == Parameter::kRoughness && options_.reads_glossiness();
+  const std::string option = is_glossiness ? "--glossiness" : parameter_option(parameter);
+  ParameterRequest& asked = job.request.parameters[parameter];
+  if (const MapName* given = given_map(parameter)) {
+    const fs::path file = file_of_set(given->file, set, number);
     if (!is_file(file)) {
-      fail(shown(job.name) + ": no " + shown(file.filename()) + ", which " + parameter_option(parameter) +
-           " names");
+      fail(shown(job.name) + ": no " + shown(file.filename()) + " found, the map of " + option);
       return false;
     }
-    job.request.parameters[parameter].source = MapName{file, pattern->channels};
+    asked.source = MapName{file, given->channels};
+    asked.one_channel = one_channel(option, given->file);
     return true;
   }
   const std::vector<MapUse> found = uses_of(set, parameter);
@@ -224,7 +259,9 @@ bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std
          " lacks this tile)");
     return false;
   }
-  job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};
+  asked.source = MapName{root_ / *file, channel_names(use.channels)};
+  asked.one_channel = one_channel(use.role == Role::kGlossiness ? "--glossiness" : option,
+                                  pattern_of(map.path.filename().string(), set.name));
   // --roughness-encoding speaks of maps that are found as roughness.
   if (parameter == Parameter::kRoughness && convention_of(use.role))
     job.request.convention = convention_of(use.role);
@@ -254,14 +291,14 @@ void FolderJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::
 // Adds the maps that are not converted but have a place in the layout.
 void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
   const std::string number = tile == 0 ? "" : std::to_string(tile);
-  const auto add_pattern = [&](const std::string& name, const MapSource* source) {
-    const auto* pattern = source != nullptr ? std::get_if<MapName>(source) : nullptr;
-    if (pattern == nullptr) return;
-    const MapName map{root_ / set.folder / named_after(pattern->file, set, number), pattern->channels};
+  const auto add_given = [&](const std::string& name, const MapSource* source) {
+    const auto* given = source != nullptr ? std::get_if<MapName>(source) : nullptr;
+    if (given == nullptr) return;
+    const MapName map{file_of_set(given->file, set, number), given->channels};
     request.carried.push_back({name, {map, {}, Transfer::kLinear}});
   };
-  add_pattern("occlusion", options_.occlusion ? &*options_.occlusion : nullptr);
-  if (!workflow_.is_material()) add_pattern("metallic", options_.map_of(Parameter::kMetallic));
+  add_given("occlusion", options_.occlusion ? &*options_.occlusion : nullptr);
+  if (!workflow_.is_material()) add_given("metallic", options_.map_of(Parameter::kMetallic));
   for (const FoundMap& map : set.maps)
     for (const ChannelMeaning& entry : map.meaning) {
       const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();

@@ -15,6 +15,8 @@ namespace remap {
 
 // Each function throws kUsage, naming the option, for an invalid value.
 TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow);
+// The option that takes one channel of a map: `--roughness '*_rough.jpg:G'`; empty without a file.
+std::string one_channel(const std::string& option, const std::filesystem::path& file);
 // The files to copy with the one set that the options name.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
 // The copy of a normal map of a folder. Where its name says that green points another way than the preset
@@ -22,6 +24,12 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Workfl
 // a name says nothing to a preset that reads green downwards.
 CopiedFile copied_normals(const std::filesystem::path& source, const Preset* preset,
                           std::vector<std::string>& notes);
+// The file that an option gives for every set of a folder: the path as given, or below the folder; none for a
+// pattern and for a name in the folders of sets.
+std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
+                                                const std::filesystem::path& given);
+// All of them.
+std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
 // The roughness of a set before the conversion.
 struct WidthSource {

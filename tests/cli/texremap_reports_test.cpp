@@ -56,3 +56,46 @@ TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports]") {
     CHECK_THAT(result.errors, Contains("roughness is read from old_bench_arm_1k.png:G"));
   }
 }
+
+TEST_CASE("reports: 19 a nearly grey roughness map", "[reports]") {
+  const ReportedSets sets;
+  const int tint = GENERATE(5, 18);
+  const std::string extension = GENERATE("png", "jpg"), map = "in/sand_rough." + extension;
+  sets.plain("in/sand_albedo.png", {120, 80, 40}, 32);
+  sets.drawn(
+      map, 3, [&](int x, int, int c) { return 100 + (c == 0 && x >= 16 ? tint : 0); }, 32);
+  const Words words = "convert in --from metal-rough --preset gltf --metallic 0 -o out";
+  const ProcessResult result = require_success(sets.texremap(words));
+  CHECK_THAT(result.errors,
+             Contains("warning: " + map + ": is not quite grey: its channels differ by at most "));
+  if (extension == "png")
+    CHECK_THAT(result.errors, Contains(std::to_string(tint) + " of 255, and G is used"));
+  CHECK(std::abs(sets.texel("out/sand_occlusionRoughnessMetallic.png")[1] - 100) <=
+        (extension == "png" ? 0 : 3));
+
+  // A map with colors is refused, with an option that works.
+  sets.drawn(
+      map, 3, [](int x, int, int c) { return 100 + (c == 0 ? 4 * x : 0); }, 32);
+  const ProcessResult refused = sets.texremap(words + "--force");
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.errors, Contains("(choose one channel: --roughness '*_rough." + extension + ":G')"));
+  require_success(sets.texremap(words + ("--force --roughness *_rough." + extension + ":R")));
+}
+
+TEST_CASE("reports: one map for several sets of a folder", "[reports]") {
+  const ReportedSets sets;
+  for (const std::string name : {"black", "white"}) {
+    sets.plain("in/king_" + name + "_roughness.png", {90});
+    sets.plain("in/king_" + name + "_baseColor.png", {120, 80, 40});
+  }
+  sets.plain("in/king_shared_metallic.png", {255});
+  const ProcessResult result = require_success(sets.texremap(
+      "convert in --from metallic --preset gltf --metallic in/king_shared_metallic.png -o out"));
+  CHECK_THAT(result.errors, Contains("note: in/king_shared_metallic.png is used for every set"));
+  for (const std::string name : {"black", "white"})
+    CHECK(sets.texel("out/king_" + name + "_occlusionRoughnessMetallic.png") == std::vector{255, 90, 255});
+  // A name without * is also looked up beside the maps of each set.
+  require_success(sets.texremap(
+      "convert in --from metallic --to gltf --metallic king_shared_metallic.png --allow-skips -o two"));
+  CHECK(sets.texremap("convert in --from metallic --to gltf --metallic nothing.png -o three").exit_code == 1);
+}
