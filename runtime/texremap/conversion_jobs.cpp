@@ -1,6 +1,7 @@
 #include "texremap/conversion_jobs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "remap/error.hpp"
 #include "sets/discovery.hpp"
 #include "sets/folder_walk.hpp"
+#include "sets/name_pieces.hpp"
 #include "texremap/asset_formats.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/set_choice.hpp"
@@ -92,7 +94,10 @@ class FolderJobs {
   bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                    ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
-  void place_others(const FoundSet& set, int tile, ConversionJob& job) const;
+  void place_others(const FoundSet& set, int tile, ConversionJob& job);
+  bool comes_along(const FoundMap& map) const;
+  bool is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const;
+  void note_normals();
   std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   bool takes_names(const FoundSet& set);
   void note_sizes(ConversionJob& job) const;
@@ -122,6 +127,8 @@ class FolderJobs {
   fs::path root_;
   Discovery found_;
   std::vector<FoundSet> converted_;
+  bool is_in_place_ = same_file(options_.output, root_);    // results lie beside the maps
+  std::map<std::string, std::vector<CopiedFile>> normals_;  // by the reason for what is done with green
   JobList jobs_;
 };
 
@@ -135,6 +142,7 @@ JobList FolderJobs::list() {
     for (const FoundMap& map : set.maps)
       for (const fs::path& file : files_of(map)) (void)jobs_.names->take(root_ / file, owner(set));
   for (FoundSet& set : found_.sets) add(std::move(set));
+  note_normals();
   if (!found_.sizes.empty())
     for (ConversionJob& job : jobs_.jobs) note_sizes(job);
   if (options_.part) return std::move(jobs_);  // what concerns all sets, no part can tell
@@ -241,7 +249,7 @@ bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std
   if (const MapName* given = given_map(parameter)) {
     const fs::path file = file_of_set(given->file, set, number);
     if (!is_file(file)) {
-      fail(shown(job.name) + ": no " + shown(file.filename()) + " found, the map of " + option);
+      fail(shown(job.name) + ": no " + shown(file.filename()) + ", which " + option + " names");
       return false;
     }
     asked.source = MapName{file, given->channels};
@@ -288,6 +296,16 @@ void FolderJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::
   jobs_.jobs.push_back(std::move(job));
 }
 
+// Whether a channel of a packed map that is converted holds something else of the material (ORDp: height).
+bool FolderJobs::is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const {
+  constexpr std::array kRest = {Role::kCavity,       Role::kHeight,     Role::kOpacity, Role::kEmissive,
+                                Role::kTransmission, Role::kSubsurface, Role::kIor};
+  const bool has_color = std::ranges::any_of(
+      map.meaning, [](const ChannelMeaning& other) { return other.channels == Channels::kRgb; });
+  return map.is_converted && !options_.only_converted && !has_color && entry.channels != Channels::kWhole &&
+         std::ranges::find(kRest, entry.role) != kRest.end();
+}
+
 // Adds the maps that are not converted but have a place in the layout.
 void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
   const std::string number = tile == 0 ? "" : std::to_string(tile);
@@ -302,7 +320,7 @@ void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request
   for (const FoundMap& map : set.maps)
     for (const ChannelMeaning& entry : map.meaning) {
       const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
-      if (entry.role != Role::kOcclusion && !carries_metallic) continue;
+      if (entry.role != Role::kOcclusion && !carries_metallic && !is_rest_of_packed(map, entry)) continue;
       const std::string name(role_name(entry.role));
       const std::optional<fs::path> file = file_of(map, tile);
       const bool is_named = std::any_of(request.carried.begin(), request.carried.end(),
@@ -313,9 +331,27 @@ void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request
     }
 }
 
+bool is_normal(const FoundMap& map) {
+  const std::string name = lower(map.path.filename().string());
+  return std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() ||
+         name.find("normal") != std::string::npos;  // of a coat
+}
+
+// One line for all maps with one reason.
+void FolderJobs::note_normals() {
+  for (const auto& [reason, maps] : normals_) {
+    const CopiedFile& first = maps.front();
+    const std::string done =
+        first.turned_name.empty() ? "kept" : "inverted in the copy " + shown(first.turned_name);
+    const std::string more =
+        maps.size() == 1 ? "" : " (the same for " + counted(maps.size() - 1, "more normal map") + ")";
+    jobs_.notes.push_back(shown(first.source) + ": green is " + done + ", because " + reason + more);
+  }
+}
+
 // Copies the files that the conversion does not read, or notes them. A map without tiles goes with the first
 // tile of the set.
-void FolderJobs::place_others(const FoundSet& set, int tile, ConversionJob& job) const {
+void FolderJobs::place_others(const FoundSet& set, int tile, ConversionJob& job) {
   const std::vector<fs::path*> read = files_of(job);
   const bool is_first = tile == tiles_of(set).front();
   for (const FoundMap& map : set.maps) {
@@ -324,13 +360,31 @@ void FolderJobs::place_others(const FoundSet& set, int tile, ConversionJob& job)
     const fs::path source = root_ / *file;
     if (std::any_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
       continue;
-    if (!options_.copy_others)
+    if (!comes_along(map)) {
       job.left_behind.push_back(source);
-    else if (std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end())
-      job.copies.push_back(copied_normals(source, options_.preset, job.notes));
-    else
+      continue;
+    }
+    if (is_in_place_) continue;
+    if (!is_normal(map)) {
       job.copies.push_back({source, "", ""});
+      continue;
+    }
+    CopiedNormals normals = copied_normals(options_, source);
+    if (!normals.reason.empty()) normals_[normals.reason].push_back(normals.copy);
+    job.copies.push_back(std::move(normals.copy));
   }
+}
+
+// Whether a map that the conversion does not read is copied. Another map than the chosen one for a parameter
+// would be a second, unconverted form of it.
+bool FolderJobs::comes_along(const FoundMap& map) const {
+  constexpr std::array kConverted = {Role::kRoughness,  Role::kGlossiness, Role::kGlossinessSquared,
+                                     Role::kAlphaWidth, Role::kSpecular,   Role::kSpecularLevel,
+                                     Role::kDiffuse,    Role::kBaseColor,  Role::kMetallic};
+  if (options_.only_converted || map.is_repeated) return false;
+  return !workflow_.is_material() || std::ranges::none_of(map.meaning, [&](const ChannelMeaning& entry) {
+    return std::ranges::find(kConverted, entry.role) != kConverted.end();
+  });
 }
 
 // The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
@@ -384,8 +438,8 @@ bool FolderJobs::takes_names(const FoundSet& set) {
   };
   for (const auto& [path, source] : outputs(set))
     if (!take(path, source)) return false;
-  if (options_.copy_others)
-    for (const FoundMap& map : set.maps)
+  for (const FoundMap& map : set.maps)
+    if (comes_along(map))
       for (const fs::path& file : files_of(map))
         if (!take(options_.output / file, file)) return false;
   return true;

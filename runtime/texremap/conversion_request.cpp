@@ -102,7 +102,8 @@ void require_one_way(const ConvertOptions& options, const WorkflowChoice& workfl
   for (const Parameter parameter : {Parameter::kBaseColor, Parameter::kDiffuse})
     if (is_tree && !workflow.has_source(parameter) && options.map_of(parameter) != nullptr)
       throw Error(ErrorKind::kUsage,
-                  parameter_option(parameter) + " cannot be used with a folder (use --copy-others)");
+                  parameter_option(parameter) +
+                      " cannot be used with a folder, whose maps come along (remove this option)");
   require_read(options, workflow);
   if (!is_tree) require_parameters(options, workflow);
 }
@@ -187,28 +188,39 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Workfl
   return files;
 }
 
-CopiedFile copied_normals(const std::filesystem::path& source, const Preset* preset,
-                          std::vector<std::string>& notes) {
-  CopiedFile copy{source, "", ""};
-  if (preset == nullptr || !preset->normals) return copy;
-  const std::string reads = std::string(preset->name) + " reads it " +
-                            (*preset->normals == NormalGreen::kUp ? "upwards" : "downwards");
+CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source) {
+  const auto text = [](NormalGreen green) {
+    return std::string(green == NormalGreen::kUp ? "OpenGL (green up)" : "DirectX (green down)");
+  };
+  const std::string target(options.preset != nullptr ? options.preset->name : options.to.word());
+  const auto wanted = options.preset != nullptr ? options.preset->normals : normals_of(options.to);
+  const auto of_source = normals_of(options.from);
+  const std::string from = "--from " + std::string(options.from.word());
   const std::optional<StatedGreen> stated = stated_green(source.filename().string());
-  if (!stated) {
-    if (*preset->normals == NormalGreen::kDown)
-      notes.push_back(shown(source) +
-                      ": green is not turned, because the name does not say where it points, and " + reads +
-                      " (write GL or DX into the name, as wood_NormalGL.png)");
-    return copy;
+  CopiedNormals normals{{source, "", ""}, ""};
+  if (!wanted) {
+    if (options.preset != nullptr) normals.reason = target + " reads both directions";
+    return normals;
   }
+  if (!stated && !of_source) {
+    normals.reason = "neither the name nor --from says whether it is OpenGL or DirectX, and " + target +
+                     " reads " + text(*wanted) + " (write GL or DX into the name, as wood_NormalGL.png)";
+    return normals;
+  }
+  const NormalGreen green = stated ? stated->green : *of_source;
+  if (green == *wanted) {
+    if (of_source && *of_source != green)
+      normals.reason = "the name says " + text(green) + ", which " + target + " reads (maps of " + from +
+                       " are " + text(*of_source) + ")";
+    return normals;
+  }
+  std::filesystem::path turned = stated ? stated->turned_name : source.filename().string();
   std::error_code ignored;
-  if (stated->green == *preset->normals ||
-      std::filesystem::exists(source.parent_path() / stated->turned_name, ignored))
-    return copy;
-  notes.push_back(shown(source) + ": green is turned in the copy " + shown(stated->turned_name) +
-                  ", because " + reads);
-  copy.turned_name = stated->turned_name;
-  return copy;
+  if (stated && std::filesystem::exists(source.parent_path() / turned, ignored)) return normals;
+  normals.copy.turned_name = turned.replace_extension(written_extension(turned)).string();
+  normals.reason =
+      (stated ? "the name" : from) + " says " + text(green) + ", and " + target + " reads " + text(*wanted);
+  return normals;
 }
 
 namespace {

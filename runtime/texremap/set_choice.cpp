@@ -62,6 +62,7 @@ std::optional<Kept> kept_of(const FoundSet& set, std::vector<MapUse> found,
 void drop(FoundSet& set, const MapUse& use) {
   FoundMap& map = set.maps[use.map];
   std::erase(map.meaning, ChannelMeaning{use.channels, use.role});
+  map.is_repeated = true;
   map.is_converted = std::ranges::any_of(map.meaning, [](const ChannelMeaning& entry) {
     return is_roughness(entry.role) || entry.role == Role::kSpecular;
   });
