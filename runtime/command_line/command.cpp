@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 #include "remap/error.hpp"
 
@@ -162,6 +163,10 @@ Option* Command::add_words(
     option->check(
         CLI::Validator([](std::string&) { return std::string(); }, "{" + CLI::detail::join(choices) + "}"));
   return keep(option);
+}
+
+void Command::retire(const std::string& name, const std::string& remedy) {
+  app_->add_flag_callback(name, [name, remedy] { throw usage_error(name + ": " + remedy); })->group("");
 }
 
 void Command::option_group(const std::string& name) { app_->option_defaults()->group(name); }

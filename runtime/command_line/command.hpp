@@ -151,6 +151,8 @@ class Command {
         reader.choices, description);
   }
   Option* add_flag(const std::string& names, bool& value, const std::string& description = "");
+  // An option of earlier versions, which is refused with what to do. Help does not show it.
+  void retire(const std::string& name, const std::string& remedy);
   // The heading under which the help of this command lists the options that are added from now on
   // (help_text.hpp).
   void option_group(const std::string& name);

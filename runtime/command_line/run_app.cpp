@@ -33,7 +33,8 @@ const CLI::App& chosen_command(const CLI::App& app) {
 
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
+  for (const CLI::Option* option :
+       command.get_options([](const CLI::Option* known) { return !known->get_group().empty(); }))
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
 }

@@ -150,7 +150,8 @@ class Conversion {
   void refer_to_targets(const Segment& segment, Scratch& scratch) const;
   bool is_source_of_another(Parameter target, std::size_t channel, const float* row, std::size_t count,
                             const Scratch& scratch) const;
-  void require_grey(Parameter parameter, const Segment& segment, Scratch& scratch) const;
+  void require_grey(Parameter parameter, const Segment& segment, Scratch& scratch,
+                    MapStatistics& statistics) const;
   void load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
   void meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
   [[noreturn]] void fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const;
@@ -317,7 +318,8 @@ bool Conversion::is_source_of_another(Parameter target, std::size_t channel, con
   return false;
 }
 
-void Conversion::require_grey(Parameter parameter, const Segment& segment, Scratch& scratch) const {
+void Conversion::require_grey(Parameter parameter, const Segment& segment, Scratch& scratch,
+                              MapStatistics& statistics) const {
   const SourceParameter& source = maps_.sources.at(parameter);
   const auto& channels = source.channels;
   if (channels.size() < 2) return;
@@ -326,9 +328,13 @@ void Conversion::require_grey(Parameter parameter, const Segment& segment, Scrat
   for (std::size_t c = 1; c < channels.size(); ++c) {
     load(channels[c], segment, scratch.other.data());
     if (std::memcmp(scratch.other.data(), first.data(), segment.count * sizeof(float)) == 0) continue;
+    float& tint = statistics.tints[parameter];
     const auto differs = [&](std::size_t i) {
-      return std::memcmp(&scratch.other[i], &first[i], sizeof(float)) != 0 &&
-             !(std::fabs(scratch.other[i] - first[i]) <= source.grey_tolerance);
+      if (std::memcmp(&scratch.other[i], &first[i], sizeof(float)) == 0) return false;
+      const float difference = std::fabs(scratch.other[i] - first[i]);
+      if (!(difference <= source.grey_tolerance)) return true;
+      tint = std::max(tint, difference);
+      return false;
     };
     std::size_t i = 0;
     while (i < segment.count && !differs(i)) ++i;
@@ -337,12 +343,12 @@ void Conversion::require_grey(Parameter parameter, const Segment& segment, Scrat
       return channel < source.channel_names.size() ? source.channel_names[channel]
                                                    : "channel " + std::to_string(channel);
     };
-    throw Error(ErrorKind::kInput, source.name + ": texel (" + std::to_string(segment.x + i) + ", " +
-                                       std::to_string(maps_.first_row + segment.y) +
-                                       ") is not grey: " + name(0) + " is " +
-                                       number_text(static_cast<double>(first[i])) + " and " + name(c) +
-                                       " is " + number_text(static_cast<double>(scratch.other[i])) +
-                                       " (choose one channel with FILE:CHANNEL)");
+    throw Error(ErrorKind::kInput,
+                source.name + ": texel (" + std::to_string(segment.x + i) + ", " +
+                    std::to_string(maps_.first_row + segment.y) + ") is not grey: " + name(0) + " is " +
+                    number_text(static_cast<double>(first[i])) + " and " + name(c) + " is " +
+                    number_text(static_cast<double>(scratch.other[i])) + " (choose one channel" +
+                    (source.one_channel.empty() ? "" : ": " + source.one_channel) + ")");
   }
 }
 
@@ -357,7 +363,7 @@ ParameterStatistics Conversion::value_statistics(std::size_t count, const float*
 
 void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
   for (const Parameter parameter : sources_) {
-    if (!is_color(parameter)) require_grey(parameter, segment, scratch);
+    if (!is_color(parameter)) require_grey(parameter, segment, scratch, statistics);
     scratch.source.make(parameter, is_color(parameter) ? channel_count(maps_.sources.at(parameter)) : 1);
   }
   load_texels(segment, scratch);

@@ -101,6 +101,7 @@ MapStatistics& MapStatistics::operator+=(const MapStatistics& other) {
   if (!first_bad) first_bad = other.first_bad;
   add_all(sources, other.sources);
   add_all(targets, other.targets);
+  for (const auto& [parameter, tint] : other.tints) tints[parameter] = std::max(tints[parameter], tint);
   metallic += other.metallic;
   return *this;
 }

@@ -58,8 +58,13 @@ void choose_stems(std::vector<NamedMap>& maps) {
 FoundMap found_map(const fs::path& folder, const NamedMap& map) {
   const fs::path path = folder / map.files.name;
   const NameReading& reading = map.reading();
-  FoundMap found{path,          map.files.pattern, {},
-                 reading.habit, reading.meaning,   has_roughness_or_specular(reading.meaning)};
+  FoundMap found{path,
+                 map.files.pattern,
+                 {},
+                 reading.habit,
+                 reading.meaning,
+                 false,
+                 has_roughness_or_specular(reading.meaning)};
   for (const int number : map.files.numbers)
     found.tiles.push_back({number, folder / tile_name(*map.files.pattern, number)});
   return found;

@@ -23,6 +23,7 @@ struct FoundMap {
   std::vector<Tile> tiles;             // by number, paths relative to the root; empty for a single file
   std::string habit;
   std::vector<ChannelMeaning> meaning;
+  bool is_repeated = false;   // has a parameter that is read from another map of the set
   bool is_converted = false;  // has roughness or specular; a conversion of these alone reads no other maps
 };
 bool has_roughness_or_specular(const std::vector<ChannelMeaning>& meaning);

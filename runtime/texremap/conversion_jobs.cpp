@@ -1,14 +1,17 @@
 #include "texremap/conversion_jobs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
 #include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/report_text.hpp"
 #include "remap/error.hpp"
 #include "sets/discovery.hpp"
 #include "sets/folder_walk.hpp"
+#include "sets/name_pieces.hpp"
 #include "texremap/asset_formats.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/set_choice.hpp"
@@ -91,16 +94,21 @@ class FolderJobs {
   bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                    ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
-  void place_others(const FoundSet& set, int tile, ConversionJob& job) const;
+  void place_others(const FoundSet& set, int tile, ConversionJob& job);
+  bool comes_along(const FoundMap& map) const;
+  bool is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const;
+  void note_normals();
   std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   bool takes_names(const FoundSet& set);
   void note_sizes(ConversionJob& job) const;
   void require_encoding_used() const;
-  // The pattern with `*` for the name of a set that an option gives for a parameter; null for none.
-  const MapName* pattern_of(Parameter parameter) const {
+  // The map that an option gives for a parameter: one for all sets, or a pattern; null for none.
+  const MapName* given_map(Parameter parameter) const {
     const MapSource* source = options_.map_of(parameter);
     return source != nullptr ? std::get_if<MapName>(source) : nullptr;
   }
+  fs::path file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const;
+  void leave_out_shared();
   // The width that the source model takes, where one is known.
   std::optional<RoughnessConvention> own_width() const {
     if (workflow_.is_material()) return width_of(*workflow_.source);
@@ -119,11 +127,14 @@ class FolderJobs {
   fs::path root_;
   Discovery found_;
   std::vector<FoundSet> converted_;
+  bool is_in_place_ = same_file(options_.output, root_);    // results lie beside the maps
+  std::map<std::string, std::vector<CopiedFile>> normals_;  // by the reason for what is done with green
   JobList jobs_;
 };
 
 JobList FolderJobs::list() {
   jobs_.is_tree = true;
+  leave_out_shared();
   for (const fs::path& image : found_.unrecognised) jobs_.unrecognised.push_back(root_ / image);
   jobs_.asset_count = found_.others.size();
   for (const WalkProblem& problem : found_.problems) fail(problem.message);
@@ -131,6 +142,7 @@ JobList FolderJobs::list() {
     for (const FoundMap& map : set.maps)
       for (const fs::path& file : files_of(map)) (void)jobs_.names->take(root_ / file, owner(set));
   for (FoundSet& set : found_.sets) add(std::move(set));
+  note_normals();
   if (!found_.sizes.empty())
     for (ConversionJob& job : jobs_.jobs) note_sizes(job);
   if (options_.part) return std::move(jobs_);  // what concerns all sets, no part can tell
@@ -154,16 +166,44 @@ fs::path named_after(const fs::path& pattern, const FoundSet& set, const std::st
   return name;
 }
 
+// The name of a map as a pattern for all sets: `*_rough.jpg` of set sand.
+std::string pattern_of(std::string name, const std::string& set) {
+  if (const std::size_t at = name.find(set); at != std::string::npos && !set.empty())
+    name.replace(at, set.size(), "*");
+  return name;
+}
+
 bool is_file(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
 }
 
+// The file that an option gives for a set: one for all sets, or one in the folder of the set.
+fs::path FolderJobs::file_of_set(const fs::path& given, const FoundSet& set,
+                                 const std::string& number) const {
+  return shared_map(options_, given).value_or(root_ / set.folder / named_after(given, set, number));
+}
+
+// A map that an option gives for all sets is not a set of its own.
+void FolderJobs::leave_out_shared() {
+  const std::vector<fs::path> shared = shared_maps(options_);
+  if (shared.empty()) return;
+  const auto is_shared = [&](const fs::path& file) {
+    return std::ranges::any_of(shared, [&](const fs::path& map) { return same_file(map, root_ / file); });
+  };
+  for (const fs::path& map : shared) jobs_.notes.push_back(shown(map) + " is used for every set");
+  std::erase_if(found_.sets, [&](const FoundSet& set) {
+    return std::ranges::all_of(set.maps, [&](const FoundMap& map) { return is_shared(map.path); });
+  });
+  std::erase_if(found_.unrecognised, is_shared);
+}
+
 bool FolderJobs::has_given_width(const FoundSet& set) const {
-  if (!pattern_of(Parameter::kRoughness) && !is_given(defaults_.parameters.at(Parameter::kRoughness)))
+  if (given_map(Parameter::kRoughness) == nullptr &&
+      !is_given(defaults_.parameters.at(Parameter::kRoughness)))
     return false;
   return std::ranges::any_of(workflow_.sources(), [&](Parameter parameter) {
-    return pattern_of(parameter) != nullptr || !uses_of(set, parameter).empty();
+    return given_map(parameter) != nullptr || !uses_of(set, parameter).empty();
   });
 }
 
@@ -191,7 +231,7 @@ void FolderJobs::add(FoundSet set) {
                   " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
                   "--diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
-    if (found.empty() && !pattern_of(parameter) && !is_given(defaults_.parameters.at(parameter)))
+    if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))
       return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
                   " VALUE for such sets)");
   }
@@ -203,14 +243,17 @@ void FolderJobs::add(FoundSet set) {
 // Puts the map of a parameter into the job. Notes a message and returns false where the set lacks the tile.
 bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                              ConversionJob& job) {
-  if (const MapName* pattern = pattern_of(parameter)) {
-    const fs::path file = root_ / set.folder / named_after(pattern->file, set, number);
+  const bool is_glossiness = parameter == Parameter::kRoughness && options_.reads_glossiness();
+  const std::string option = is_glossiness ? "--glossiness" : parameter_option(parameter);
+  ParameterRequest& asked = job.request.parameters[parameter];
+  if (const MapName* given = given_map(parameter)) {
+    const fs::path file = file_of_set(given->file, set, number);
     if (!is_file(file)) {
-      fail(shown(job.name) + ": no " + shown(file.filename()) + ", which " + parameter_option(parameter) +
-           " names");
+      fail(shown(job.name) + ": no " + shown(file.filename()) + ", which " + option + " names");
       return false;
     }
-    job.request.parameters[parameter].source = MapName{file, pattern->channels};
+    asked.source = MapName{file, given->channels};
+    asked.one_channel = one_channel(option, given->file);
     return true;
   }
   const std::vector<MapUse> found = uses_of(set, parameter);
@@ -224,7 +267,9 @@ bool FolderJobs::find_source(const FoundSet& set, Parameter parameter, const std
          " lacks this tile)");
     return false;
   }
-  job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};
+  asked.source = MapName{root_ / *file, channel_names(use.channels)};
+  asked.one_channel = one_channel(use.role == Role::kGlossiness ? "--glossiness" : option,
+                                  pattern_of(map.path.filename().string(), set.name));
   // --roughness-encoding speaks of maps that are found as roughness.
   if (parameter == Parameter::kRoughness && convention_of(use.role))
     job.request.convention = convention_of(use.role);
@@ -251,21 +296,31 @@ void FolderJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::
   jobs_.jobs.push_back(std::move(job));
 }
 
+// Whether a channel of a packed map that is converted holds something else of the material (ORDp: height).
+bool FolderJobs::is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const {
+  constexpr std::array kRest = {Role::kCavity,       Role::kHeight,     Role::kOpacity, Role::kEmissive,
+                                Role::kTransmission, Role::kSubsurface, Role::kIor};
+  const bool has_color = std::ranges::any_of(
+      map.meaning, [](const ChannelMeaning& other) { return other.channels == Channels::kRgb; });
+  return map.is_converted && !options_.only_converted && !has_color && entry.channels != Channels::kWhole &&
+         std::ranges::find(kRest, entry.role) != kRest.end();
+}
+
 // Adds the maps that are not converted but have a place in the layout.
 void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
   const std::string number = tile == 0 ? "" : std::to_string(tile);
-  const auto add_pattern = [&](const std::string& name, const MapSource* source) {
-    const auto* pattern = source != nullptr ? std::get_if<MapName>(source) : nullptr;
-    if (pattern == nullptr) return;
-    const MapName map{root_ / set.folder / named_after(pattern->file, set, number), pattern->channels};
+  const auto add_given = [&](const std::string& name, const MapSource* source) {
+    const auto* given = source != nullptr ? std::get_if<MapName>(source) : nullptr;
+    if (given == nullptr) return;
+    const MapName map{file_of_set(given->file, set, number), given->channels};
     request.carried.push_back({name, {map, {}, Transfer::kLinear}});
   };
-  add_pattern("occlusion", options_.occlusion ? &*options_.occlusion : nullptr);
-  if (!workflow_.is_material()) add_pattern("metallic", options_.map_of(Parameter::kMetallic));
+  add_given("occlusion", options_.occlusion ? &*options_.occlusion : nullptr);
+  if (!workflow_.is_material()) add_given("metallic", options_.map_of(Parameter::kMetallic));
   for (const FoundMap& map : set.maps)
     for (const ChannelMeaning& entry : map.meaning) {
       const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
-      if (entry.role != Role::kOcclusion && !carries_metallic) continue;
+      if (entry.role != Role::kOcclusion && !carries_metallic && !is_rest_of_packed(map, entry)) continue;
       const std::string name(role_name(entry.role));
       const std::optional<fs::path> file = file_of(map, tile);
       const bool is_named = std::any_of(request.carried.begin(), request.carried.end(),
@@ -276,9 +331,27 @@ void FolderJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request
     }
 }
 
+bool is_normal(const FoundMap& map) {
+  const std::string name = lower(map.path.filename().string());
+  return std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() ||
+         name.find("normal") != std::string::npos;  // of a coat
+}
+
+// One line for all maps with one reason.
+void FolderJobs::note_normals() {
+  for (const auto& [reason, maps] : normals_) {
+    const CopiedFile& first = maps.front();
+    const std::string done =
+        first.turned_name.empty() ? "kept" : "inverted in the copy " + shown(first.turned_name);
+    const std::string more =
+        maps.size() == 1 ? "" : " (the same for " + counted(maps.size() - 1, "more normal map") + ")";
+    jobs_.notes.push_back(shown(first.source) + ": green is " + done + ", because " + reason + more);
+  }
+}
+
 // Copies the files that the conversion does not read, or notes them. A map without tiles goes with the first
 // tile of the set.
-void FolderJobs::place_others(const FoundSet& set, int tile, ConversionJob& job) const {
+void FolderJobs::place_others(const FoundSet& set, int tile, ConversionJob& job) {
   const std::vector<fs::path*> read = files_of(job);
   const bool is_first = tile == tiles_of(set).front();
   for (const FoundMap& map : set.maps) {
@@ -287,13 +360,31 @@ void FolderJobs::place_others(const FoundSet& set, int tile, ConversionJob& job)
     const fs::path source = root_ / *file;
     if (std::any_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
       continue;
-    if (!options_.copy_others)
+    if (!comes_along(map)) {
       job.left_behind.push_back(source);
-    else if (std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end())
-      job.copies.push_back(copied_normals(source, options_.preset, job.notes));
-    else
+      continue;
+    }
+    if (is_in_place_) continue;
+    if (!is_normal(map)) {
       job.copies.push_back({source, "", ""});
+      continue;
+    }
+    CopiedNormals normals = copied_normals(options_, source);
+    if (!normals.reason.empty()) normals_[normals.reason].push_back(normals.copy);
+    job.copies.push_back(std::move(normals.copy));
   }
+}
+
+// Whether a map that the conversion does not read is copied. Another map than the chosen one for a parameter
+// would be a second, unconverted form of it.
+bool FolderJobs::comes_along(const FoundMap& map) const {
+  constexpr std::array kConverted = {Role::kRoughness,  Role::kGlossiness, Role::kGlossinessSquared,
+                                     Role::kAlphaWidth, Role::kSpecular,   Role::kSpecularLevel,
+                                     Role::kDiffuse,    Role::kBaseColor,  Role::kMetallic};
+  if (options_.only_converted || map.is_repeated) return false;
+  return !workflow_.is_material() || std::ranges::none_of(map.meaning, [&](const ChannelMeaning& entry) {
+    return std::ranges::find(kConverted, entry.role) != kConverted.end();
+  });
 }
 
 // The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
@@ -347,8 +438,8 @@ bool FolderJobs::takes_names(const FoundSet& set) {
   };
   for (const auto& [path, source] : outputs(set))
     if (!take(path, source)) return false;
-  if (options_.copy_others)
-    for (const FoundMap& map : set.maps)
+  for (const FoundMap& map : set.maps)
+    if (comes_along(map))
       for (const fs::path& file : files_of(map))
         if (!take(options_.output / file, file)) return false;
   return true;

@@ -43,6 +43,7 @@ struct JobList {
   std::vector<ConversionJob> jobs;
   std::shared_ptr<WrittenNames> names = std::make_shared<WrittenNames>();  // results, inputs and copies
   std::vector<SkippedSet> left_out;
+  std::vector<std::string> notes;                   // about all sets
   std::vector<std::filesystem::path> unrecognised;  // images of a folder whose names no habit matches
   std::size_t asset_count = 0;                      // assets in the folder, which are left as they are
   bool is_tree = false;            // several sets or tiles; a failing one does not stop the others

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
 #include "sets/folder_walk.hpp"
 
@@ -101,22 +102,25 @@ void require_one_way(const ConvertOptions& options, const WorkflowChoice& workfl
   for (const Parameter parameter : {Parameter::kBaseColor, Parameter::kDiffuse})
     if (is_tree && !workflow.has_source(parameter) && options.map_of(parameter) != nullptr)
       throw Error(ErrorKind::kUsage,
-                  parameter_option(parameter) + " cannot be used with a folder (use --copy-others)");
+                  parameter_option(parameter) +
+                      " cannot be used with a folder, whose maps come along (remove this option)");
   require_read(options, workflow);
   if (!is_tree) require_parameters(options, workflow);
 }
 
-// With a folder, a map is a name with `*`, which each set completes; other maps are refused.
-void keep_numbers(const ConvertOptions& options, const std::string& option, ParameterRequest& parameter) {
-  const auto* map = std::get_if<MapName>(&parameter.source);
-  if (options.folder.empty() || map == nullptr || map->file.empty()) return;
-  if (map->file.string().find('*') == std::string::npos)
-    throw Error(ErrorKind::kUsage,
-                option + ": the map " + map->file.string() +
-                    " cannot be used with a folder (give numbers, or a name with * for that of "
-                    "the set: '*_packed.png:G')");
-  parameter.source = MapName{};  // each set has its own file
+// With a folder, each set finds its own file.
+void keep_numbers(const ConvertOptions& options, ParameterRequest& parameter) {
+  if (!options.folder.empty() && std::holds_alternative<MapName>(parameter.source))
+    parameter.source = MapName{};
 }
+
+}  // namespace
+
+std::string one_channel(const std::string& option, const std::filesystem::path& file) {
+  return file.empty() ? "" : option + " " + shell_word(file.string() + ":G");
+}
+
+namespace {
 
 // The encoding of the roughness maps. `--roughness` means roughness even for a model that takes glossiness.
 std::optional<RoughnessConvention> given_convention(const ConvertOptions& options,
@@ -142,9 +146,10 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
     if (const MapSource* source = options.map_of(parameter)) asked.source = *source;
     if (const auto constant = workflow.constants.find(parameter); constant != workflow.constants.end())
       asked.source = constant->second;
-    keep_numbers(options,
-                 is_width && options.reads_glossiness() ? "--glossiness" : parameter_option(parameter),
-                 asked);
+    keep_numbers(options, asked);
+    if (const auto* map = std::get_if<MapName>(&asked.source))
+      asked.one_channel = one_channel(
+          is_width && options.reads_glossiness() ? "--glossiness" : parameter_option(parameter), map->file);
     if (const auto found = options.factors.find(parameter); found != options.factors.end())
       asked.factors = found->second;
     if (const auto found = transfers.find(parameter); found != transfers.end())
@@ -154,7 +159,7 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
   const auto carry = [&](const std::string& name, const MapSource* source) {
     if (source == nullptr) return;
     ParameterRequest asked{*source, {}, Transfer::kLinear};
-    keep_numbers(options, "--" + name, asked);
+    keep_numbers(options, asked);
     if (const auto* map = std::get_if<MapName>(&asked.source); map != nullptr && map->file.empty()) return;
     request.carried.push_back({name, std::move(asked)});
   };
@@ -183,28 +188,39 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Workfl
   return files;
 }
 
-CopiedFile copied_normals(const std::filesystem::path& source, const Preset* preset,
-                          std::vector<std::string>& notes) {
-  CopiedFile copy{source, "", ""};
-  if (preset == nullptr || !preset->normals) return copy;
-  const std::string reads = std::string(preset->name) + " reads it " +
-                            (*preset->normals == NormalGreen::kUp ? "upwards" : "downwards");
+CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source) {
+  const auto text = [](NormalGreen green) {
+    return std::string(green == NormalGreen::kUp ? "OpenGL (green up)" : "DirectX (green down)");
+  };
+  const std::string target(options.preset != nullptr ? options.preset->name : options.to.word());
+  const auto wanted = options.preset != nullptr ? options.preset->normals : normals_of(options.to);
+  const auto of_source = normals_of(options.from);
+  const std::string from = "--from " + std::string(options.from.word());
   const std::optional<StatedGreen> stated = stated_green(source.filename().string());
-  if (!stated) {
-    if (*preset->normals == NormalGreen::kDown)
-      notes.push_back(shown(source) +
-                      ": green is not turned, because the name does not say where it points, and " + reads +
-                      " (write GL or DX into the name, as wood_NormalGL.png)");
-    return copy;
+  CopiedNormals normals{{source, "", ""}, ""};
+  if (!wanted) {
+    if (options.preset != nullptr) normals.reason = target + " reads both directions";
+    return normals;
   }
+  if (!stated && !of_source) {
+    normals.reason = "neither the name nor --from says whether it is OpenGL or DirectX, and " + target +
+                     " reads " + text(*wanted) + " (write GL or DX into the name, as wood_NormalGL.png)";
+    return normals;
+  }
+  const NormalGreen green = stated ? stated->green : *of_source;
+  if (green == *wanted) {
+    if (of_source && *of_source != green)
+      normals.reason = "the name says " + text(green) + ", which " + target + " reads (maps of " + from +
+                       " are " + text(*of_source) + ")";
+    return normals;
+  }
+  std::filesystem::path turned = stated ? stated->turned_name : source.filename().string();
   std::error_code ignored;
-  if (stated->green == *preset->normals ||
-      std::filesystem::exists(source.parent_path() / stated->turned_name, ignored))
-    return copy;
-  notes.push_back(shown(source) + ": green is turned in the copy " + shown(stated->turned_name) +
-                  ", because " + reads);
-  copy.turned_name = stated->turned_name;
-  return copy;
+  if (stated && std::filesystem::exists(source.parent_path() / turned, ignored)) return normals;
+  normals.copy.turned_name = turned.replace_extension(written_extension(turned)).string();
+  normals.reason =
+      (stated ? "the name" : from) + " says " + text(green) + ", and " + target + " reads " + text(*wanted);
+  return normals;
 }
 
 namespace {
@@ -246,13 +262,35 @@ RoughnessConvention written_width(const ConvertOptions& options, const TargetCho
   return wanted == kGlossiness ? kRoughness : wanted;
 }
 
+std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
+                                                const std::filesystem::path& given) {
+  std::error_code ignored;
+  for (const std::filesystem::path& file : {given, options.folder / given})
+    if (std::filesystem::is_regular_file(file, ignored)) return file;
+  return std::nullopt;
+}
+
+std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options) {
+  std::vector<std::filesystem::path> shared;
+  const auto add = [&](const std::optional<MapSource>& source) {
+    const auto* map = source ? std::get_if<MapName>(&*source) : nullptr;
+    if (const auto file = map != nullptr ? shared_map(options, map->file) : std::nullopt)
+      shared.push_back(*file);
+  };
+  if (options.folder.empty()) return shared;
+  for (const auto& [parameter, source] : options.maps) add(source);
+  add(options.occlusion);
+  return shared;
+}
+
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow) {
   TargetChoice choice;
   choice.folder = options.output;
   const bool is_other_kind = workflow.is_material() && kind_of(*workflow.source) != kind_of(*workflow.target);
-  choice.layout = options.layout                                 ? *options.layout
-                  : is_other_kind || !workflow.constants.empty() ? separate()
-                                                                 : as_inputs();
+  choice.layout = options.layout ? *options.layout
+                  : is_other_kind || !workflow.constants.empty() || !shared_maps(options).empty()
+                      ? separate()
+                      : as_inputs();
   choice.extension = options.format;
   choice.type = options.type;
   choice.compression_level = options.compression;

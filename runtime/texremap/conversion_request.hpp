@@ -15,13 +15,24 @@ namespace remap {
 
 // Each function throws kUsage, naming the option, for an invalid value.
 TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow);
+// The option that takes one channel of a map: `--roughness '*_rough.jpg:G'`; empty without a file.
+std::string one_channel(const std::string& option, const std::filesystem::path& file);
 // The files to copy with the one set that the options name.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
-// The copy of a normal map of a folder. Where its name says that green points another way than the preset
-// reads it, green is turned, unless the folder has that map as well. Adds to `notes` what is done, and where
-// a name says nothing to a preset that reads green downwards.
-CopiedFile copied_normals(const std::filesystem::path& source, const Preset* preset,
-                          std::vector<std::string>& notes);
+// The copy of a normal map of a folder. Green is inverted where it points another way than the target reads
+// it, unless the folder has that map as well. The name of the map says where green points, else the source
+// does.
+struct CopiedNormals {
+  CopiedFile copy;
+  std::string reason;  // why green is inverted, or kept although nothing is known; else empty
+};
+CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source);
+// The file that an option gives for every set of a folder: the path as given, or below the folder; none for a
+// pattern and for a name in the folders of sets.
+std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
+                                                const std::filesystem::path& given);
+// All of them.
+std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
 // The roughness of a set before the conversion.
 struct WidthSource {

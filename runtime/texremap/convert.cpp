@@ -222,6 +222,8 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
   const auto tell = [&](const Json& line) {
     if (list.is_tree) lines.tell(line);
   };
+  if (!options.quiet)
+    for (const std::string& note : list.notes) print_message(kProgram, "note: " + note);
   print_left_out(kProgram, list, options.quiet);
   if (options.part) tell(part_json(*options.part, conversion.manifest, conversion_note(chosen, options)));
   tell_start(outcome, tell);

@@ -29,7 +29,21 @@ constexpr std::array<std::string_view, 2> kTreeOptions = {"--recursive", "--resu
 
 bool holds(const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
+// Textures stay in their asset: what an engine reads of a folder of maps cannot be made of it.
+void refuse_engine(const ConvertOptions& options) {
+  const Preset* preset = options.preset != nullptr ? options.preset : preset_of(options.to.word());
+  if (preset == nullptr) return;
+  throw usage_error(
+      (options.preset != nullptr ? "--preset " + std::string(preset->name)
+                                 : "--to " + std::string(options.to.word())) +
+      ": textures are not taken out of assets such as " + shown(options.folder) +
+      " (convert it by --to gltf, which engines import; or export its textures, as with Blender, "
+      "and convert their folder by --preset " +
+      std::string(preset->name) + ")");
+}
+
 void require_asset_options(const ConvertOptions& options) {
+  refuse_engine(options);
   const bool is_tree = options.assets || !options.manifest.empty();
   for (const GivenOption& option : options.given) {
     if ((option.tags & kNeedsAsset) == 0 && !holds(kAssetOptions, option.name))
@@ -54,7 +68,8 @@ void require_asset_options(const ConvertOptions& options) {
                       ": the file tells what its materials are (remove this option)");
   if (options.to.empty()) throw usage_error("--to is required (gltf, or gltf-specgloss)");
   if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
-    throw usage_error("--to " + options.to.name + ": materials of assets become gltf or gltf-specgloss");
+    throw usage_error("--to " + options.to.name +
+                      ": materials of assets become gltf or gltf-specgloss (use --to gltf)");
   if (options.output.empty()) throw usage_error("--output is required");
   const bool is_core = options.to.name == "gltf" && options.profile == MaterialProfile::kCore;
   if (options.fold_specular && !is_core)
@@ -93,6 +108,13 @@ void require_success(const std::vector<AssetReport>& reports, const AssetSummary
                     " materials failed");
 }
 
+// Metallic and roughness in an asset are those of glTF.
+ConvertOptions meaning_gltf(ConvertOptions options) {
+  if (options.preset == nullptr && preset_of(options.to.word()) == nullptr && options.to.name == "metallic")
+    options.to = model_name().read("--to", "gltf");
+  return options;
+}
+
 AssetList checked_list(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   require_asset_options(options);
   AssetList list = asset_list(options, manifest ? &manifest->listing : nullptr);
@@ -111,11 +133,12 @@ bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>
 }
 
 void check_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
-  (void)checked_list(options, manifest);
+  (void)checked_list(meaning_gltf(options), manifest);
 }
 
-void convert_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
+void convert_assets(const ConvertOptions& given, const std::optional<TreeManifest>& manifest) {
   const Stopwatch stopwatch;
+  const ConvertOptions options = meaning_gltf(given);
   const AssetList list = checked_list(options, manifest);
   const bool is_one = list.jobs.size() == 1 && !list.is_tree;
   const ConversionNote conversion = conversion_of_assets(options);

@@ -1,6 +1,7 @@
 #include "texremap/convert_options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <thread>
 
@@ -284,9 +285,11 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.add_option("--only NAME", options.only, one_of(kOnly, "parameter"), "Write only this parameter")
       ->tag(kChangesResults | kNeedsFiles | kNotWithWorkflow);
   command
-      .add_flag("--copy-others", options.copy_others,
-                "With DIR, also copy the maps that are not converted (normal, height, ...)")
+      .add_flag("--only-converted", options.only_converted,
+                "With DIR, write only converted maps, without normal, height, opacity and others")
       ->tag(kChangesResults | kNeedsFolder);
+  command.retire("--copy-others",
+                 "all maps of a set come along now (remove this option; --only-converted leaves them out)");
   command
       .add_flag("--force", options.force,
                 "Overwrite existing results (never an input); accept maps that were already converted and a "
@@ -416,12 +419,35 @@ void add_memory_option(Command& command, int& megabytes) {
 }
 
 void apply_preset(ConvertOptions& options) {
+  const auto is_map = [](const auto& entry) {
+    return entry.second && std::holds_alternative<MapName>(*entry.second);
+  };
+  const bool has_files = !options.folder.empty() || std::ranges::any_of(options.maps, is_map);
+  if (options.preset == nullptr && has_files) options.preset = preset_of(options.to.word());
   if (options.preset == nullptr) return;
   const Preset& preset = *options.preset;
   if (options.to.empty()) options.to = model_name().read("--preset", std::string(preset.model));
   if (!options.layout) options.layout = layout_from("--preset", std::string(preset.name));
   if (options.format.empty()) options.format = preset.format;
   if (!options.type) options.type = preset.type;
+}
+
+std::optional<NormalGreen> normals_of(const ModelName& model) {
+  constexpr std::array<std::string_view, 3> kOfNoTool = {"spec-gloss", "specgloss", "specular-glossiness"};
+  constexpr std::array<std::string_view, 2> kUpwards = {"filament", "playcanvas"};
+  constexpr std::array<std::string_view, 6> kUpwardModels = {"gltf",
+                                                             "gltf-specgloss",
+                                                             "cycles-5/principled",
+                                                             "threejs/standard",
+                                                             "usd-preview-surface",
+                                                             "usd-preview-surface-specular"};
+  const auto holds = [](const auto& names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  if (const Preset* preset = preset_of(model.word())) return preset->normals;
+  if (holds(kUpwards, model.word()) || (holds(kUpwardModels, model.name) && !holds(kOfNoTool, model.word())))
+    return NormalGreen::kUp;
+  return std::nullopt;
 }
 
 int ConvertOptions::threads() const {
@@ -452,6 +478,10 @@ std::string result_options_text(const ConvertOptions& options) {
   for (const GivenOption& option : options.given)
     if ((option.tags & kChangesResults) != 0)
       text += (text.empty() ? "" : " ") + option.name + (option.words.empty() ? "" : " " + option.words);
+  const auto add = [&](const std::string& option) { text += (text.empty() ? "" : " ") + option; };
+  if (options.preset != nullptr && !options.is_given("--preset"))
+    add("--preset " + std::string(options.preset->name));
+  if (!options.only_converted && normals_of(options.from)) add("--from " + std::string(options.from.word()));
   return text;
 }
 

@@ -101,7 +101,7 @@ struct ConvertOptions {
   std::filesystem::path diagnose;  // folder for the maps of diagnoses; empty for none
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
-  bool copy_others = false, force = false, resume = false, allow_skips = false, dry_run = false;
+  bool only_converted = false, force = false, resume = false, allow_skips = false, dry_run = false;
   bool json = false, histograms = false, quiet = false;
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core
@@ -123,8 +123,12 @@ struct ConvertOptions {
 
 void add_convert_options(Command& command, ConvertOptions& options);
 
-// What `--preset` stands for, in place of the options that were not given.
+// What `--preset` stands for, in place of the options that were not given. The name of an engine as `--to` is
+// its preset.
 void apply_preset(ConvertOptions& options);
+
+// Where green of normal maps points in materials of a source or target; none where it is not documented.
+std::optional<NormalGreen> normals_of(const ModelName& model);
 
 // Throws kUsage if an option with `tag` was given: `--only` and the reason.
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);

@@ -80,7 +80,7 @@ void fields(Archive& archive, MapStatistics& statistics) {
   archive(statistics.texel_count, statistics.out_of_domain_count, statistics.nan_count,
           statistics.infinite_count, statistics.negative_count, statistics.clipped_count,
           statistics.masked_count, statistics.above_one_count, statistics.first_bad, statistics.sources,
-          statistics.targets, statistics.metallic);
+          statistics.targets, statistics.tints, statistics.metallic);
 }
 template <typename Archive>
 void fields(Archive& archive, PlannedRole& role) {

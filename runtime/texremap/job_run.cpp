@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/packed_values.hpp"
+#include "core/report_text.hpp"
 #include "core/stopwatch.hpp"
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"
@@ -225,6 +226,20 @@ std::unique_ptr<Converter> JobRunner::survey(TextureSet& set, JobReport& report)
   return make_workflow_converter(stages, chosen_.info().instructions);
 }
 
+// Says which maps of one value have a trace of color, where it could be visible.
+void note_tints(const TextureSet& set, JobReport& report) {
+  constexpr float kVisible = 0.01f;
+  for (const auto& [parameter, tint] : report.statistics.tints) {
+    const SetParameter* parameter_map = set.map_of(parameter);
+    if (parameter_map == nullptr || tint <= kVisible) continue;
+    const ChannelPlace used = parameter_map->channels.front();
+    const ImageReader& map = set.maps[used.map];
+    report.warnings.push_back(map.path().string() + ": is not quite grey: its channels differ by at most " +
+                              fixed(255.0 * static_cast<double>(tint), 0) + " of 255, and " +
+                              map.layout().channels[used.channel].name + " is used");
+  }
+}
+
 void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets,
                             JobReport& report) const {
   for (const std::string& remark : remarks(set)) report.warnings.push_back(remark);
@@ -374,6 +389,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   pass.progress = progress;
   pass.commit = [&](std::vector<TargetMap>& finished) { commit(job, plan, all, inputs, finished); };
   report.statistics = run_texture_pass(set, targets, own ? *own : chosen_.converter(), pass);
+  note_tints(set, report);
   report.bytes_read = size_of(report.inputs);
   for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});
   report.seconds = stopwatch.seconds();

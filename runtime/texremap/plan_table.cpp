@@ -89,7 +89,7 @@ std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& 
   }
   for (const PlannedCopy& copy : plan.copies)
     if (copy.parts.empty())
-      roles.push_back({"", name_of_file(copy.source), "", copy.turns_green ? "green turned" : "copied",
+      roles.push_back({"", name_of_file(copy.source), "", copy.turns_green ? "green inverted" : "copied",
                        name_of_file(copy.path)});
   for (const std::filesystem::path& file : job.left_behind)
     roles.push_back({"", name_of_file(file), "", "left behind", ""});

@@ -52,12 +52,17 @@ std::optional<Kept> kept_of(const FoundSet& set, std::vector<MapUse> found,
     return use.channels == Channels::kWhole || use.channels == Channels::kRgb;
   });
   if (whole.size() == 1) return Kept{whole.front(), "a map of its own"};
+  const auto role_count = [&](const MapUse& use) { return set.maps[use.map].meaning.size(); };
+  const std::size_t most = role_count(*std::ranges::max_element(found, {}, role_count));
+  const auto fullest = those(found, [&](const MapUse& use) { return role_count(use) == most; });
+  if (fullest.size() == 1) return Kept{fullest.front(), "which holds more of the material"};
   return std::nullopt;
 }
 
 void drop(FoundSet& set, const MapUse& use) {
   FoundMap& map = set.maps[use.map];
   std::erase(map.meaning, ChannelMeaning{use.channels, use.role});
+  map.is_repeated = true;
   map.is_converted = std::ranges::any_of(map.meaning, [](const ChannelMeaning& entry) {
     return is_roughness(entry.role) || entry.role == Role::kSpecular;
   });

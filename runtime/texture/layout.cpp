@@ -17,26 +17,27 @@ constexpr auto kGreenUp = NormalGreen::kUp;
 
 constexpr std::size_t kPlainLayouts = 5;  // the first presets
 constexpr std::array<Preset, 14> kPresets = {{
-    {"as-inputs", "", "", "", {}, {}},
-    {"separate", "", "", "", {}, {}},
-    {"orm", "", "orm=occlusion,roughness,metallic", "", {}, {}},
-    {"arm", "", "arm=occlusion,roughness,metallic", "", {}, {}},
-    {"specgloss", "", "specular_glossiness=specular,glossiness", "", {}, {}},
-    {"gltf", "gltf", "baseColor=base_color; occlusionRoughnessMetallic=occlusion,roughness,metallic", "png",
-     kEightBits, kGreenUp},
-    {"unity", "unity",
+    {"as-inputs", "", "", "", "", {}, {}},
+    {"separate", "", "", "", "", {}, {}},
+    {"orm", "", "", "orm=occlusion,roughness,metallic", "", {}, {}},
+    {"arm", "", "", "arm=occlusion,roughness,metallic", "", {}, {}},
+    {"specgloss", "", "", "specular_glossiness=specular,glossiness", "", {}, {}},
+    {"gltf", "gltf", "", "baseColor=base_color; occlusionRoughnessMetallic=occlusion,roughness,metallic",
+     "png", kEightBits, kGreenUp},
+    {"unity", "unity", "unity unity-urp",
      "BaseMap=base_color; MetallicSmoothness=metallic,metallic,metallic,smoothness; Occlusion=occlusion",
      "png", kEightBits, kGreenUp},
-    {"unity-hdrp", "unity-hdrp", "BaseMap=base_color; MaskMap=metallic,occlusion,0,smoothness", "png",
-     kEightBits, kGreenUp},
-    {"unreal", "unreal", "T_*_BC=base_color; T_*_ORM=occlusion,roughness,metallic", "png", kEightBits,
-     NormalGreen::kDown},
-    {"godot", "godot", "albedo=base_color; orm=occlusion,roughness,metallic", "png", kEightBits, kGreenUp},
-    {"threejs", "three", "baseColor=base_color; orm=occlusion,roughness,metallic", "png", kEightBits,
+    {"unity-hdrp", "unity-hdrp", "unity-hdrp", "BaseMap=base_color; MaskMap=metallic,occlusion,0,smoothness",
+     "png", kEightBits, kGreenUp},
+    {"unreal", "unreal", "unreal unreal-engine ue4 ue5",
+     "T_*_BC=base_color; T_*_ORM=occlusion,roughness,metallic", "png", kEightBits, NormalGreen::kDown},
+    {"godot", "godot", "godot", "albedo=base_color; orm=occlusion,roughness,metallic", "png", kEightBits,
      kGreenUp},
-    {"blender", "blender", "", "png", kEightBits, kGreenUp},
-    {"usd", "usd", "", "png", kEightBits, kGreenUp},
-    {"marmoset", "marmoset", "", "png", kEightBits, {}},
+    {"threejs", "three", "three three-js threejs", "baseColor=base_color; orm=occlusion,roughness,metallic",
+     "png", kEightBits, kGreenUp},
+    {"blender", "blender", "blender", "", "png", kEightBits, kGreenUp},
+    {"usd", "usd", "usd usdz", "", "png", kEightBits, kGreenUp},
+    {"marmoset", "marmoset", "marmoset", "", "png", kEightBits, {}},
 }};
 
 // The words of a layout, with what they mean.
@@ -143,6 +144,14 @@ Layout as_inputs() { return {"as-inputs", true, {}}; }
 Layout separate() { return {"separate", false, {}}; }
 
 std::span<const Preset> presets() { return kPresets; }
+
+const Preset* preset_of(std::string_view word) {
+  const auto found = std::ranges::find_if(kPresets, [word](const Preset& preset) {
+    const std::vector<std::string> words = parts_between(preset.words, ' ');
+    return !word.empty() && std::ranges::find(words, word) != words.end();
+  });
+  return found == kPresets.end() ? nullptr : &*found;
+}
 
 std::span<const Preset> engine_presets() { return presets().subspan(kPlainLayouts); }
 

@@ -55,7 +55,8 @@ Layout separate();
 // What an engine or tool takes, by its documentation (docs/presets.md has the links).
 struct Preset {
   std::string_view name;
-  std::string_view model;   // of `--to`; empty where `layout` is all that the name means
+  std::string_view model;  // of `--to`; empty where `layout` is all that the name means
+  std::string_view words;  // of `--to` that mean the preset; gltf is a format as well, and means the material
   std::string_view layout;  // as layout_from() reads it; empty: separate
   std::string_view format;  // extension; empty: that of the inputs
   std::optional<PixelType> type;
@@ -65,6 +66,8 @@ struct Preset {
 std::span<const Preset> presets();
 // Those of them that name a model.
 std::span<const Preset> engine_presets();
+// The preset that a word of `--to` means; null for none.
+const Preset* preset_of(std::string_view word);
 
 // A layout by the name of a preset, or in words: `MaskMap=metallic,occlusion,0,smoothness; Albedo=base_color`
 // lists files and, by channel, what they hold: roughness, glossiness or smoothness, metallic, occlusion,

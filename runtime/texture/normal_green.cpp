@@ -14,8 +14,13 @@ namespace remap {
 namespace {
 
 // Words for green up and green down.
-constexpr std::array<std::array<std::string_view, 2>, 5> kGreenWords = {
-    {{"OpenGL", "DirectX"}, {"opengl", "directx"}, {"Opengl", "Directx"}, {"GL", "DX"}, {"gl", "dx"}}};
+constexpr std::array<std::array<std::string_view, 2>, 7> kGreenWords = {{{"OpenGL", "DirectX"},
+                                                                         {"opengl", "directx"},
+                                                                         {"Opengl", "Directx"},
+                                                                         {"GL", "DX"},
+                                                                         {"gl", "dx"},
+                                                                         {"OGL", "DX"},
+                                                                         {"ogl", "dx"}}};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -23,7 +28,7 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_green_word(std::string_view name, std::size_t at, std::size_t size) {
   const std::string_view before = name.substr(0, at), after = name.substr(at + size);
   if (!after.empty() && is_letter(after.front())) return false;
-  return size > 2 || before.empty() || !is_letter(before.back()) || before.ends_with("ormal");
+  return size > 3 || before.empty() || !is_letter(before.back()) || before.ends_with("ormal");
 }
 
 std::size_t green_channel(const ImageReader& image) {

@@ -12,6 +12,13 @@
 
 namespace remap {
 namespace fs = std::filesystem;
+
+// PNG is lossless and has more than 8 bits.
+std::string written_extension(const fs::path& input) {
+  const std::string extension = input.extension().string();
+  return extension == ".webp" ? ".png" : extension;
+}
+
 namespace {
 
 void require_known_extension(const std::string& extension) {
@@ -20,12 +27,6 @@ void require_known_extension(const std::string& extension) {
   if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
     throw Error(ErrorKind::kUsage,
                 "--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
-}
-
-// WebP is read, and written as PNG, which is lossless and has more than 8 bits.
-std::string written_extension(const fs::path& input) {
-  const std::string extension = input.extension().string();
-  return extension == ".webp" ? ".png" : extension;
 }
 
 fs::path result_path(fs::path name, const TargetChoice& choice) {

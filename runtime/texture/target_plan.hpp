@@ -71,6 +71,9 @@ struct TargetChoice {
   Metadata metadata;
 };
 
+// The extension of a result that follows `input`: WebP is written as PNG.
+std::string written_extension(const std::filesystem::path& input);
+
 // The name of the file that holds a parameter in layouts that name their files, or without an input of the
 // same name; without extension.
 std::string file_name(Parameter parameter, const TargetChoice& choice, const ResultNames& names);

@@ -18,7 +18,8 @@ constexpr std::size_t kChunkRows = 32;
 
 // No valid image needs more for a band, but a damaged file may.
 constexpr std::size_t kLargestBand = std::size_t{2} << 30;
-constexpr float kLossyGrey = 4.0f / 255.0f;
+// Scans, filters and JPEG leave differences of up to 18 of 255 between channels of a grey map.
+constexpr float kGreyTolerance = 20.0f / 255.0f;
 
 // Rows [first_row, first_row + row_count) of every map, as stored.
 struct Band {
@@ -248,9 +249,9 @@ SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, c
     source.channels.push_back(view_of(place, band));
     source.channel_names.push_back(reader.layout().channels[place.channel].name);
     source.name = reader.path().string();
-    // Color transforms of lossy files turn grey into colors that differ by a step or two.
-    if (!reader.layout().lossy_compression.empty()) source.grey_tolerance = kLossyGrey;
+    source.grey_tolerance = kGreyTolerance;
   }
+  source.one_channel = parameter.one_channel;
   return source;
 }
 

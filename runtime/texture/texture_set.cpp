@@ -263,7 +263,12 @@ SetParameter open_parameter(const ParameterRequest& request, std::optional<Param
     parameter.constants = *constants;
     return parameter;
   }
-  parameter.channels = find_channels(std::get<MapName>(request.source), role, expected, set);
+  const auto& map = std::get<MapName>(request.source);
+  parameter.channels = find_channels(map, role, expected, set);
+  // Of copies of one value, green is the one that lossy compression and filters keep best.
+  const bool is_copied = !(role && is_color(*role)) && map.channels.empty() && parameter.channels.size() == 3;
+  if (is_copied) std::swap(parameter.channels[0], parameter.channels[1]);
+  parameter.one_channel = request.one_channel;
   return parameter;
 }
 
@@ -362,7 +367,7 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
   for (const CarriedRequest& carried : request.carried) {
     SetParameter parameter =
         open_parameter(carried.parameter, std::nullopt, "one channel, Y, or R, G and B", set);
-    if (parameter.is_map()) parameter.channels.resize(1);  // all are equal
+    if (parameter.is_map()) parameter.channels.resize(1);
     if (parameter.channel_count() != 1)
       throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values (give one)");
     set.carried.push_back({carried.name, parameter});

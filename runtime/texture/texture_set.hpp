@@ -32,6 +32,7 @@ struct ParameterRequest {
   std::variant<MapName, ConstantValues> source;
   std::vector<float> factors;        // of the linear values: none, one, or one per channel
   std::optional<Transfer> transfer;  // of a color; by default as the file says, else the usual one
+  std::string one_channel = {};      // the option that takes one channel of the map, for messages
 };
 
 // Parses the value of an option: `0.5` and `0.9,0.6,0.2` are constants; `maps.png:G` and `maps.exr:R,G,B`
@@ -72,10 +73,12 @@ enum class TransferReason {
 
 // One parameter of an open set.
 struct SetParameter : ParameterValues {
-  // Empty for a constant. Several channels of a parameter other than a color are equal.
+  // Empty for a constant. Several channels of a parameter other than a color are nearly equal, and the first,
+  // which is green, holds its value.
   std::vector<ChannelPlace> channels;
   TransferReason transfer_reason = TransferReason::kUsual;
   bool is_whole_numbers = false;  // the file holds integers
+  std::string one_channel = {};   // of the request
 
   bool is_map() const noexcept { return !channels.empty(); }
   std::size_t channel_count() const noexcept { return is_map() ? channels.size() : constants.size(); }

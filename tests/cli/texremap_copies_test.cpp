@@ -80,7 +80,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
   const Session session;
   write_set(session, "in/a");
   write_set(session, "in/b/c");
-  const Words words = "in --recursive --copy-others";
+  const Words words = "in --recursive ";
   require_success(convert_copies(session, words));
   for (const std::string folder : {"a", "b/c"}) {
     for (const std::string map : {"BaseColor", "Normal", "AmbientOcclusion"}) {
@@ -103,7 +103,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
 TEST_CASE("texremap copies: a packed map is not copied as well") {
   const Session session;
   write_set(session, "in");
-  require_success(convert_copies(session, "in --copy-others --layout orm"));
+  require_success(convert_copies(session, "in --layout orm"));
   CHECK(fs::exists(session.path("out/wood_orm.png")));
   CHECK(fs::exists(session.path("out/wood_Normal.png")));
   CHECK_FALSE(fs::exists(session.path("out/wood_AmbientOcclusion.png")));
@@ -134,12 +134,13 @@ TEST_CASE(
   for (const std::string set : {"wood", "tin", "oak"})
     for (const std::string map : {"Roughness", "Metallic"})
       write_map(session, "in/" + set + "_" + map + ".png", {"Y"});
-  const Words words = "convert in --from metallic --copy-others --preset";
+  const Words words = "convert in --from metallic --preset";
   const ProcessResult down = require_success(session.texremap(words + "unreal -o unreal"));
-  CHECK_THAT(down.errors,
-             Contains("wood_Normal_OpenGL.png: green is turned in the copy wood_Normal_DirectX.png, because "
-                      "unreal reads it downwards") &&
-                 Contains("tin_Normal.png: green is not turned, because the name does not say"));
+  CHECK_THAT(
+      down.errors,
+      Contains("wood_Normal_OpenGL.png: green is inverted in the copy wood_Normal_DirectX.png, because "
+               "the name says OpenGL (green up), and unreal reads DirectX (green down)") &&
+          Contains("tin_Normal.png: green is kept, because neither the name nor --from says"));
   CHECK_FALSE(fs::exists(session.path("unreal/wood_Normal_OpenGL.png")));
   const TestImage before = session.image("in/wood_Normal_OpenGL.png"),
                   after = session.image("unreal/wood_Normal_DirectX.png");
@@ -150,8 +151,8 @@ TEST_CASE(
     CHECK(same_bytes(session, "in/" + name, "unreal/" + name));
 
   const ProcessResult up = require_success(session.texremap(words + "gltf -o gltf"));
-  CHECK_THAT(up.errors, !Contains("green"));
+  CHECK_THAT(up.errors, !Contains("inverted"));
   CHECK(same_bytes(session, "in/wood_Normal_OpenGL.png", "gltf/wood_Normal_OpenGL.png"));
   CHECK_THAT(require_success(session.texremap(words + "unreal -o planned --dry-run")).output,
-             Contains("green turned"));
+             Contains("green inverted"));
 }

@@ -78,8 +78,7 @@ TEST_CASE("texremap hostile: a copy has the permissions of new files, whatever t
     return folder.run({"/bin/sh", "-c", "umask 077 && exec " REMAP_TEXREMAP " " + words}).exit_code;
   };
   CHECK(run("convert in/a.gltf --to gltf -o out") == 0);
-  CHECK(run("convert in/sets --from mitsuba/ward --to mitsuba/ggx --specular 0.04 --copy-others -o sets") ==
-        0);
+  CHECK(run("convert in/sets --from mitsuba/ward --to mitsuba/ggx --specular 0.04 -o sets") == 0);
   for (const char* name : {"out/a.gltf", "out/payload.bin", "sets/x_normal.png", "sets/x_roughness.png"}) {
     INFO(name);
     CHECK(mode_of(folder.path(name)) == 0600);
@@ -234,9 +233,7 @@ TEST_CASE("texremap hostile: links out of the folder of the inputs are read when
 
   folder.map("sets/x_roughness.png", kGrey);
   folder.link("../secret", "sets/x_normal.png");
-  CHECK(folder
-            .texremap(
-                "convert sets --from mitsuba/ward --to mitsuba/ggx --specular 0.04 --copy-others -o copies")
+  CHECK(folder.texremap("convert sets --from mitsuba/ward --to mitsuba/ggx --specular 0.04 -o copies")
             .exit_code == 1);
   CHECK_FALSE(fs::exists(folder.path("copies/x_normal.png")));
 }

@@ -11,8 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const Words kOfTree =
-    "convert in --recursive --from mitsuba/ward --to mitsuba/as -o out --copy-others --threads 2 --quiet";
+const Words kOfTree = "convert in --recursive --from mitsuba/ward --to mitsuba/as -o out --threads 2 --quiet";
 const Words kOfManifest =
     "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/as -o out --part 1/1 --quiet";
 
@@ -102,7 +101,7 @@ TEST_CASE("texremap opens: a set of a manifest and a turned normal map are opene
   for (const char* name : {"in/wood_BaseColor.png", "in/wood_Normal_OpenGL.png"}) tree.map(name, kColor);
   for (const char* name : {"in/wood_Roughness.png", "in/wood_Metallic.png"}) tree.map(name, kGrey);
   for (const auto& [name, count] :
-       opens(tree, "convert in --from metallic --preset unreal --copy-others -o out --force --quiet")) {
+       opens(tree, "convert in --from metallic --preset unreal -o out --force --quiet")) {
     INFO(name);
     CHECK(count == 1);
   }

@@ -39,8 +39,8 @@ TEST_CASE("texremap tree: sets of every habit are converted by the meaning of th
   const ProcessResult result = require_success(tree.convert_tree("--recursive --specular 0.04 --json"));
   CHECK(tree.results() ==
         Names{"gltf/chair_specularGlossiness.png", "gltf/lamp_occlusionRoughnessMetallic.png",
-              "gltf/lamp_specular.png", "hero_Roughness.png", "hero_Specular.png", "quixel/abc_4K_Gloss.tga",
-              "quixel/abc_4K_Specular.tga", "stone/Stone 012_2K-PNG_Roughness.png",
+              "gltf/lamp_specular.png", "hero_Normal.png", "hero_Roughness.png", "hero_Specular.png",
+              "quixel/abc_4K_Gloss.tga", "quixel/abc_4K_Specular.tga", "stone/Stone 012_2K-PNG_Roughness.png",
               "stone/Stone 012_specular.png", "wood/planks_rough_4k.png", "wood/planks_spec_4k.png"});
   const auto json = tree_report(result.output);
   REQUIRE(json["sets"].size() == 6);

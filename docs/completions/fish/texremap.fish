@@ -43,7 +43,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l type -x -a 'uin
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l compression -x -d '1'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l output-color-space -x -d 'How colors are written: srgb or linear, or per map'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l only -x -a 'roughness specular' -d 'Write only this parameter'
-complete -c texremap -n '__fish_seen_subcommand_from convert' -l copy-others -d 'With DIR, also copy the maps that are not converted'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l only-converted -d 'With DIR, write only converted maps, without normal, height, opacity and others'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l force -d 'Overwrite existing results'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l resume -d 'Skip sets that are done'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l allow-skips -d 'With DIR, sets that are found and not converted do not make the exit code 1'

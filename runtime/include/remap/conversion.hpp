@@ -19,6 +19,8 @@ struct ModelName {
   std::string name;                   // as converters and workflows have it; of an alias, what it stands for
   const ModelAlias* alias = nullptr;  // that was given
   bool empty() const noexcept { return name.empty(); }
+  // The alias, or the name.
+  std::string_view word() const noexcept { return alias != nullptr ? alias->name : std::string_view(name); }
 };
 // What `word` means: an alias and a workflow in any case of letters, else itself.
 ModelName model_named(const std::string& word);

@@ -72,6 +72,8 @@ struct MapStatistics {
   std::size_t above_one_count = 0;         // texels with a finite source above 1, roughness excepted
   std::optional<TexelPosition> first_bad;  // with NaN, infinity or a negative value, in row order
   std::map<Parameter, ParameterStatistics> sources, targets;
+  // The largest difference between copies of one value, of parameters whose copies differ.
+  std::map<Parameter, float> tints;
   MetallicStatistics metallic;
 
   // Adds the statistics of rows below.
@@ -94,6 +96,7 @@ struct SourceParameter : ParameterValues {
   std::vector<ConstChannelView> channels;
   float grey_tolerance = 0.0f;             // largest difference between copies of one value
   std::string name;                        // file or buffer, for messages
+  std::string one_channel;                 // what the user gives for one channel of it, for messages
   std::vector<std::string> channel_names;  // one per channel, for messages
 };
 

@@ -87,6 +87,35 @@ TEST_CASE("Poly Haven: maps with the resolution after the word") {
   CHECK(reading_text("red_brick_03_nor_dx_2k") == "Poly Haven: normal");
 }
 
+TEST_CASE("Poly Haven: rough_ao packs roughness and occlusion", "[reports]") {
+  const SetSession session{"old_bench_diff_1k.jpg", "old_bench_nor_1k.jpg", "old_bench_rough_ao_1k.jpg"};
+  const FoundSet set = only_set(session.find(), "old_bench");
+  CHECK(set.maps.size() == 3);
+  CHECK(reading_text("old_bench_rough_ao_1k") == "Poly Haven: R=roughness G=occlusion");
+  CHECK(reading_text("rusty_metal_rough_ao_2k") == "renderers: R=metallic G=roughness B=occlusion");
+  // The name of a set that ends with a word is known by its other maps.
+  const SetSession metal{"rusty_metal_diff_2k.jpg", "rusty_metal_rough_ao_2k.jpg",
+                         "rusty_metal_nor_gl_2k.jpg"};
+  CHECK(only_set(metal.find(), "rusty_metal").maps.size() == 3);
+  const SetSession rough{"dark_rough_diff_2k.jpg", "dark_rough_ao_2k.jpg", "dark_rough_rough_2k.jpg"};
+  CHECK(only_set(rough.find(), "dark_rough").maps.size() == 3);
+}
+
+TEST_CASE("packed maps: the order of the words is that of the channels", "[reports]") {
+  const auto meaning = [](const std::string& name) {
+    const std::string text = reading_text(name);
+    return text.substr(text.find(": ") + 2);
+  };
+  CHECK(meaning("rock_ao_rough_metal_2k") == "R=occlusion G=roughness B=metallic");
+  CHECK(meaning("rock_AoRoughMetal") == "R=occlusion G=roughness B=metallic");
+  CHECK(meaning("rock_roughness_metallic_ao") == "R=roughness G=metallic B=occlusion");
+  CHECK(meaning("rock_MetalRoughAO") == "R=metallic G=roughness B=occlusion");
+  CHECK(meaning("rock_metallic_occlusion_roughness") == "R=metallic G=occlusion B=roughness");
+  CHECK(meaning("T_rock_2K_ORDp") == "R=occlusion G=roughness B=height");
+  CHECK(meaning("rock_MADS") == "R=metallic G=occlusion A=glossiness");
+  CHECK(meaning("rock_normal-ogl") == "normal");
+}
+
 TEST_CASE("ambientCG: resolution and format before the word") {
   const SetSession session{"Metal014_4K-PNG_Color.png",     "Metal014_4K-PNG_NormalGL.png",
                            "Metal014_4K-PNG_NormalDX.png",  "Metal014_4K-PNG_Roughness.png",

@@ -232,7 +232,7 @@ TEST_CASE("texture pass: a roughness map that is not grey is refused with the te
               [](int x, int y, int c) { return x == 12 && y == 300 && c == 2 ? 0.75f : 0.5f; });
   const auto converter = make_interpreted_converter(example_fit());
   CHECK_THROWS_WITH(scene.pass(*converter, {}),
-                    Catch::Matchers::Contains("texel (12, 300) is not grey: R is 0.5 and B is 0.75"));
+                    Catch::Matchers::Contains("texel (12, 300) is not grey: G is 0.5 and B is 0.75"));
 }
 
 TEST_CASE("texture pass: a grey roughness map stays grey in all its channels") {

@@ -95,7 +95,7 @@ TEST_CASE("texture set: the roughness is the only channel, Y, or equal colors") 
   const Files files;
   CHECK(roughness_channels(files.image("1.exr", {"width"})) == std::vector<std::size_t>{0});
   CHECK(roughness_channels(files.image("2.exr", {"Y", "A"})) == std::vector<std::size_t>{0});
-  CHECK(roughness_channels(files.image("3.exr", {"r", "g", "b"})) == std::vector<std::size_t>{0, 1, 2});
+  CHECK(roughness_channels(files.image("3.exr", {"r", "g", "b"})) == std::vector<std::size_t>{1, 0, 2});
   CHECK(roughness_channels(files.image("4.exr", {"R", "G", "B"}), {"G"}) == std::vector<std::size_t>{1});
   CHECK(roughness_channels(files.image("5.exr", {"R", "G", "B"}), {"g"}) == std::vector<std::size_t>{1});
 }

@@ -1,0 +1,223 @@
+// What users reported, each with the result that is right.
+#include <catch2/catch.hpp>
+
+#include "cli/texremap_tree.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// A folder of sets for one report.
+class ReportedSets : public Tree {
+ public:
+  // A map of one color.
+  void plain(const std::string& name, const std::vector<int>& values, int size = 16) const {
+    drawn(
+        name, values.size(), [&](int, int, int c) { return values[static_cast<std::size_t>(c)]; }, size);
+  }
+  // A map of 8 bits, by its steps.
+  template <typename Steps>
+  void drawn(const std::string& name, std::size_t channels, const Steps& steps, int size = 16) const {
+    std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
+    static const std::vector<std::string> kNames = {"R", "G", "B", "A"};
+    make(name,
+         test_spec(size, size,
+                   channels == 1
+                       ? kGrey
+                       : std::vector(kNames.begin(), kNames.begin() + static_cast<std::ptrdiff_t>(channels)),
+                   OIIO::TypeUInt8),
+         [&](int x, int y, int c) { return static_cast<float>(steps(x, y, c)) / 255.0f; });
+  }
+  // The first texel, in steps of 8 bits.
+  std::vector<int> texel(const std::string& name) const {
+    const TestImage found = image(name);
+    return {found.bytes.begin(), found.bytes.begin() + found.spec.nchannels};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports]") {
+  const ReportedSets sets;
+  sets.plain("in/textures/old_bench_diff_1k.jpg", {120, 80, 40});
+  sets.plain("in/textures/old_bench_nor_1k.jpg", {128, 128, 255});
+  sets.plain("in/textures/old_bench_rough_ao_1k.png", {200, 180, 0});
+  const std::string packed = "out/textures/old_bench_occlusionRoughnessMetallic.png";
+  SECTION("alone") {
+    require_success(sets.texremap("convert in -r --from polyhaven --preset gltf --metallic 0 -o out"));
+    CHECK(sets.texel(packed) == std::vector{180, 200, 0});
+  }
+  SECTION("beside arm, which holds more of the material") {
+    sets.plain("in/textures/old_bench_arm_1k.png", {190, 210, 255});
+    const ProcessResult result =
+        require_success(sets.texremap("convert in -r --from polyhaven --preset gltf -o out"));
+    CHECK(sets.texel(packed) == std::vector{190, 210, 255});
+    CHECK_THAT(result.errors, Contains("roughness is read from old_bench_arm_1k.png:G"));
+  }
+}
+
+TEST_CASE("reports: 19 a nearly grey roughness map", "[reports]") {
+  const ReportedSets sets;
+  const int tint = GENERATE(5, 18);
+  const std::string extension = GENERATE("png", "jpg"), map = "in/sand_rough." + extension;
+  sets.plain("in/sand_albedo.png", {120, 80, 40}, 32);
+  sets.drawn(
+      map, 3, [&](int x, int, int c) { return 100 + (c == 0 && x >= 16 ? tint : 0); }, 32);
+  const Words words = "convert in --from metal-rough --preset gltf --metallic 0 -o out";
+  const ProcessResult result = require_success(sets.texremap(words));
+  CHECK_THAT(result.errors,
+             Contains("warning: " + map + ": is not quite grey: its channels differ by at most "));
+  if (extension == "png")
+    CHECK_THAT(result.errors, Contains(std::to_string(tint) + " of 255, and G is used"));
+  CHECK(std::abs(sets.texel("out/sand_occlusionRoughnessMetallic.png")[1] - 100) <=
+        (extension == "png" ? 0 : 3));
+
+  // A map with colors is refused, with an option that works.
+  sets.drawn(
+      map, 3, [](int x, int, int c) { return 100 + (c == 0 ? 4 * x : 0); }, 32);
+  const ProcessResult refused = sets.texremap(words + "--force");
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.errors, Contains("(choose one channel: --roughness '*_rough." + extension + ":G')"));
+  require_success(sets.texremap(words + ("--force --roughness *_rough." + extension + ":R")));
+}
+
+TEST_CASE("reports: one map for several sets of a folder", "[reports]") {
+  const ReportedSets sets;
+  for (const std::string name : {"black", "white"}) {
+    sets.plain("in/king_" + name + "_roughness.png", {90});
+    sets.plain("in/king_" + name + "_baseColor.png", {120, 80, 40});
+  }
+  sets.plain("in/king_shared_metallic.png", {255});
+  const ProcessResult result = require_success(sets.texremap(
+      "convert in --from metallic --preset gltf --metallic in/king_shared_metallic.png -o out"));
+  CHECK_THAT(result.errors, Contains("note: in/king_shared_metallic.png is used for every set"));
+  for (const std::string name : {"black", "white"})
+    CHECK(sets.texel("out/king_" + name + "_occlusionRoughnessMetallic.png") == std::vector{255, 90, 255});
+  // A name without * is also looked up beside the maps of each set.
+  require_success(sets.texremap(
+      "convert in --from metallic --to gltf --metallic king_shared_metallic.png --allow-skips -o two"));
+  CHECK(sets.texremap("convert in --from metallic --to gltf --metallic nothing.png -o three").exit_code == 1);
+}
+
+namespace {
+
+// How an engine reads green: up, down, or as it was.
+enum class Green { kUp, kDown, kKept };
+constexpr std::array<std::pair<const char*, Green>, 9> kEngines = {{{"gltf", Green::kUp},
+                                                                    {"unity", Green::kUp},
+                                                                    {"unity-hdrp", Green::kUp},
+                                                                    {"unreal", Green::kDown},
+                                                                    {"godot", Green::kUp},
+                                                                    {"threejs", Green::kUp},
+                                                                    {"blender", Green::kUp},
+                                                                    {"usd", Green::kUp},
+                                                                    {"marmoset", Green::kKept}}};
+
+void write_rock(const ReportedSets& sets, const std::string& normal) {
+  sets.plain("in/T_Rock_BC.png", {120, 80, 40});
+  sets.plain("in/T_Rock_ORM.png", {255, 90, 0});
+  sets.plain("in/" + normal, {128, 100, 255});
+}
+
+}  // namespace
+
+TEST_CASE("reports: 07 green of normal maps between all engines", "[reports]") {
+  const ReportedSets sets;
+  write_rock(sets, "T_Rock_N.png");
+  for (const auto& [from, written] : kEngines)
+    for (const auto& [to, read] : kEngines) {
+      INFO(from << " to " << to);
+      const ProcessResult result =
+          require_success(sets.texremap(Words("convert in --force -o out --from") + from + "--preset" + to));
+      const bool is_known = written != Green::kKept && read != Green::kKept;
+      const bool is_inverted = is_known && written != read;
+      CHECK(sets.texel("out/T_Rock_N.png") == std::vector{128, is_inverted ? 155 : 100, 255});
+      const std::string line = "note: in/T_Rock_N.png: green is ";
+      if (is_inverted)
+        CHECK_THAT(result.errors,
+                   Contains(line + "inverted in the copy T_Rock_N.png, because --from " + from));
+      else if (is_known)
+        CHECK_THAT(result.errors, !Contains(line));
+      else
+        CHECK_THAT(result.errors, Contains(line + "kept, because "));
+    }
+}
+
+TEST_CASE("reports: 07 the name of a normal map wins over --from", "[reports]") {
+  const ReportedSets sets;
+  const auto green = [&](const std::string& words, const std::string& name) {
+    std::filesystem::remove_all(sets.path("out"));
+    require_success(sets.texremap(Words("convert in -o out") + Words(words)));
+    return sets.texel("out/" + name)[1];
+  };
+  SECTION("OpenGL") {
+    write_rock(sets, "T_Rock_NormalGL.png");
+    CHECK(green("--from unreal --preset gltf", "T_Rock_NormalGL.png") == 100);
+    CHECK(green("--from gltf --preset unreal", "T_Rock_NormalDX.png") == 155);
+    CHECK(green("--from metal-rough --to ue5", "T_Rock_NormalDX.png") == 155);
+  }
+  SECTION("DirectX") {
+    write_rock(sets, "T_Rock_nor_dx.png");
+    CHECK(green("--from gltf --preset unreal", "T_Rock_nor_dx.png") == 100);
+    CHECK(green("--from gltf --preset blender", "T_Rock_nor_gl.png") == 155);
+  }
+  SECTION("neither the name nor the source says it") {
+    write_rock(sets, "T_Rock_N.png");
+    CHECK(green("--from metal-rough --preset unity", "T_Rock_N.png") == 100);
+    CHECK_THAT(
+        sets.texremap("convert in --from substance --preset unity -o two").errors,
+        Contains("in/T_Rock_N.png: green is kept, because neither the name nor --from says whether it is "
+                 "OpenGL or DirectX, and unity reads OpenGL (green up)"));
+  }
+}
+
+TEST_CASE("reports: a set for an engine is complete, by --to as by --preset", "[reports]") {
+  const ReportedSets sets;
+  write_rock(sets, "T_Rock_N.png");
+  sets.plain("in/T_Rock_Height.png", {70});
+  sets.plain("in/T_Rock_Emissive.png", {1, 2, 3});
+  sets.plain("in/T_Rock_Opacity.png", {40});
+  const std::vector<std::string> others = {"T_Rock_Emissive.png", "T_Rock_Height.png", "T_Rock_N.png",
+                                           "T_Rock_Opacity.png"};
+  std::vector<std::string> made = {"T_Rock_BaseMap.png", "T_Rock_MetallicSmoothness.png",
+                                   "T_Rock_Occlusion.png"};
+  std::vector<std::string> all = made;
+  all.insert(all.end(), others.begin(), others.end());
+  std::sort(all.begin(), all.end());
+  const std::string words = GENERATE("--to unity", "--preset unity", "--from gltf --to gltf --preset unity");
+  require_success(sets.texremap("convert in -o out " + words));
+  CHECK(sets.results() == all);
+  CHECK(sets.texel("out/T_Rock_MetallicSmoothness.png") == std::vector{0, 0, 0, 165});
+  std::filesystem::remove_all(sets.path("out"));
+  require_success(sets.texremap("convert in --only-converted -o out " + words));
+  CHECK(sets.results() == made);
+  const ProcessResult refused = sets.texremap("convert in --copy-others -o two " + words);
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.errors, Contains("--copy-others: all maps of a set come along now (remove this option; "
+                                      "--only-converted leaves them out)"));
+}
+
+TEST_CASE("reports: what a packed map holds besides comes along as a map", "[reports]") {
+  const ReportedSets sets;
+  sets.plain("in/T_Rock_BC.png", {120, 80, 40});
+  sets.plain("in/T_Rock_ORDp.png", {250, 90, 33});
+  require_success(sets.texremap("convert in --from unreal --to unity --metallic 0 -o out"));
+  CHECK(sets.texel("out/T_Rock_height.png") == std::vector{33});
+  CHECK(sets.texel("out/T_Rock_Occlusion.png") == std::vector{250});
+}
+
+TEST_CASE("reports: 16 an asset for an engine", "[reports]") {
+  const ReportedSets sets;
+  write_file(sets.path("rock.gltf"), R"({"asset": {"version": "2.0"}, "materials": [{}]})");
+  for (const std::string option :
+       {"--preset unity", "--to unity", "--to unreal", "--to blender", "--preset gltf", "--to three.js",
+        "--from gltf --to gltf --preset godot"}) {
+    const ProcessResult refused = sets.texremap("convert rock.gltf -o out " + option);
+    INFO(option);
+    CHECK(refused.exit_code == 2);
+    CHECK_THAT(refused.errors,
+               Contains("textures are not taken out of assets such as rock.gltf (convert it by --to gltf"));
+  }
+  CHECK(sets.texremap("convert rock.gltf --to metal-rough -o out").exit_code == 0);
+}
