@@ -37,8 +37,9 @@ void require_known(const std::string& word, const std::string& name, const Conve
     if (std::ranges::find(known, renderer_of(model)) == known.end()) known.push_back(renderer_of(model));
   for (const WorkflowModel& model : workflow_models()) known.push_back(model_of(model.end));
   for (const ModelAlias& alias : model_aliases()) known.emplace_back(alias.name);
-  throw usage_error(word + ": unknown model '" + name + "' (nearest: " +
-                    joined(nearest_names(name, known, kNamesShown), ", ") + "; all: " + all_names + ")");
+  const std::string near = joined(nearest_names(name, known, kNamesShown), ", ");
+  throw usage_error(word + ": unknown model '" + name + "' (" +
+                    (near.empty() ? "" : "nearest: " + near + "; ") + "all: " + all_names + ")");
 }
 
 NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, const std::string& word,

@@ -28,14 +28,24 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return distance[a.size()][b.size()];
 }
 
+// Nobody mistypes more than a third of the letters.
+bool is_near(std::size_t distance, std::string_view name, std::string_view candidate) {
+  return 3 * distance <= std::max(name.size(), candidate.size());
+}
+
+// Whether `name` is the first half of the candidate, or more: --out of --output.
+bool is_beginning(std::string_view name, std::string_view candidate) {
+  return name.size() >= 3 && candidate.starts_with(name) && 2 * name.size() >= candidate.size();
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
   std::string nearest;
   std::size_t smallest = 0;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(name, candidate);
-    if (2 * distance > std::max(name.size(), candidate.size())) continue;
+    const std::size_t distance = is_beginning(name, candidate) ? 1 : edit_distance(name, candidate);
+    if (!is_near(distance, name, candidate)) continue;
     if (nearest.empty() || distance < smallest) {
       nearest = candidate;
       smallest = distance;
@@ -51,20 +61,21 @@ std::string closest_name(std::string_view name, std::span<const std::string> can
   return *std::min_element(candidates.begin(), candidates.end(), nearer);
 }
 
-// Of a name that holds the other: as near as one with so many wrong letters.
+// A candidate that is a part of the name is as near as one with so many wrong letters.
 constexpr std::size_t kPartDistance = 3;
 
 std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates,
                                        std::size_t count) {
-  const auto rank = [name](const std::string& candidate) {
-    const bool is_part =
-        candidate.find(name) != std::string::npos || name.find(candidate) != std::string::npos;
-    return is_part ? std::min(edit_distance(name, candidate), kPartDistance) : edit_distance(name, candidate);
-  };
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (std::string& candidate : candidates) {
-    const std::size_t distance = rank(candidate);
-    ranked.emplace_back(distance, std::move(candidate));
+    const std::size_t distance = edit_distance(name, candidate);
+    const bool is_whole = candidate.find(name) != std::string::npos;  // ggx of mitsuba/ggx
+    const bool is_part = name.find(candidate) != std::string::npos;
+    if (is_whole || is_part || is_near(distance, name, candidate))
+      ranked.emplace_back(is_whole  ? 0
+                          : is_part ? std::min(distance, kPartDistance)
+                                    : distance,
+                          std::move(candidate));
   }
   std::ranges::stable_sort(ranked, {}, &std::pair<std::size_t, std::string>::first);
   ranked.resize(std::min(ranked.size(), count));

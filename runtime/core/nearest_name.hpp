@@ -9,15 +9,15 @@
 namespace remap {
 
 // The candidate with the smallest Damerau-Levenshtein distance to `name` (optimal string alignment), or an
-// empty string where none is within half of the longer name.
+// empty string if none is near: a third of the letters of the longer name may be wrong, or missing at the end
+// of a beginning such as --out.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 // The candidate with the smallest such distance, however large; the first of equals. `candidates` must not be
 // empty.
 std::string closest_name(std::string_view name, std::span<const std::string> candidates);
 
-// Up to `count` candidates, the nearest first by that distance; those that hold `name` or are held in it are
-// at most three away.
+// Up to `count` near candidates: those that hold `name` or are held in it, then the others by that distance.
 std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates,
                                        std::size_t count);
 

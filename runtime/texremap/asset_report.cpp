@@ -7,12 +7,11 @@
 #include "core/report_text.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/commands.hpp"
+#include "texremap/converter_text.hpp"
 
 namespace remap {
 namespace {
 
-// Pictures differ by this share of the residual (docs/workflows.md).
-constexpr double kPictureOfResidual = 0.42;
 constexpr double kShownError = 5e-4;
 
 std::string error_text(const AssetMaterial& material) {

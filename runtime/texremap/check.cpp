@@ -22,6 +22,7 @@
 #include "texremap/commands.hpp"
 #include "texremap/convert_options.hpp"
 #include "texremap/job_processes.hpp"
+#include "texremap/named_paths.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -103,6 +104,7 @@ void check(const CheckOptions& options) {
   FoundMaterials found;
   std::vector<std::shared_ptr<const ScratchFolder>> embedded;
   for (const std::filesystem::path& path : options.paths) {
+    require_readable(path);
     FoundMaterials own = materials_of(path, naming);
     std::ranges::move(own.materials, std::back_inserter(found.materials));
     std::ranges::move(own.problems, std::back_inserter(found.problems));

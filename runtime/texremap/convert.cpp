@@ -3,6 +3,7 @@
 #include "texremap/convert.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "convert/converter_file.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/number_text.hpp"
 #include "core/stopwatch.hpp"
 #include "remap/path.hpp"
 #include "remap/warp.hpp"
@@ -28,6 +30,7 @@
 #include "texremap/converter_text.hpp"
 #include "texremap/job_run.hpp"
 #include "texremap/manifest.hpp"
+#include "texremap/named_paths.hpp"
 #include "texremap/part_report.hpp"
 #include "texremap/set_choice.hpp"
 #include "texremap/workflow_choice.hpp"
@@ -174,6 +177,41 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   return manifest;
 }
 
+// Per cent of one value, 0 to 255 of a color: the number from 0 to 1 that is meant.
+std::string fractions_text(const std::vector<float>& values) {
+  const bool is_percent = values.size() == 1 && values.front() <= 100.0f;
+  std::string text;
+  for (const float value : values)
+    text += (text.empty() ? "" : ",") +
+            number_text(std::round(static_cast<double>(value) / (is_percent ? 1.0 : 2.55)) / 100.0);
+  return text;
+}
+
+// Refuses numbers that can only be per cent or 0 to 255, except exponents.
+void require_fractions(const TextureSetRequest& request, const ConverterInfo& info) {
+  const auto require = [](const std::string& option, const ParameterRequest& asked) {
+    const auto* values = std::get_if<ConstantValues>(&asked.source);
+    if (values == nullptr || std::ranges::none_of(*values, [](float value) { return value >= 2.0f; })) return;
+    std::string typed;
+    for (const float value : *values)
+      typed += (typed.empty() ? "" : ",") + number_text(static_cast<double>(value));
+    const bool has_meaning = std::ranges::all_of(*values, [](float value) { return value <= 255.0f; });
+    throw usage_error(option + " " + typed + ": values lie between 0 and 1" +
+                      (has_meaning ? " (write " + option + " " + fractions_text(*values) + ")" : ""));
+  };
+  const RoughnessConvention width = request.convention.value_or(info.source.roughness);
+  for (const auto& [parameter, asked] : request.parameters) {
+    const bool is_exponent = parameter == Parameter::kRoughness && width == RoughnessConvention::kExponent;
+    const bool is_wide = parameter == Parameter::kSpecular && info.specular.max > 1.0;
+    if (!is_exponent && !is_wide)
+      require(parameter == Parameter::kRoughness && width == RoughnessConvention::kGlossiness
+                  ? "--glossiness"
+                  : parameter_option(parameter),
+              asked);
+  }
+  for (const CarriedRequest& carried : request.carried) require("--" + carried.name, carried.parameter);
+}
+
 // A conversion that is checked as far as it can be before the first texel is read.
 struct CheckedConversion {
   std::optional<Discovery> sets;  // of a manifest, or where the maps had to tell the source
@@ -205,6 +243,7 @@ CheckedConversion checked(ConvertOptions& options, std::optional<TreeManifest> m
   (void)target_choice(options, workflow);  // refuses what cannot be written before any file is read
   conversion.request = set_request(options, workflow);
   conversion.chosen = {conversion_of(options, fit, workflow), std::move(workflow)};
+  require_fractions(conversion.request, conversion.chosen.info());
   for (const std::string& assumption : conversion.chosen.workflow.assumptions) warn(options, assumption);
   print_notes(options, conversion.chosen);
   return conversion;
@@ -218,6 +257,9 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
       conversion_jobs(options, chosen.workflow, conversion.request, std::move(conversion.sets));
   warn_of_encoding(options, list, chosen.info().source);
   Outcome outcome{chosen, list, {}, options.dry_run, options.histograms, options.json, 0.0, {}};
+  Told told;
+  told.failures_only = options.quiet;
+  told.verbose = options.verbose;
   RunLines lines(options);
   const auto tell = [&](const Json& line) {
     if (list.is_tree) lines.tell(line);
@@ -228,16 +270,16 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
   if (options.part) tell(part_json(*options.part, conversion.manifest, conversion_note(chosen, options)));
   tell_start(outcome, tell);
   outcome.reports = run_jobs(list, chosen, options, [&](const JobReport& report) {
-    if (list.is_tree) print_job(kProgram, outcome, report, options.quiet);
+    if (list.is_tree) print_job(kProgram, outcome, report, told);
     tell_set(outcome, report, tell);
   });
   outcome.seconds = stopwatch.seconds();
   outcome.used = resource_use();
   if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
   if (!options.quiet) {
-    if (!list.is_tree) print_job(kProgram, outcome, outcome.reports.front(), false);
+    if (!list.is_tree) print_job(kProgram, outcome, outcome.reports.front(), told);
     print_colors(kProgram, outcome);
-    print_summary(kProgram, outcome);
+    print_summary(kProgram, outcome, told);
   }
   if (list.is_tree)
     tell_end(outcome, tell);
@@ -272,6 +314,7 @@ void confine(const ConvertOptions& options, const std::optional<TreeManifest>& m
 }  // namespace
 
 void convert(ConvertOptions options) {
+  if (!options.assets) require_one_kind(options.folder, options.more_assets);
   std::optional<TreeManifest> manifest = listed_entries(options);
   confine(options, manifest);
   if (are_assets(options, manifest)) return convert_assets(options, manifest);

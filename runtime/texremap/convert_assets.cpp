@@ -60,8 +60,6 @@ void require_asset_options(const ConvertOptions& options) {
                       (options.more_assets.empty()
                            ? std::string("--root, which is DIR")
                            : shown(options.more_assets.front()) + " (name one folder)"));
-  for (const std::filesystem::path& path : options.more_assets)
-    if (!is_asset(path)) throw usage_error(shown(path) + ": is no asset (.gltf, .glb, .mtl or .obj)");
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
     throw usage_error("--from " + options.from.name +
@@ -128,7 +126,7 @@ bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>
   if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
     return true;
   refuse(options, kNeedsAsset,
-         ": applies to assets alone (remove it, name a glTF, MTL or OBJ file, or --assets)");
+         ": only applies to assets (remove it, name a glTF, MTL or OBJ file, or --assets)");
   return false;
 }
 

@@ -314,7 +314,12 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.add_flag("--histograms", options.histograms, "With --json, also histograms of the values")
       ->tag(kNeedsFiles)
       ->needs(json);
-  command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
+  Option* quiet = command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
+  command
+      .add_flag("--verbose", options.verbose,
+                "Print every warning, and measures of each set that pictures do not show")
+      ->tag(kNeedsFiles)
+      ->excludes(quiet);
 }
 
 void add_workflow_options(Command& command, ConvertOptions& options) {

@@ -102,7 +102,7 @@ struct ConvertOptions {
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool only_converted = false, force = false, resume = false, allow_skips = false, dry_run = false;
-  bool json = false, histograms = false, quiet = false;
+  bool json = false, histograms = false, quiet = false, verbose = false;
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core
   int threads() const;

@@ -77,9 +77,11 @@ std::string files_text(const JobReport& report) {
 std::string left_behind_text(const JobReport& report) {
   std::vector<std::string> names;
   for (const std::filesystem::path& file : report.left_behind) names.push_back(file.filename().string());
-  return "not converted: " + joined(names, ", ") + " (--copy-others copies " +
-         (names.size() == 1 ? "it)" : "them)");
+  return "left out: " + joined(names, ", ");
 }
+
+// Below this share nothing is seen: details are for --verbose.
+constexpr double kVisible = 0.01;
 
 }  // namespace
 
@@ -147,31 +149,29 @@ double f0_of(const ChosenConverter& chosen, const DielectricF0& estimated) {
   return std::get<MetallicWorkflow>(*chosen.workflow.target).dielectric_f0;
 }
 
-// Prints the reliability of the metallic that was found.
+// Prints what metal-rough cannot express where it is visible, with `verbose` also how reliable metallic is.
 void print_confidence(const std::string& program, const std::string& place, const ChosenConverter& chosen,
-                      const JobReport& report) {
+                      const JobReport& report, bool verbose) {
   const MapStatistics& counts = report.statistics;
   const MetallicStatistics& metallic = counts.metallic;
-  if (const auto& f0 = report.estimated_f0)
+  if (const auto& f0 = report.estimated_f0;
+      f0 && (verbose || chosen.workflow.estimates_f0 || report.name.empty()))
     print_message(program, place + "dielectric F0 estimated from the maps: " + number_text(rounded(f0->f0)) +
                                (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
                                number_text(f0_of(chosen, *f0)) + " is used");
-  if (counts.masked_count > 0)
-    print_message(program, place + std::to_string(counts.masked_count) +
-                               " transparent texels are converted, but not counted below");
-  if (counts.above_one_count > 0)
-    print_message(program,
-                  place + "warning: " + std::to_string(counts.above_one_count) +
-                      " texels reflect more than 1; clamped to 1 (put emission into a map of its own)");
   if (metallic.texel_count == 0) return;
+  const double difference = kPictureOfResidual * metallic.rms_residual();
+  const auto percent = [](double share, int decimals) { return fixed(100.0 * share, decimals) + " %"; };
+  if (difference >= kVisible)
+    print_message(program,
+                  place + "metal-rough cannot express these maps exactly; the visible difference is about " +
+                      percent(difference, 0) + " (--diagnose DIR shows where)");
+  if (!verbose) return;
   const auto share = [&](std::size_t count) {
-    const double part = static_cast<double>(count) / static_cast<double>(metallic.texel_count);
-    return fixed(100.0 * part, 2) + " %";
+    return percent(static_cast<double>(count) / static_cast<double>(metallic.texel_count), 2);
   };
-  const std::string residual = fixed(metallic.rms_residual(), 4) + " rms, " +
-                               fixed(static_cast<double>(metallic.largest_residual), 3) + " at most";
-  print_message(program, place + "not representable in metal-rough (residual): " + residual +
-                             "; pictures differ by about 0.42 of it");
+  print_message(program, place + "residual of metal-rough: " + fixed(metallic.rms_residual(), 4) + " rms, " +
+                             fixed(static_cast<double>(metallic.largest_residual), 3) + " at most");
   print_message(program,
                 place + "metallic undetermined, no visible effect: " + share(metallic.undetermined.count) +
                     " (too dark: " + share(metallic.dark.count) + "); ambiguous: " +
@@ -180,13 +180,40 @@ void print_confidence(const std::string& program, const std::string& place, cons
 
 }  // namespace
 
+// The kinds of warnings of a folder: what they say after the name of a file.
+class WarningKinds {
+ public:
+  // Whether the warning is the first of its kind, and one of the first kinds.
+  bool is_new(const std::string& warning) {
+    const std::size_t colon = warning.find(": ");
+    const std::string kind = colon == std::string::npos ? warning : warning.substr(colon + 2);
+    if (counts_.contains(kind) || counts_.size() < kShown) return ++counts_[kind] == 1;
+    ++unshown_;
+    return false;
+  }
+  std::size_t repeated() const {
+    std::size_t more = unshown_;
+    for (const auto& [kind, count] : counts_) more += count - 1;
+    return more;
+  }
+
+ private:
+  static constexpr std::size_t kShown = 20;
+  std::map<std::string, std::size_t> counts_;
+  std::size_t unshown_ = 0;
+};
+
+Told::Told() : warnings(std::make_shared<WarningKinds>()) {}
+
 void print_job(const std::string& program, const Outcome& outcome, const JobReport& report,
-               bool failures_only) {
-  if (failures_only && !report.failure) return;
+               const Told& told) {
+  if (told.failures_only && !report.failure) return;
   std::string place = report.name.empty() ? "" : shown(report.name) + ": ";
   if (!report.tiles.empty()) place += counted(report.tiles.size(), outcome.list.tile_noun) + ": ";
-  if (!failures_only)
-    for (const std::string& warning : report.warnings) print_message(program, "warning: " + warning);
+  if (!told.failures_only)
+    for (const std::string& warning : report.warnings)
+      if (told.verbose || !outcome.list.is_tree || told.warnings->is_new(warning))
+        print_message(program, "warning: " + warning);
   if (report.failure) {
     print_message(program, place + "failed: " + *report.failure);
     return;
@@ -206,14 +233,25 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
   const std::string by = outcome.list.is_tree ? "" : " by " + converter_text(outcome.chosen);
   if (counts.texel_count == 0) print_message(program, place + "copied: " + files_text(report));
   line(counts.texel_count, " in " + seconds_text(report.seconds) + by + ": " + files_text(report));
-  if (!report.left_behind.empty()) print_message(program, place + left_behind_text(report));
-  print_confidence(program, place, outcome.chosen, report);
-  line(counts.out_of_domain_count, " outside " + outside_text(outcome.chosen) +
-                                       ": roughness clamped, specular extrapolated in proportion");
+  if (told.verbose && !report.left_behind.empty()) print_message(program, place + left_behind_text(report));
+  print_confidence(program, place, outcome.chosen, report, told.verbose);
+  const auto is_told = [&](std::size_t count) {
+    return told.verbose || !outcome.list.is_tree ||
+           static_cast<double>(count) >= kVisible * static_cast<double>(counts.texel_count);
+  };
+  const auto visible_line = [&](std::size_t count, const std::string& what, const char* noun = "texel") {
+    if (is_told(count)) line(count, what, noun);
+  };
+  if (told.verbose)
+    line(counts.masked_count, " with an opacity of 0, which are converted and do not count here");
+  visible_line(counts.above_one_count,
+               " reflect more than 1; clamped to 1 (put emission into a map for itself)");
+  visible_line(counts.out_of_domain_count, " outside " + outside_text(outcome.chosen) +
+                                               ": roughness clamped, specular extrapolated in proportion");
   line(counts.nan_count, " with NaN" + first_text(counts));
   line(counts.infinite_count, " with infinite values" + first_text(counts));
   line(counts.negative_count, " with negative values" + first_text(counts));
-  line(counts.clipped_count, " clipped to [0, 1] by an integer pixel type", "value");
+  visible_line(counts.clipped_count, " clipped to [0, 1] by an integer pixel type", "value");
 }
 
 void print_colors(const std::string& program, const Outcome& outcome) {
@@ -259,8 +297,10 @@ void print_unrecognised(const std::string& program, const JobList& list) {
                              (count > kShown ? "; --json lists all" : "") + " (--names FILE teaches one)");
 }
 
-void print_summary(const std::string& program, const Outcome& outcome) {
+void print_summary(const std::string& program, const Outcome& outcome, const Told& told) {
   if (!outcome.list.is_tree) return;
+  if (const std::size_t more = told.warnings->repeated(); more > 0)
+    print_message(program, counted(more, "more warning") + " of the same kinds (--verbose lists them)");
   print_unrecognised(program, outcome.list);
   if (const std::size_t assets = outcome.list.asset_count; assets > 0)
     print_message(program,

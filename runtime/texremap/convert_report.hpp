@@ -112,17 +112,26 @@ struct Outcome {
   int passing_failure() const;
 };
 
-// Prints a line about each set that is not converted. With `failures_only`, as for --quiet, this and
-// print_job print what failed and nothing else.
+class WarningKinds;
+
+// What is told of each set.
+struct Told {
+  Told();
+  bool failures_only = false;              // for --quiet
+  bool verbose = false;                    // also what cannot be seen in pictures, and every warning
+  std::shared_ptr<WarningKinds> warnings;  // of a folder that were printed
+};
+
+// Prints a line about each set that is not converted. With `failures_only`, as for --quiet, this prints
+// what failed and nothing else.
 void print_left_out(const std::string& program, const JobList& list, bool failures_only);
 // Prints the lines about one set to standard error.
-void print_job(const std::string& program, const Outcome& outcome, const JobReport& report,
-               bool failures_only);
+void print_job(const std::string& program, const Outcome& outcome, const JobReport& report, const Told& told);
 // Prints one line about the color spaces of the run: `color: specular read as srgb, base_color written as
 // srgb`; nothing where all colors are floating-point numbers that nobody spoke of.
 void print_colors(const std::string& program, const Outcome& outcome);
 // Prints the line about the whole run: sets, texels, time.
-void print_summary(const std::string& program, const Outcome& outcome);
+void print_summary(const std::string& program, const Outcome& outcome, const Told& told);
 // The report on one set that is no folder, as one object.
 void print_json(const Outcome& outcome);
 // The report on a folder, an object a line: `{"conversion": ...}` first, `{"set": ...}` for each set as it is

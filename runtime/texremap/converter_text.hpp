@@ -9,6 +9,9 @@
 
 namespace remap {
 
+// Pictures differ by this times the residual of metal-rough, on the mean.
+inline constexpr double kPictureOfResidual = 0.42;
+
 // `alpha 0.01 to 1`.
 std::string range_text(std::string_view name, const Range& range);
 
