@@ -24,7 +24,7 @@ const FLAGS = ['foldSpecular', 'resample', 'bake'];
 const FILE = 'document.gltf', OUT = 'out';
 
 function wordsOf(options) {
-  const words = ['convert', FILE, '-o', OUT, '--json'];
+  const words = ['convert', FILE, '-o', OUT, '--json', '--keep-unused'];  // glTF-Transform has prune()
   for (const [name, value] of Object.entries(options)) {
     if (!(name in COMMAND_OPTIONS) || value === undefined || value === false) continue;
     words.push(FLAGS.includes(name) ? COMMAND_OPTIONS[name] : `${COMMAND_OPTIONS[name]}=${value}`);

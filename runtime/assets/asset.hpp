@@ -89,7 +89,7 @@ struct AssetOptions {
   // Quality, 1 to 100, of new images of color: JPEG, unless they have alpha or come from a map of color that
   // is none. None for PNG.
   std::optional<int> jpeg_quality = std::nullopt;
-  // Level of new PNG images. None for the usual, the smallest where `compacts` applies.
+  // Level of new PNG images. None for the usual.
   std::optional<int> png_level = std::nullopt;
 };
 

@@ -46,12 +46,13 @@ constexpr std::string_view kUnrealLit =
     "default lit: base color (1 - metallic), F0 0.04 at a Specular of 0.5";
 constexpr std::string_view kBlinn =
     "(N.H)^n, neither normalised nor times the cosine of the light; roughness is the exponent n";
-constexpr std::array<ModelAlias, 50> kAliases = {{
+constexpr std::array<ModelAlias, 51> kAliases = {{
     {"ambientcg", "metallic", kPlainMetal},
     {"arnold", "gltf", kLayered},
     {"babylon", "gltf", kLayered},
     {"blender", "cycles-5/principled", kPrincipled},
     {"blinn-phong", "legacy/blinn-phong", kBlinn},
+    {"core", "gltf", kLayered},
     {"cycles/principled", "cycles-5/principled", kPrincipled},
     {"filament", "metallic", kPlainMetal},
     {"glb", "gltf", kLayered},

@@ -32,7 +32,7 @@ AssetOptions asset_options(const ConvertOptions& options) {
   asset.target = options.to.name == "gltf-specgloss" ? AssetTarget::kSpecGloss : AssetTarget::kMetalRough;
   asset.folds_specular = options.fold_specular;
   asset.mtl_maker = options.mtl_maker;
-  asset.compacts = options.compact;
+  asset.compacts = !options.keep_unused;
   asset.bakes = options.bake;
   asset.jpeg_quality = options.jpeg;
   asset.png_level = options.compression;

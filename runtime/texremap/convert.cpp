@@ -316,6 +316,7 @@ void confine(const ConvertOptions& options, const std::optional<TreeManifest>& m
 void convert(ConvertOptions options) {
   if (!options.assets) require_one_kind(options.folder, options.more_assets);
   std::optional<TreeManifest> manifest = listed_entries(options);
+  if (!manifest && is_asset(options.folder)) options = meaning_assets(std::move(options));
   confine(options, manifest);
   if (are_assets(options, manifest)) return convert_assets(options, manifest);
   CheckedConversion conversion = checked(options, std::move(manifest));

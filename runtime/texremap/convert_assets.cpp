@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <utility>
 
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
@@ -64,7 +65,6 @@ void require_asset_options(const ConvertOptions& options) {
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
     throw usage_error("--from " + options.from.name +
                       ": the file tells what its materials are (remove this option)");
-  if (options.to.empty()) throw usage_error("--to is required (gltf, or gltf-specgloss)");
   if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
     throw usage_error("--to " + options.to.name +
                       ": materials of assets become gltf or gltf-specgloss (use --to gltf)");
@@ -79,7 +79,7 @@ void require_asset_options(const ConvertOptions& options) {
 // Refuses options of which no asset of the run makes use.
 void require_gltf(const ConvertOptions& options, const AssetList& list) {
   if (std::ranges::any_of(list.jobs, [](const AssetJob& job) { return is_gltf_name(job.input); })) return;
-  for (const char* name : {"--fold-specular", "--compact", "--bake", "--jpeg"})
+  for (const char* name : {"--fold-specular", "--keep-unused", "--bake", "--jpeg"})
     if (options.is_given(name))
       throw usage_error(std::string(name) + ": applies to glTF files alone (remove this option)");
   if (options.to.name != "gltf")
@@ -106,13 +106,6 @@ void require_success(const std::vector<AssetReport>& reports, const AssetSummary
                     " materials failed");
 }
 
-// Metallic and roughness in an asset are those of glTF.
-ConvertOptions meaning_gltf(ConvertOptions options) {
-  if (options.preset == nullptr && preset_of(options.to.word()) == nullptr && options.to.name == "metallic")
-    options.to = model_name().read("--to", "gltf");
-  return options;
-}
-
 AssetList checked_list(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   require_asset_options(options);
   AssetList list = asset_list(options, manifest ? &manifest->listing : nullptr);
@@ -121,6 +114,15 @@ AssetList checked_list(const ConvertOptions& options, const std::optional<TreeMa
 }
 
 }  // namespace
+
+ConvertOptions meaning_assets(ConvertOptions options) {
+  const bool is_gltf = options.to.empty() || options.to.name == "metallic";
+  if (options.preset == nullptr && preset_of(options.to.word()) == nullptr && is_gltf)
+    options.to = model_name().read("--to", "gltf");
+  if (options.output.empty() && options.more_assets.size() == 1)
+    options.output = std::exchange(options.more_assets, {}).front();
+  return options;
+}
 
 bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
@@ -131,12 +133,11 @@ bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>
 }
 
 void check_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
-  (void)checked_list(meaning_gltf(options), manifest);
+  (void)checked_list(meaning_assets(options), manifest);
 }
 
-void convert_assets(const ConvertOptions& given, const std::optional<TreeManifest>& manifest) {
+void convert_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   const Stopwatch stopwatch;
-  const ConvertOptions options = meaning_gltf(given);
   const AssetList list = checked_list(options, manifest);
   const bool is_one = list.jobs.size() == 1 && !list.is_tree;
   const ConversionNote conversion = conversion_of_assets(options);

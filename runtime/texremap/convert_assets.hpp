@@ -8,6 +8,10 @@
 
 namespace remap {
 
+// What people type for assets: a second path in place of --output (`convert in.glb out.glb`), and no target,
+// or a word for metallic and roughness, in place of `--to gltf`.
+ConvertOptions meaning_assets(ConvertOptions options);
+
 // Whether the options name assets: as a manifest of them, a folder or files. Where they do not, throws kUsage
 // for options that only assets have.
 bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest);

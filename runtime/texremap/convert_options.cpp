@@ -188,10 +188,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
   add_asset_flag(
       "--fold-specular", options.fold_specular,
       "Fold KHR_materials_specular and KHR_materials_ior into core, for viewers that do not read them");
-  add_asset_flag(
-      "--compact", options.compact,
-      "Drop the bytes of images that only converted materials used, and make new images as small as "
-      "possible");
+  add_asset_flag("--keep-unused", options.keep_unused,
+                 "Keep images and textures of a glTF file that only its converted materials used");
   add_asset_flag("--bake", options.bake,
                  "Bring maps of a material whose KHR_texture_transform differ onto the grid of the first");
   command
@@ -274,7 +272,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--compression LEVEL", options.compression, compression_level(),
           "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
-          "PNG files, 3 in those of assets, 9 with --compact)")
+          "PNG files, 3 in those of assets)")
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_option(
@@ -288,6 +286,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
       .add_flag("--only-converted", options.only_converted,
                 "With DIR, write only converted maps, without normal, height, opacity and others")
       ->tag(kChangesResults | kNeedsFolder);
+  command.retire(
+      "--compact",
+      "unused images are dropped now (remove this option; --compression 9 makes new images smallest)");
   command.retire("--copy-others",
                  "all maps of a set come along now (remove this option; --only-converted leaves them out)");
   command

@@ -63,7 +63,7 @@ struct ConvertOptions {
   std::filesystem::path asset_root;                  // below which assets may name files
   MaterialProfile profile = MaterialProfile::kCore;  // of assets
   std::optional<MtlMaker> mtl_maker;                 // of MTL files; none: as they say
-  bool fold_specular = false, compact = false, bake = false;
+  bool fold_specular = false, keep_unused = false, bake = false;
   std::optional<int> jpeg;  // quality
   ModelName from, to;
   std::vector<std::string> via;

@@ -221,3 +221,112 @@ TEST_CASE("reports: 16 an asset for an engine", "[reports]") {
   }
   CHECK(sets.texremap("convert rock.gltf --to metal-rough -o out").exit_code == 0);
 }
+
+TEST_CASE("reports: 10 formats that are not read", "[reports]") {
+  const ReportedSets sets;
+  const auto refused = [&](const std::string& file, const std::string& name, const std::string& remedy) {
+    write_file(sets.path(file), "x");
+    for (const std::string& command : {"convert " + file + " --to gltf -o out", "check " + file}) {
+      INFO(command);
+      const ProcessResult result = sets.texremap(command);
+      CHECK(result.exit_code == 2);
+      CHECK_THAT(result.errors, Contains(file + ": " + name +
+                                         " files are not read; texremap reads glTF, GLB, OBJ "
+                                         "and MTL files (" +
+                                         remedy));
+    }
+  };
+  for (const auto& [file, name] : std::map<std::string, std::string>{{"cube.dae", "COLLADA"},
+                                                                     {"cube.FBX", "FBX"},
+                                                                     {"cube.blend", "Blender"},
+                                                                     {"cube.max", "3ds Max"},
+                                                                     {"cube.3ds", "3ds Max"},
+                                                                     {"cube.ma", "Maya"},
+                                                                     {"cube.stl", "STL"},
+                                                                     {"cube.ply", "PLY"}})
+    refused(file, name, "convert it to glTF or OBJ first");
+  for (const std::string extension : {"usd", "usda", "usdc", "usdz"})
+    refused("scene." + extension, "USD",
+            "the Python package converts its materials: texremap usd scene." + extension + ")");
+  refused("arm.xml", "MuJoCo or Mitsuba",
+          "write its numbers, 128 times shininess: texremap convert --from mujoco");
+  refused("arm.mjcf", "MuJoCo", "write its numbers, 128 times shininess: texremap convert --from mujoco");
+  refused("table.sdf", "SDF", "write its numbers: texremap convert --from opengl");
+  refused("table.urdf", "URDF", "write its numbers: texremap convert --from opengl");
+  refused("paint.mat", "Radiance, Unity or MATLAB",
+          "write its numbers: texremap convert --from radiance/plastic");
+  refused("paint.mtlx", "MaterialX", "export its textures and convert their folder");
+  refused("paint.sbsar", "Substance", "export its textures and convert their folder");
+  // The commands of the remedies run.
+  for (const std::string values :
+       {"mujoco --roughness 64 --specular 0.2", "opengl --roughness 64 --specular 0.2",
+        "radiance/plastic --roughness 0.1 --specular 0.05"})
+    require_success(sets.texremap("convert --to gltf --diffuse 0.5 --from " + values));
+}
+
+TEST_CASE("reports: messages name what was typed", "[reports]") {
+  const ReportedSets sets;
+  std::filesystem::create_directories(sets.path("My Textures"));
+  std::filesystem::create_directories(sets.path("Other"));
+  const auto said = [&](const std::vector<std::string>& words) {
+    const ProcessResult result = sets.texremap(Words(words));
+    CHECK(result.exit_code == 2);
+    return result.errors;
+  };
+  CHECK_THAT(
+      said({"convert", "My", "Textures", "--to", "gltf", "-o", "out"}),
+      Contains("Textures: not a glTF, MTL or OBJ file (put paths with spaces in quotes: \"My Textures\")"));
+  CHECK_THAT(said({"convert", "My Textures", "Other", "--to", "gltf", "-o", "out"}),
+             Contains("Other: not a glTF, MTL or OBJ file (convert one folder at a time)"));
+  CHECK_THAT(said({"convert", "Other", "--to", "gltf", "--out", "out"}),
+             Contains("unknown option --out (did you mean --output?)"));
+  CHECK_THAT(said({"convert", "Other", "--to", "ggx", "-o", "out"}), !Contains("nearest: glb"));
+  CHECK_THAT(said({"convert", "Other", "--to", "gltf", "--zzzzzzz", "1", "-o", "out"}),
+             !Contains("did you mean"));
+}
+
+TEST_CASE("reports: per cent and 0 to 255 are errors that name the right form", "[reports]") {
+  const ReportedSets sets;
+  const auto said = [&](const std::string& words) {
+    const ProcessResult result = sets.texremap("convert --from gltf --to usd " + words);
+    CHECK(result.exit_code == 2);
+    return result.errors;
+  };
+  CHECK_THAT(said("--roughness 30 --base-color 0.5 --metallic 0"),
+             Contains("--roughness 30: values lie between 0 and 1 (write --roughness 0.3)"));
+  CHECK_THAT(
+      said("--roughness 0.3 --base-color 80,40,20 --metallic 0"),
+      Contains("--base-color 80,40,20: values lie between 0 and 1 (write --base-color 0.31,0.16,0.08)"));
+  CHECK_THAT(said("--roughness 0.3 --base-color 0.5 --metallic 100"), Contains("(write --metallic 1)"));
+  sets.plain("in/a_baseColor.png", {1, 2, 3});
+  CHECK_THAT(sets.texremap("convert in --from gltf --to unity --roughness 60 --metallic 0 -o out").errors,
+             Contains("(write --roughness 0.6)"));
+}
+
+TEST_CASE("reports: a folder prints one line a set where nothing is visible", "[reports]") {
+  const ReportedSets sets;
+  constexpr std::size_t kSets = 12;
+  for (std::size_t i = 0; i < kSets; ++i) {
+    const std::string name = "in/rock" + std::to_string(i) + "x_";
+    sets.plain(name + "diffuse.png", {120, 80, 40}, 8);
+    sets.plain(name + "specular.png", {56, 56, 56}, 8);
+    sets.plain(name + "glossiness.png", {200}, 8);
+    sets.plain(name + "normal.png", {128, 128, 255}, 8);
+  }
+  const auto lines = [](const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  };
+  const Words words = "convert in --from gltf-specgloss --to unreal --force -o out";
+  const std::string brief = require_success(sets.texremap(words)).errors;
+  CHECK(lines(brief) <= kSets + 8);
+  CHECK_THAT(brief, !Contains("undetermined") && Contains("of the same kinds (--verbose lists them)"));
+  const std::string verbose = require_success(sets.texremap(words + "--verbose")).errors;
+  CHECK(lines(verbose) >= 4 * kSets);
+  CHECK_THAT(verbose, Contains("metallic undetermined, no visible effect"));
+  // A blue metal with a red diffuse is no material of metal-rough.
+  sets.plain("in/rock0x_specular.png", {20, 20, 230}, 8);
+  sets.plain("in/rock0x_diffuse.png", {230, 20, 20}, 8);
+  CHECK_THAT(
+      require_success(sets.texremap(words)).errors,
+      Contains("in/rock0x: metal-rough cannot express these maps exactly; the visible difference is about"));
+}

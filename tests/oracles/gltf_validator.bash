@@ -49,11 +49,11 @@ JS
 readonly directions=(
   "--to gltf"
   "--to gltf --profile extensions"
-  "--to gltf --compact --bake --jpeg 90"
+  "--to gltf --keep-unused --bake --jpeg 90"
   "--to gltf --fold-specular"
-  "--to gltf --fold-specular --compact --bake"
+  "--to gltf --fold-specular --keep-unused --bake"
   "--to gltf-specgloss"
-  "--to gltf-specgloss --compact --bake"
+  "--to gltf-specgloss --keep-unused --bake"
 )
 mapfile -t files < <(find "$assets" -name '*.gltf' -o -name '*.glb' | sort)
 for i in "${!directions[@]}"; do

@@ -20,7 +20,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l converters -r -
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l profile -x -a 'core extensions' -d 'Materials of assets: core metallic-roughness, or nearer for viewers that read KHR_materials_specular and KHR_materials_ior'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l mtl-from -x -a 'text blender blender-2.8 nvdiffrec' -d 'Read MTL files as this program writes them, instead of as their first lines say'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l fold-specular -d 'Fold KHR_materials_specular and KHR_materials_ior into core, for viewers that do not read them'
-complete -c texremap -n '__fish_seen_subcommand_from convert' -l compact -d 'Drop the bytes of images that only converted materials used, and make new images as small as possible'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l keep-unused -d 'Keep images and textures of a glTF file that only its converted materials used'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l bake -d 'Bring maps of a material whose KHR_texture_transform differ onto the grid of the first'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l jpeg -x -d 'Write new maps of color as JPEG, 1 to 100, where the old ones are JPEG and have no alpha'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l roughness -r -F -d 'Roughness of the source model'
