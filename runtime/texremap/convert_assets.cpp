@@ -128,7 +128,7 @@ bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>
   if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
     return true;
   refuse(options, kNeedsAsset,
-         ": only applies to assets (remove it, name a glTF, MTL or OBJ file, or --assets)");
+         ": applies to assets alone (remove it, name a glTF, MTL or OBJ file, or --assets)");
   return false;
 }
 

@@ -183,22 +183,22 @@ void print_confidence(const std::string& program, const std::string& place, cons
 // The kinds of warnings of a folder: what they say after the name of a file.
 class WarningKinds {
  public:
-  // Whether the warning is the first of its kind, and one of the first kinds.
+  // Whether the warning is one of the first of its kind, and its kind one of the first kinds.
   bool is_new(const std::string& warning) {
     const std::size_t colon = warning.find(": ");
     const std::string kind = colon == std::string::npos ? warning : warning.substr(colon + 2);
-    if (counts_.contains(kind) || counts_.size() < kShown) return ++counts_[kind] == 1;
+    if (counts_.contains(kind) || counts_.size() < kShownKinds) return ++counts_[kind] <= kShownOfKind;
     ++unshown_;
     return false;
   }
   std::size_t repeated() const {
     std::size_t more = unshown_;
-    for (const auto& [kind, count] : counts_) more += count - 1;
+    for (const auto& [kind, count] : counts_) more += count - std::min(count, kShownOfKind);
     return more;
   }
 
  private:
-  static constexpr std::size_t kShown = 20;
+  static constexpr std::size_t kShownKinds = 20, kShownOfKind = 3;
   std::map<std::string, std::size_t> counts_;
   std::size_t unshown_ = 0;
 };

@@ -64,8 +64,10 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   const auto sets = tree_report(result.output)["sets"];
   REQUIRE(sets.size() == 3);
   for (const auto& set : sets) CHECK(set["texels"] == 2048 * 2048);
-  CHECK(tree.results() == std::vector<std::string>{"BoomBox_occlusionRoughnessMetallic.png",
-                                                   "brass_roughness.jpg", "king_black_roughness.jpg"});
+  CHECK(tree.results() == std::vector<std::string>{"BoomBox_baseColor.png",
+                                                   "BoomBox_occlusionRoughnessMetallic.png",
+                                                   "brass_roughness.jpg", "king_black_base_color.jpg",
+                                                   "king_black_roughness.jpg"});
   // The metallic map of the king belongs to both kings and is not a set.
   CHECK_THAT(result.errors, Contains("/king_shared: no roughness or glossiness map found"));
   for (const char* name : {"brass", "king_black"})

@@ -318,7 +318,7 @@ TEST_CASE("reports: a folder prints one line a set where nothing is visible", "[
   };
   const Words words = "convert in --from gltf-specgloss --to unreal --force -o out";
   const std::string brief = require_success(sets.texremap(words)).errors;
-  CHECK(lines(brief) <= kSets + 8);
+  CHECK(lines(brief) <= kSets + 16);
   CHECK_THAT(brief, !Contains("undetermined") && Contains("of the same kinds (--verbose lists them)"));
   const std::string verbose = require_success(sets.texremap(words + "--verbose")).errors;
   CHECK(lines(verbose) >= 4 * kSets);
