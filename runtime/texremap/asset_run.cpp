@@ -146,13 +146,19 @@ class AssetRunner {
                          ": already exists (--resume skips finished assets, --force overwrites)");
   }
 
-  // Copies are compared with what they are of: several assets may share one.
-  bool is_done(const AssetJob& job, const std::string& inputs,
-               const std::vector<AssetResource>& named) const {
+  // Copies are compared with what they are of: several assets may share one. Files that only converted
+  // materials used are not in the result, and have none.
+  bool is_done(const AssetJob& job, const std::string& inputs, std::vector<AssetResource> named) const {
     const std::vector<fs::path> files = journal_.files_of(job.name());
     if (files.empty() || !journal_.is_done(inputs, files)) return false;
     const bool is_new_format = job.input.extension() != job.output.extension();  // which names other files
-    return is_new_format || plan_resources(job, named, [](const fs::path&) {}).copies.empty();
+    if (is_new_format) return true;
+    std::set<std::string> kept;
+    for (const AssetResource& resource :
+         resources_of_asset(FileSource(job.output), job.output, FolderResources(job)))
+      kept.insert(resource.path);
+    std::erase_if(named, [&](const AssetResource& resource) { return !kept.contains(resource.path); });
+    return plan_resources(job, named, [](const fs::path&) {}).copies.empty();
   }
 
   // The asset comes last, so that it never lies without its parts.

@@ -353,6 +353,8 @@ std::vector<Fault> faults() {
         }},
        {"ignored-by-reader", "clearcoat", Help::kWords, "in/a.gltf --for godot",
         [](S s) { s.gltf(R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1}})"); }},
+       {"unreadable-statement", "an asset", Help::kWords, "in/a.mtl",
+        [](S s) { s.put("in/a.mtl", "newmtl a\nKd .5 .5 .5\nNs shiny\n"); }},
        {"exponent-range", "an asset", Help::kWords, "in/a.mtl",
         [](S s) { s.put("in/a.mtl", "newmtl m\nKs 1 1 1\nNs 0.5\nnewmtl n\nKs 1 1 1\nNs 0.7\n"); }},
        {"duplicate-map", "a set", Help::kWords, "in", [](S s) {

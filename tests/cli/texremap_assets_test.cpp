@@ -86,8 +86,8 @@ TEST_CASE("Textures of an asset become new files beside the old ones", "[assets]
   const ProcessResult run = session.texremap("convert in/wood.gltf --to gltf -o out --json");
   CHECK(run.exit_code == 0);
   CHECK(run.errors.find("1 material converted in ") != std::string::npos);
-  CHECK(run.errors.find("plus 2 new files and 2 copied files") != std::string::npos);
-  CHECK(session.file_count() == 5);
+  CHECK(run.errors.find("plus 2 new files") != std::string::npos);
+  CHECK(session.file_count() == 3);
   const TestImage base = session.image("out/d_baseColor.png");
   CHECK(base.spec.nchannels == 3);
   CHECK(session.image("out/s_metallicRoughness.png").spec.format == OIIO::TypeUInt16);
@@ -147,7 +147,7 @@ TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended
                              Catch::Matchers::Contains(R"("done_before":0)") &&
                              Catch::Matchers::Contains(R"("written":3)"));
   CHECK(session.content("out/plain.gltf") == session.content("lib/plain.gltf"));
-  CHECK(session.content("out/maps/d.png") == session.content("lib/maps/d.png"));
+  CHECK_FALSE(std::filesystem::exists(session.path("out/maps/d.png")));  // nothing uses it
   // Both would add maps/d_baseColor.png, of other content.
   CHECK_THAT(session.content("out/chairs/a b.gltf"),
              Catch::Matchers::Contains(R"("uri":"../maps/a%20b_d_baseColor.png")"));
