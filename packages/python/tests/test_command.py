@@ -55,7 +55,20 @@ def picture(path):
     return parts
 
 
+def chunks(path):
+    """The chunks of a PNG that a picture needs, and those that say how colors are to be read; none of another file."""
+    data, found = path.read_bytes(), {}
+    place = 8
+    while data.startswith(b"\x89PNG") and place < len(data):
+        length, name = struct.unpack_from(">I4s", data, place)
+        if name in (b"IHDR", b"PLTE", b"cHRM", b"cICP", b"gAMA", b"iCCP", b"IDAT", b"IEND", b"sRGB"):
+            found[name] = data[place + 8 : place + 8 + length] if name not in (b"iCCP", b"IDAT") else "compressed"
+        place += 12 + length
+    return found
+
+
 def assert_same_image(ours, theirs):
+    assert chunks(ours) == chunks(theirs)
     ours, theirs = picture(ours), picture(theirs)
     assert len(ours) == len(theirs)
     for (values, layout, own), (others, other_layout, other_own) in zip(ours, theirs):

@@ -115,6 +115,8 @@ def test_maps_hold_what_arrays_give(scene):
     stage = Usd.Stage.Open(str(output))
     node = UsdShade.Shader(surface(stage, "maps").GetInput("metallic").GetConnectedSources()[0][0].source.GetPrim())
     file = node.GetInput("file").Get().resolvedPath
+    with open(file, "rb") as opened:
+        assert b"sRGB" not in opened.read()  # which readers would follow
     stored = np.round(np.asarray(oiio.ImageInput.open(file).read_image("uint8")))[..., 0]
     read = [np.asarray(oiio.ImageInput.open(str(scene.with_name(name))).read_image("uint8"))
             for name in ("diffuse.png", "specular.png")]

@@ -28,6 +28,7 @@ _DEFAULTS = {"diffuseColor": (0.18, 0.18, 0.18), "specularColor": (0.0, 0.0, 0.0
 # Inputs of the shader, and what the converter calls them.
 _SPECULAR = {"diffuseColor": "diffuse", "specularColor": "specular"}
 _METALLIC = {"diffuseColor": "base_color", "metallic": "metallic"}
+_PNG_LEVEL = 6
 _ROUGHNESS = 0.5  # any: both ends share a BRDF, so that roughness stays
 
 
@@ -127,17 +128,16 @@ def _read(texture):
 
 def _write(path, values, is_color):
     """A PNG of 8 bits: colors in sRGB."""
-    import OpenImageIO as oiio
+    from .images import Images
 
     if is_color:
         values = np.where(values <= 0.0031308, values * 12.92,
                           1.055 * np.maximum(values, 0.0031308) ** (1 / 2.4) - 0.055)
     stored = np.round(np.clip(values, 0, 1) * 255).astype(np.uint8)
-    spec = oiio.ImageSpec(stored.shape[1], stored.shape[0], stored.shape[2], "uint8")
-    with replacing(path) as unfinished:
-        output = oiio.ImageOutput.create(unfinished)
-        if not (output.open(unfinished, spec) and output.write_image(stored) and output.close()):
-            raise Error(f"{path}: cannot be written: {output.geterror()}", "output")
+    height, width, channels = stored.shape
+    image = Images().encode_png(width, height, channels, "uint8", stored.tobytes(), _PNG_LEVEL)
+    with replacing(path) as unfinished, open(unfinished, "wb") as file:
+        file.write(image)
 
 
 class _MaterialEdit:
