@@ -194,6 +194,43 @@ function arraysInto(name, value) {
   return given.arrays ? given : fail(`into.${name}: expected a typed array, or a list of three`);
 }
 
+const SURELY_NO_FRACTION = 2;  // a number from here on
+const LOOKED_AT = 4096;  // values of an array
+
+// Refuses what can only be per cent or 0 to 255; exponents and wide ranges of specular are neither.
+function requireFractions(held, sources, encoding) {
+  for (const source of sources) {
+    const isExponent = source.name === 'roughness' && encoding === 'exponent';
+    const isWide = source.name === 'specular' && held.info.domain.specular[1] > 1;
+    if (isExponent || isWide) continue;
+    const name = source.name === 'roughness' && encoding === 'glossiness' ? 'glossiness' : source.name;
+    if (source.constants) requireFractionNumbers(name, source.constants);
+    else if (!isWhole(source.kind)) source.arrays.forEach((array) => requireFractionArray(name, array));
+  }
+}
+
+function requireFractionNumbers(name, values) {
+  const highest = Math.max(...values);
+  if (!(highest >= SURELY_NO_FRACTION)) return;
+  const whole = values.length === 1 && highest <= 100 ? 100 : 255;
+  const listed = (numbers) => (numbers.length === 1 ? `${numbers[0]}` : `[${numbers.join(', ')}]`);
+  const meant = values.map((value) => Math.round((100 * value) / whole) / 100);
+  fail(`${name}: ${listed(values)}: values lie between 0 and 1${highest <= whole ? ` (write ${name}: ${listed(meant)})` : ''}`);
+}
+
+// Looks at some of the values: maps of some bright texels are usual, whole maps of them are not.
+function requireFractionArray(name, array) {
+  const step = 1 + Math.floor(array.length / LOOKED_AT);
+  let looked = 0, above = 0;
+  for (let i = 0; i < array.length; i += step, ++looked) if (array[i] > 1) ++above;
+  if (2 * above <= looked) return;
+  const some = array.filter((value, i) => i % step === 0 && !Number.isNaN(value)).sort();
+  const median = some[some.length >> 1];
+  const [whole, Type] = median <= 255 ? [255, 'Uint8Array'] : [65535, 'Uint16Array'];
+  const remedy = median <= whole ? ` (divide them by ${whole}, or give them as ${Type})` : '';
+  fail(`${name}: half of the values are above ${Number(median.toPrecision(3))}, but they lie between 0 and 1${remedy}`);
+}
+
 // The number of texels that all maps have: that of a map of one channel, else of planes, else a third of a color.
 function texelCount(sources) {
   const maps = sources.filter((source) => source.arrays);
@@ -315,6 +352,7 @@ function convertMaps(held, maps, options) {
   const count = texelCount(sources);
   if (count === 0) fail('maps have no texels (is their buffer detached?)');
   for (const source of sources) layOut(source, count);
+  requireFractions(held, sources, options.sourceEncoding ?? held.info.sourceEncoding);
   const isPlain = sources.every((source) => !source.arrays);
 
   let { width = Math.min(count, BAND) } = options;

@@ -203,7 +203,18 @@ std::string chunk_text(const PngChunk& chunk) {
   return big_endian(static_cast<std::uint32_t>(chunk.data.size())) + named + big_endian(checksum(named));
 }
 
-constexpr std::uint32_t kLinearGamma = 100000, kGammaTolerance = 1000;
+constexpr std::uint32_t kLinearGamma = 100000, kGammaTolerance = 1000, kSrgbGamma = 45455;
+constexpr char kIntentOfLibpng = 3;
+// The white and the primaries of sRGB, in units of 1e-5.
+constexpr std::array<std::uint32_t, 8> kSrgbChromaticities = {31270, 32900, 64000, 33000,
+                                                              30000, 60000, 15000, 6000};
+
+// The chunks by which libpng tags a file as sRGB.
+std::vector<PngChunk> srgb_chunks() {
+  std::string chromaticities;
+  for (const std::uint32_t value : kSrgbChromaticities) chromaticities += big_endian(value);
+  return {{"gAMA", big_endian(kSrgbGamma)}, {"sRGB", {kIntentOfLibpng}}, {"cHRM", chromaticities}};
+}
 
 // Gamma curves are read as sRGB, as the programs do.
 std::optional<Transfer> transfer_of(const std::vector<PngChunk>& chunks) {
@@ -416,18 +427,21 @@ class NewByNode final : public NewImage {
     const Transfer transfer =
         changes.colors ? changes.colors->of(layout_.channels.front().type) : Transfer::kLinear;
     const bool keeps = follows && (!changes.colors || transfer == changes.colors->followed);
+    const bool is_srgb =
+        keeps ? find_chunk(model.chunks(), "sRGB") != nullptr : changes.colors && transfer == Transfer::kSrgb;
+    if (is_srgb)
+      chunks_ = srgb_chunks();
+    else if (changes.colors && !keeps)
+      chunks_.push_back({"gAMA", big_endian(kLinearGamma)});
     for (const PngChunk& chunk : model.chunks()) {
-      const bool is_of_color = chunk.name == "sRGB" || chunk.name == "gAMA";
       const bool is_replaced =
           chunk.name == "tEXt" && std::ranges::any_of(changes.metadata, [&](const auto& own) {
             return chunk.data.starts_with(own.first + '\0');
           });
-      if ((is_of_color && keeps) || chunk.name == "pHYs" || (chunk.name == "tEXt" && !is_replaced))
+      if ((chunk.name == "gAMA" && keeps && !is_srgb) || chunk.name == "pHYs" ||
+          (chunk.name == "tEXt" && !is_replaced))
         chunks_.push_back(chunk);
     }
-    if (changes.colors && !keeps)
-      chunks_.push_back(transfer == Transfer::kSrgb ? PngChunk{"sRGB", std::string(1, '\0')}
-                                                    : PngChunk{"gAMA", big_endian(kLinearGamma)});
     for (const auto& [name, value] : changes.metadata) chunks_.push_back({"tEXt", name + '\0' + value});
   }
 

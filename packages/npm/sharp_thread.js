@@ -8,8 +8,10 @@ const { flag, port } = workerData;
 async function loaded() {
   try {
     return (await import('sharp')).default;
-  } catch {
-    throw new Error('JPEG, WebP and TIFF need sharp (npm install sharp)');
+  } catch (error) {
+    const state = error.code === 'ERR_MODULE_NOT_FOUND' ? 'is not installed' : 'has no program for this machine';
+    const isGlobal = new URL('../..', import.meta.url).pathname.endsWith('/lib/');
+    throw new Error(`JPEG, WebP and TIFF need sharp, which ${state} (npm install${isGlobal ? ' --global' : ''} --include=optional sharp)`);
   }
 }
 

@@ -14,8 +14,8 @@ from pathlib import Path
 CHANNELS = {1: 0, 2: 4, 3: 2, 4: 6}  # color types of PNG
 
 
-def png_bytes(width, height, channels, bits, values):
-    """A PNG of rows without filters; `values` are whole numbers in the order of the file."""
+def png_bytes(width, height, channels, bits, values, tags=()):
+    """A PNG of rows without filters; `values` are whole numbers in the order of the file, `tags` names and bytes of chunks."""
     step = bits // 8
     data = b"".join(value.to_bytes(step, "big") for value in values)
     stride = width * channels * step
@@ -25,7 +25,8 @@ def png_bytes(width, height, channels, bits, values):
         return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
 
     header = struct.pack(">IIBBBBB", width, height, bits, CHANNELS[channels], 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        chunk(*tag) for tag in ((b"IHDR", header), *tags, (b"IDAT", zlib.compress(rows)), (b"IEND", b"")))
 
 
 class Inputs:
@@ -38,10 +39,10 @@ class Inputs:
         path.parent.mkdir(parents=True, exist_ok=True)
         return path
 
-    def png(self, name, width, height, channels, bits=8, low=0.0, high=1.0):
+    def png(self, name, width, height, channels, bits=8, low=0.0, high=1.0, tags=()):
         largest = (1 << bits) - 1
         values = [round((low + (high - low) * self.random.random()) * largest) for _ in range(width * height * channels)]
-        data = png_bytes(width, height, channels, bits, values)
+        data = png_bytes(width, height, channels, bits, values, tags)
         self.path(name).write_bytes(data)
         return data
 
@@ -83,6 +84,11 @@ class Inputs:
         self.png("specgloss/tin_diffuse.png", 16, 16, 3)
         self.png("specgloss/tin_specular.png", 16, 16, 3)
         self.png("specgloss/tin_glossiness.png", 16, 16, 1)
+        # As programs for pictures save every PNG, and as a renderer of linear colors does.
+        tags = {"srgb": (b"sRGB", b"\0"), "gamma": (b"gAMA", struct.pack(">I", 45455)), "linear": (b"gAMA", struct.pack(">I", 100000))}
+        for name, tag in tags.items():
+            self.png(f"tagged/{name}/{name}_roughness.png", 16, 16, 1, low=0.1, tags=[tag])
+            self.png(f"tagged/{name}/{name}_specular.png", 16, 16, 3, tags=[tag])
         self.png("unity/brick_MaskMap.png", 16, 16, 4)
         self.png("unity/brick_BaseMap.png", 16, 16, 3)
         self.gltf()

@@ -53,7 +53,8 @@ std::optional<Kept> kept_of(const FoundSet& set, std::vector<MapUse> found,
   });
   if (whole.size() == 1) return Kept{whole.front(), "a map of its own"};
   const auto role_count = [&](const MapUse& use) { return set.maps[use.map].meaning.size(); };
-  const std::size_t most = role_count(*std::ranges::max_element(found, {}, role_count));
+  std::size_t most = 0;
+  for (const MapUse& use : found) most = std::max(most, role_count(use));
   const auto fullest = those(found, [&](const MapUse& use) { return role_count(use) == most; });
   if (fullest.size() == 1) return Kept{fullest.front(), "which holds more of the material"};
   return std::nullopt;

@@ -7,6 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
+import { pngChunks } from '../../packages/tests/png_chunks.mjs';
 import { Visit, fileUrl, filesBelow, loaded, native, repository, served, skip, skipNative, startBrowser } from './browser.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'texremap-web-'));
@@ -68,6 +69,7 @@ function requireSameImage(own, other, place) {
   const [a, b] = [decode(own), decode(other)];
   assert.deepEqual([a.width, a.height, a.channels, a.depth], [b.width, b.height, b.channels, b.depth], place);
   assert.deepEqual(a.data, b.data, place);
+  assert.deepEqual(pngChunks(own), pngChunks(other), place);
 }
 
 function openGlb(bytes) {

@@ -34,6 +34,12 @@ test('what is wrong is said', () => {
   refused(() => convert({ ...names, roughness: new DataView(new ArrayBuffer(8)), specular: 0 }), /roughness: expected Float32Array/);
   refused(() => convert({ ...names, roughness: '0.2', specular: 0 }), /roughness: expected a number/);
   refused(() => convert({ ...names, roughness: NaN, specular: 0 }), /constants must be finite, found NaN/);
+  refused(() => convert({ ...names, roughness: 30, specular: 0 }), /^roughness: 30: values lie between 0 and 1 \(write roughness: 0.3\)$/);
+  refused(() => convert({ ...names, glossiness: 130, specular: 0 }), /\(write glossiness: 0.51\)$/);
+  refused(() => convert({ ...names, roughness: 0.1, specular: [80, 40, 20] }), /\(write specular: \[0.31, 0.16, 0.08\]\)$/);
+  refused(() => convert({ ...names, roughness: 1e6, specular: 0 }), /^roughness: 1000000: values lie between 0 and 1$/);
+  refused(() => convert({ ...names, roughness: new Float32Array(9000).fill(30), specular: 0 }), /half of the values are above 30, .* \(divide them by 255, or give them as Uint8Array\)$/);
+  refused(() => convert({ ...names, roughness: new Float64Array(4).fill(3e4), specular: 0 }), /\(divide them by 65535, or give them as Uint16Array\)$/);
   refused(() => convert({ ...names, roughness: 0.1, specular: [0.1, 0.2] }), /specular has 2 channels/);
   refused(() => convert({ ...names, ...maps, type: 'half' }), /type: expected one of float32/);
   refused(() => convert({ ...names, ...maps, type: 'constructor' }), /type: expected one of float32/);
@@ -53,6 +59,14 @@ test('what is wrong is said', () => {
   refused(() => converterOfFit(12), /expected the text/);
   refused(() => converterOfFit('['.repeat(100000)), /fit/);
   refused(() => path('mitsuba/ward', 'mitsuba/ward'), /.+/);
+});
+
+test('bright values that are meant', () => {
+  convert({ ...names, source: 'mitsuba/phong', roughness: 30, specular: 0.5 });
+  convert({ ...names, source: 'mitsuba/phong', roughness: new Float32Array(9000).fill(300), specular: 0.5 });
+  convert({ ...names, roughness: 30, sourceEncoding: 'exponent', specular: 0.5 });
+  convert({ ...names, roughness: new Uint8Array(4).fill(200), specular: 1.2 });
+  convert({ ...names, roughness: 0.2, specular: Float32Array.from({ length: 9000 }, (_, i) => (i % 3 === 0 ? 8 : 0.5)) });
 });
 
 test('a closed converter says so', () => {

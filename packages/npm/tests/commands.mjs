@@ -5,6 +5,7 @@ import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs'
 import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 
+import { pngChunks } from '../../tests/png_chunks.mjs';
 import { needFile, needPackage } from './needs.mjs';
 import { packageFolder, sourceFolder } from './package.mjs';
 
@@ -46,19 +47,15 @@ export function filesBelow(root, below = '') {
     .sort();
 }
 
-// What a PNG file says around the picture: its curve, its size in the world, notes. Libraries say the curve in several ways, and
-// OpenImageIO adds notes of its own.
+// What a PNG file says around the picture: its chunks, its size in the world, notes. OpenImageIO adds notes of its own.
 function aroundPicture(file) {
   const notes = [];
-  const curve = {};
   for (let at = 8; at + 12 <= file.length; at += 12 + file.readUInt32BE(at)) {
     const name = file.toString('latin1', at + 4, at + 8);
     const data = file.subarray(at + 8, at + 8 + file.readUInt32BE(at));
     if (name === 'pHYs' || (name === 'tEXt' && !data.toString('latin1').startsWith('oiio:'))) notes.push(`${name} ${data.toString('latin1')}`);
-    if (name === 'sRGB') curve.isSrgb = true;
-    if (name === 'gAMA') curve.gamma = data.readUInt32BE(0);
   }
-  return { notes: notes.sort(), curve: curve.isSrgb ? 'sRGB' : curve.gamma };
+  return { notes: notes.sort(), chunks: pngChunks(file) };
 }
 
 // How files of a format are compared, by their extensions: values of images, and what is around them.

@@ -179,7 +179,7 @@ async function refusals(words, options) {
 }
 
 for (const [words, options] of [
-  [['--to', 'metallic'], { to: 'metallic' }],
+  [['--to', 'mitsuba/ward'], { to: 'mitsuba/ward' }],
   [['--to', 'gltf', '--from', 'mitsuba/ward'], { from: 'mitsuba/ward', to: 'gltf' }],
   [['--to', 'gltf', '--profile', 'cor'], { to: 'gltf', profile: 'cor' }],
   [['--to', 'gltf-specgloss', '--fold-specular'], { to: 'gltf-specgloss', foldSpecular: true }],

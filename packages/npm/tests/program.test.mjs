@@ -1,11 +1,13 @@
 // The command of the package against the program of the C++ build: the cases of packages/tests in PNG.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync, readlinkSync, truncateSync, writeFileSync } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { cpSync, existsSync, readFileSync, readlinkSync, truncateSync, writeFileSync } from 'node:fs';
 import { hostname } from 'node:os';
 import { join } from 'node:path';
 import test from 'node:test';
 
 import { cases, copyOfInputs, filesBelow, folder, requireSame, requireSameResults, runNative, runOwn, startOwn } from './commands.mjs';
+import { packageFolder } from './package.mjs';
 
 // JPEG and TIFF: sharp.test.mjs.
 const own = ['png', 'jpg', 'tif'];
@@ -27,6 +29,18 @@ test('files of other formats are refused by name', () => {
   const refused = runOwn(['convert', '--from', 'mitsuba/ward', '--to', 'mitsuba/ggx', '--roughness', 'map.exr', '--specular', '0.5', '-o', 'out']);
   assert.equal(refused.status, 1);
   assert.match(refused.stderr, /EXR is not read by the package for node/);
+});
+
+test('without sharp, a JPEG is refused with what to type', () => {
+  for (const [place, words] of [['node_modules', 'npm install'], ['lib/node_modules', 'npm install --global']]) {
+    const copy = join(folder, 'without', place, 'texremap');
+    cpSync(packageFolder, copy, { recursive: true, filter: (path) => !/node_modules.(sharp|@img)$/.test(path) });
+    writeFileSync(join(folder, 'map.jpg'), Buffer.from([0xff, 0xd8, 0xff, 0xe0]));
+    const refused = spawnSync(process.execPath, [join(copy, 'cli.js'), 'convert', '--from', 'mitsuba/ward', '--to', 'mitsuba/ggx', '--roughness', 'map.jpg',
+      '--specular', '0.5', '-o', 'out'], { encoding: 'utf8', cwd: folder });
+    assert.equal(refused.status, 1);
+    assert.ok(refused.stderr.includes(`map.jpg: cannot be read: JPEG, WebP and TIFF need sharp, which is not installed (${words} --include=optional sharp)`), refused.stderr);
+  }
 });
 
 test('files too large for memory are refused by name, with a remedy', () => {

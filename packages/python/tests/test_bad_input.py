@@ -45,6 +45,12 @@ REFUSED = [
     ({"converters": "missing.json"}, "missing.json"),
     ({"instructions": "sse9"}, "instructions: "),
     ({"glossiness": 0.5}, "glossiness cannot be given with roughness"),
+    ({"roughness": 30}, "roughness=30: values lie between 0 and 1 (write roughness=0.3)"),
+    ({"roughness": None, "glossiness": 130}, "glossiness=130: values lie between 0 and 1 (write glossiness=0.51)"),
+    ({"specular": (80, 40, 20)}, "specular=(80, 40, 20): values lie between 0 and 1 (write specular=(0.31, 0.16, 0.08))"),
+    ({"specular": 1e6}, "specular=1e+06: values lie between 0 and 1"),
+    ({"roughness": np.full((2, 2), 30.0)}, "roughness: half of the values are above 30, but they lie between 0 and 1 (divide them by 255"),
+    ({"roughness": np.full((2, 2), 3e4)}, "roughness.astype(np.uint16)"),
 ]
 
 
@@ -57,6 +63,16 @@ def test_refused(changes, message):
         texremap.convert(**arguments)
     assert message in str(raised.value)
     assert "\n" not in str(raised.value)
+
+
+def test_bright_values_that_are_meant():
+    texremap.convert(source="mitsuba/phong", target="mitsuba/as", roughness=30, specular=0.5)
+    texremap.convert(source="mitsuba/phong", target="mitsuba/as", roughness=np.full((2, 2), 300.0), specular=0.5)
+    texremap.convert(**{**GOOD, "roughness": 30, "roughness_encoding": "exponent"})
+    few = np.full((200, 200), 0.5)
+    few[:40] = 8.0
+    texremap.convert(**{**GOOD, "roughness": 0.2, "specular": few})
+    texremap.convert(**{**GOOD, "roughness": np.full((2, 2), 200, np.uint8), "specular": 1.2})
 
 
 def test_error_can_be_sent_to_another_process():

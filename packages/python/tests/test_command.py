@@ -55,7 +55,20 @@ def picture(path):
     return parts
 
 
+def chunks(path):
+    """The chunks of a PNG that a picture needs, and those that say how colors are to be read; none of another file."""
+    data, found = path.read_bytes(), {}
+    place = 8
+    while data.startswith(b"\x89PNG") and place < len(data):
+        length, name = struct.unpack_from(">I4s", data, place)
+        if name in (b"IHDR", b"PLTE", b"cHRM", b"cICP", b"gAMA", b"iCCP", b"IDAT", b"IEND", b"sRGB"):
+            found[name] = data[place + 8 : place + 8 + length] if name not in (b"iCCP", b"IDAT") else "compressed"
+        place += 12 + length
+    return found
+
+
 def assert_same_image(ours, theirs):
+    assert chunks(ours) == chunks(theirs)
     ours, theirs = picture(ours), picture(theirs)
     assert len(ours) == len(theirs)
     for (values, layout, own), (others, other_layout, other_own) in zip(ours, theirs):
@@ -120,7 +133,13 @@ def test_case(case, inputs, tmp_path):
             assert pair[0].read_bytes() == pair[1].read_bytes(), file
 
 
+def test_help_shows_usd():
+    shown = subprocess.run([sys.executable, "-m", "texremap", "--help"], check=True, capture_output=True, text=True).stdout
+    assert shown.startswith("Convert ")
+    assert "\nOnly in the Python package:\n  usd " in shown
+
+
 def test_manual_pages_and_completion_are_installed():
     installed = {path.as_posix().rpartition("share/")[2] for path in importlib.metadata.files("texremap")}
-    assert {"man/man1/texremap.1", "man/man1/texremap-convert.1", "bash-completion/completions/texremap",
+    assert {"man/man1/texremap.1", "man/man1/texremap-convert.1", "man/man1/texremap-usd.1", "bash-completion/completions/texremap",
             "zsh/site-functions/_texremap", "fish/vendor_completions.d/texremap.fish"} <= installed

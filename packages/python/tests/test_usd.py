@@ -115,6 +115,8 @@ def test_maps_hold_what_arrays_give(scene):
     stage = Usd.Stage.Open(str(output))
     node = UsdShade.Shader(surface(stage, "maps").GetInput("metallic").GetConnectedSources()[0][0].source.GetPrim())
     file = node.GetInput("file").Get().resolvedPath
+    with open(file, "rb") as opened:
+        assert b"sRGB" not in opened.read()  # which readers would follow
     stored = np.round(np.asarray(oiio.ImageInput.open(file).read_image("uint8")))[..., 0]
     read = [np.asarray(oiio.ImageInput.open(str(scene.with_name(name))).read_image("uint8"))
             for name in ("diffuse.png", "specular.png")]
@@ -171,14 +173,17 @@ def test_command_and_bad_input(scene, tmp_path):
     assert dry.returncode == 1 and len([json.loads(line) for line in dry.stdout.splitlines()]) == 7
     assert not (tmp_path / "out.usda").exists() and not (tmp_path / "out_textures").exists()
     for words, message in (
-        ((tmp_path / "none.usda", "-o", tmp_path / "out.usda"), "none.usda: cannot be read"),
+        ((tmp_path / "none.usda", "-o", tmp_path / "out.usda"), "none.usda: cannot be read: file not found"),
         ((scene, "-o", scene), "is the input"),
         ((scene, "-o", tmp_path / "out.glb"), "a layer is .usda"),
     ):
         refused = run(*words)
         assert refused.returncode == 1 and message in refused.stderr, refused.stderr
     (tmp_path / "broken.usda").write_text("#usda 1.0\n(((")
-    assert "broken.usda: cannot be read" in run(tmp_path / "broken.usda", "-o", tmp_path / "out.usda").stderr
+    assert "broken.usda:2:2: cannot be read: Expected ) at '(('" in run(tmp_path / "broken.usda", "-o", tmp_path / "out.usda").stderr
+    (tmp_path / "text.usda").write_text("hello")
+    refused = run(tmp_path / "text.usda", "-o", tmp_path / "out.usda").stderr
+    assert "text.usda: cannot be read: <" in refused and "not a valid usda layer" in refused and "pxr" not in refused
     assert run(scene, "-o", tmp_path / "out.usda").returncode == 1  # two materials failed
     assert "exists" in run(scene, "-o", tmp_path / "out.usda").stderr
     assert not list(tmp_path.glob(".*unfinished*"))

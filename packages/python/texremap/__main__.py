@@ -1,20 +1,36 @@
 """The command ``texremap``: the program of the C++ build, over images by OpenImageIO's Python package; and
-``texremap usd``, which this package alone has."""
+``texremap usd``, which only this package has."""
 
 import sys
+import textwrap
 
 from . import _core
+from ._usd_options import SUMMARY, usd_parser
+
+_HELP = ("-h", "--help")
+
+
+def _run_usd(words):
+    try:
+        from . import usd
+    except ImportError as failure:
+        if any(word in _HELP for word in words):
+            usd_parser().print_help()
+            return 0
+        print(f"texremap: {failure}", file=sys.stderr)
+        return 1
+    return usd.main(words)
 
 
 def main():
-    if sys.argv[1:2] == ["usd"]:
-        try:
-            from . import usd
-        except ImportError as failure:
-            print(f"texremap: {failure}", file=sys.stderr)
-            return 1
-        return usd.main(sys.argv[2:])
-    return _core.run(sys.argv[1:], True)
+    words = sys.argv[1:]
+    if words[:1] == ["usd"]:
+        return _run_usd(words[1:])
+    status = _core.run(words, True)
+    if words[:1] and words[0] in _HELP:
+        lines = textwrap.wrap(SUMMARY, 54)
+        print("\nOnly in the Python package:\n  usd".ljust(55) + ("\n" + " " * 26).join(lines))
+    return status
 
 
 if __name__ == "__main__":

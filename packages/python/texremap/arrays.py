@@ -11,6 +11,8 @@ from . import _core
 from ._error import Error
 
 _COLORS = {"specular", "diffuse", "base_color", "residual"}
+_SURELY_NO_FRACTION = 2  # a number from here on
+_LOOKED_AT = 64  # values of each axis of an array
 _MEASURES = ("residual", "metallic_width", "doubts")
 
 
@@ -212,6 +214,7 @@ class Converter:
         arrays = {name: value for name, value in given.items() if value is not None}
         self._require(arrays)
         maps = _Maps(arrays, transfer)
+        self._require_fractions(maps, source_encoding)
         width_out = output_encoding or self.output_encoding
         result_names = {"roughness": "glossiness" if width_out == "glossiness" else "roughness"}
         result = maps.results(self._made(maps, measures), result_names, dtype, dict(out or {}), transfer)
@@ -246,6 +249,19 @@ class Converter:
         for name in self.sources:
             if name not in arrays:
                 raise Error(f"{name} is required by {self.source} (an array, a number, or three)")
+
+    def _require_fractions(self, maps, width_encoding):
+        """Refuses what can only be per cent or 0 to 255; exponents and wide ranges of specular are neither."""
+        for name in (*maps.constants, *maps.arrays):
+            is_exponent = name == "roughness" and width_encoding == "exponent"
+            is_wide = name == "specular" and self.specular_domain[1] > 1
+            if is_exponent or is_wide:
+                continue
+            shown = "glossiness" if name == "roughness" and width_encoding == "glossiness" else name
+            if name in maps.constants:
+                _require_fraction_numbers(shown, maps.constants[name])
+            else:
+                _require_fraction_array(shown, maps.arrays[name])
 
     def _made(self, maps, measures):
         """Each result with its number of channels."""
@@ -344,6 +360,31 @@ def _constants(name, value):
     if len(values) not in ((1, 3) if name in _COLORS else (1,)):
         raise Error(f"{name}: has {len(values)} numbers (give one{' or three' if name in _COLORS else ''}, or an array)")
     return values
+
+
+def _require_fraction_numbers(name, values):
+    if max(values) < _SURELY_NO_FRACTION:
+        return
+    whole = 100 if len(values) == 1 and values[0] <= 100 else 255
+    typed, meant = (", ".join(f"{number:g}" for number in numbers)
+                    for numbers in (values, [round(value / whole, 2) for value in values]))
+    if len(values) > 1:
+        typed, meant = f"({typed})", f"({meant})"
+    remedy = f" (write {name}={meant})" if max(values) <= whole else ""
+    raise Error(f"{name}={typed}: values lie between 0 and 1{remedy}")
+
+
+def _require_fraction_array(name, array):
+    """Looks at some of the values: maps of some bright texels are usual, whole maps of them are not."""
+    if array.dtype.kind != "f":
+        return
+    some = array[tuple(slice(None, None, 1 + size // _LOOKED_AT) for size in array.shape)]
+    if 2 * np.count_nonzero(some > 1) <= some.size:
+        return
+    median = float(np.nanmedian(some))
+    whole = next((whole for whole in (255, 65535) if median <= whole), None)
+    remedy = f" (divide them by {whole}, or give integers: {name}.astype(np.uint{8 if whole == 255 else 16}))" if whole else ""
+    raise Error(f"{name}: half of the values are above {median:.3g}, but they lie between 0 and 1{remedy}")
 
 
 def _transfer_of(transfer, name, dtype):

@@ -439,6 +439,15 @@ def _output_spec(model, model_format, output, changes, path):
     return spec
 
 
+def _for_writer(spec, format):
+    """``spec`` with a color space in every case: without one, OpenImageIO tags a PNG as sRGB, which data is not."""
+    if format != "png" or _text(spec, "oiio:ColorSpace"):
+        return spec
+    spec = oiio.ImageSpec(spec)
+    spec.attribute("oiio:ColorSpace", "unknown")
+    return spec
+
+
 class NewImage:
     """An image that is written to ``unfinished``; the caller gives the finished file its name ``path``.
 
@@ -492,7 +501,7 @@ class NewImage:
 
     def _open_plane(self):
         part, level = self._plane
-        spec = self._specs[part][level]
+        spec = _for_writer(self._specs[part][level], self._format)
         if not self._is_open:
             firsts = tuple(levels[0] for levels in self._specs)
             if len(firsts) > 1 and self._format == "openexr":  # needs all parts at once
@@ -613,7 +622,7 @@ class Images:
         with tempfile.TemporaryDirectory(prefix="texremap-") as folder:
             path = os.path.join(folder, "image." + extension)
             output = oiio.ImageOutput.create(path)
-            if not (output.open(path, spec) and output.write_image(values) and output.close()):
+            if not (output.open(path, _for_writer(spec, output.format_name())) and output.write_image(values) and output.close()):
                 raise ValueError(f"{extension} image: cannot be encoded: {output.geterror()}")
             with open(path, "rb") as file:
                 return file.read()

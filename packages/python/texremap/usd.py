@@ -4,9 +4,9 @@
 sublayers the old one, which stays as it is: ``texremap usd scene.usda --to metallic -o scene_metallic.usda``.
 """
 
-import argparse
 import json
 import os
+import re
 import sys
 from typing import List, NamedTuple, Optional, Tuple, Union
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from ._error import Error
 from ._files import replacing
+from ._usd_options import usd_parser
 from .arrays import Converter
 
 try:
@@ -28,6 +29,7 @@ _DEFAULTS = {"diffuseColor": (0.18, 0.18, 0.18), "specularColor": (0.0, 0.0, 0.0
 # Inputs of the shader, and what the converter calls them.
 _SPECULAR = {"diffuseColor": "diffuse", "specularColor": "specular"}
 _METALLIC = {"diffuseColor": "base_color", "metallic": "metallic"}
+_PNG_LEVEL = 6
 _ROUGHNESS = 0.5  # any: both ends share a BRDF, so that roughness stays
 
 
@@ -127,17 +129,16 @@ def _read(texture):
 
 def _write(path, values, is_color):
     """A PNG of 8 bits: colors in sRGB."""
-    import OpenImageIO as oiio
+    from .images import Images
 
     if is_color:
         values = np.where(values <= 0.0031308, values * 12.92,
                           1.055 * np.maximum(values, 0.0031308) ** (1 / 2.4) - 0.055)
     stored = np.round(np.clip(values, 0, 1) * 255).astype(np.uint8)
-    spec = oiio.ImageSpec(stored.shape[1], stored.shape[0], stored.shape[2], "uint8")
-    with replacing(path) as unfinished:
-        output = oiio.ImageOutput.create(unfinished)
-        if not (output.open(unfinished, spec) and output.write_image(stored) and output.close()):
-            raise Error(f"{path}: cannot be written: {output.geterror()}", "output")
+    height, width, channels = stored.shape
+    image = Images().encode_png(width, height, channels, "uint8", stored.tobytes(), _PNG_LEVEL)
+    with replacing(path) as unfinished, open(unfinished, "wb") as file:
+        file.write(image)
 
 
 class _MaterialEdit:
@@ -258,6 +259,17 @@ def _plan(stage, is_to_metallic, folder):
             yield MaterialReport(path, "failed", str(failure))
 
 
+def _reason_of(source, text):
+    """A message with the place in the file, from USD's errors, each of which is `Error in FUNCTION at LINE in SOURCE : 'WHAT'`."""
+    if not os.path.exists(source):
+        return f"{source}: cannot be read: file not found"
+    first = re.search(r" : '([^\n]*)", text)
+    what = first[1].rstrip("'") if first else text.strip().split("\n")[0] or "unknown reason"
+    what = re.sub(r"\bpxrInternal_\w+::(\w+::)*", "", what)
+    at = re.match(re.escape(os.path.abspath(source)) + r"(:\d+:\d+): (.*)", what)
+    return f"{source}{at[1]}: cannot be read: {at[2]}" if at else f"{source}: cannot be read: {what}"
+
+
 def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathLike[str]"], *, to: str = "metallic",
             force: bool = False, dry_run: bool = False) -> List[MaterialReport]:
     """Converts every UsdPreviewSurface of ``source`` into a new layer ``output``, which sublayers ``source``.
@@ -279,9 +291,8 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
         raise Error(f"{output}: exists (use --force to replace it)", "output")
     try:
         stage = Usd.Stage.Open(source)
-    except Exception as failure:  # Tf.ErrorException is made of lines for developers
-        lines = str(failure).strip().splitlines()
-        raise Error(f"{source}: cannot be read: {lines[-1].strip() if lines else 'unknown reason'}", "input") from None
+    except Exception as failure:  # Tf.ErrorException
+        raise Error(_reason_of(source, str(failure)), "input") from None
 
     folder = os.path.splitext(output)[0] + "_textures"
     reports, edits = [], []
@@ -319,15 +330,7 @@ def _write_layer(root, edits, output, folder):
 
 
 def main(words: Optional[List[str]] = None) -> int:
-    parser = argparse.ArgumentParser(prog="texremap usd", description="Converts the UsdPreviewSurface materials of a USD "
-                                     "file between the specular and the metallic workflow, into a new layer over it.")
-    parser.add_argument("source", metavar="IN", help="a .usda, .usdc, .usd or .usdz file")
-    parser.add_argument("--to", choices=("metallic", "specular"), default="metallic", help="the workflow of the result")
-    parser.add_argument("-o", "--output", required=True, metavar="OUT", help="the new layer: .usda, .usdc or .usd")
-    parser.add_argument("--force", action="store_true", help="replace an existing layer")
-    parser.add_argument("--dry-run", action="store_true", help="say what would be done, and write nothing")
-    parser.add_argument("--json", action="store_true", help="a line of JSON for each material")
-    options = parser.parse_args(words)
+    options = usd_parser().parse_args(words)
     try:
         reports = convert(options.source, options.output, to=options.to, force=options.force, dry_run=options.dry_run)
     except Error as failure:

@@ -1,0 +1,21 @@
+"""The options of ``texremap usd``, which help and the manual page show where usd-core is not installed."""
+
+import argparse
+
+SUMMARY = "Convert the UsdPreviewSurface materials of a USD file between the specular and the metallic workflow"
+USAGE = "texremap usd IN -o OUT [options]"
+EXAMPLE = "  texremap usd scene.usda --to metallic -o scene_metallic.usda"
+
+
+def usd_parser():
+    parser = argparse.ArgumentParser(
+        prog="texremap usd", usage=USAGE, description=f"{SUMMARY},\ninto a new layer over it.",
+        epilog="Example:\n" + EXAMPLE, formatter_class=argparse.RawDescriptionHelpFormatter, add_help=False)
+    parser.add_argument("source", metavar="IN", help="A .usda, .usdc, .usd or .usdz file")
+    parser.add_argument("--to", choices=("metallic", "specular"), default="metallic", help="The workflow of the result")
+    parser.add_argument("-o", "--output", required=True, metavar="OUT", help="The new layer: .usda, .usdc or .usd")
+    parser.add_argument("--force", action="store_true", help="Replace an existing layer")
+    parser.add_argument("--dry-run", action="store_true", help="Print what would be done, and write nothing")
+    parser.add_argument("--json", action="store_true", help="Print a line of JSON for each material")
+    parser.add_argument("-h", "--help", action="help", help="Show this help")
+    return parser
