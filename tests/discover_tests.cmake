@@ -7,7 +7,7 @@
 # of compiler/table), or FOLDERS where it mirrors none.
 #
 # Names are kept in lists, so that semicolons and brackets are replaced while they are there.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 # Lines "file<tab>tags<tab>name", with a space before and after each tag.
 execute_process(COMMAND ${PROGRAM} --list-for-ctest OUTPUT_VARIABLE cases COMMAND_ERROR_IS_FATAL ANY)

@@ -48,7 +48,7 @@ def changed_fit():
 def measure(jobs):
     shutil.rmtree(BUILD, ignore_errors=True)
     times = {"configure": timed("cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                                "-DREMAP_WARNINGS_AS_ERRORS=ON", "-DCMAKE_CXX_COMPILER_LAUNCHER=")}
+                                "-DCMAKE_CXX_COMPILER_LAUNCHER=")}
     times["remapc and texremap (what the demo needs)"] = timed("ninja", "-C", BUILD, f"-j{jobs}", "remapc", "texremap",
                                                                "scratched_metal", "convert_maps_by_header")
     times["everything else"] = timed("ninja", "-C", BUILD, f"-j{jobs}")

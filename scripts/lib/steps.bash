@@ -4,6 +4,7 @@
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 cd "$repository"
 log=/dev/null
+cmake_options=()  # of build_preset
 last_seconds=0.0
 
 # open_log NAME: from here on steps write to build/logs/NAME.log.
@@ -56,7 +57,7 @@ json_number() {
 build_preset() {
   local -r preset=$1
   shift
-  cmake --preset "$preset" && cmake --build --preset "$preset" ${1:+--target "$@"}
+  cmake --preset "$preset" "${cmake_options[@]}" && cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
 # run_tests PRESET [CTEST_OPTION...]: shows what fails, ctest's summary and why tests were skipped. Passed and skipped

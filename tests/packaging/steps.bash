@@ -40,3 +40,9 @@ expect_exit 0 script "count_tests /dev/null"
 expect_output "0 1 0"
 expect_exit 2 "$source_folder/scripts/test" quik
 expect_output "unknown argument 'quik'; try --help"
+
+# Warnings are errors where remap is tested, and nowhere else: newer compilers warn of more.
+expect_exit 0 script 'cmake() { echo "cmake $*"; }; cmake_options=(-DREMAP_WARNINGS_AS_ERRORS=ON); build_preset release texremap'
+expect_output "cmake --preset release -DREMAP_WARNINGS_AS_ERRORS=ON"
+expect_output "cmake --build --preset release --target texremap"
+! grep -q WARNINGS_AS_ERRORS "$source_folder/CMakePresets.json" || fail "a preset makes errors of warnings"

@@ -6,7 +6,7 @@ compiler=$3
 id=mitsuba_ward_to_mitsuba_as
 
 cat >"$work/CMakeLists.txt" <<CMAKE
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 project(game LANGUAGES CXX)
 add_subdirectory("$source_folder" remap EXCLUDE_FROM_ALL)
 add_executable(shipped main.cpp)

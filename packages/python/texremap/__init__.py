@@ -8,7 +8,7 @@
 
 :func:`convert` converts once, :class:`Converter` many times; :func:`models` lists what both take as names, :func:`path`
 says how closely one model can look like another, :func:`read_table` reads a table of matches. The command ``texremap``
-converts files (``pip install texremap[images]``).
+converts files (``pip install OpenImageIO``).
 """
 
 from ._core import __version__

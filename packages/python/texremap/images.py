@@ -1,4 +1,4 @@
-"""Images in files, for the command texremap: by OpenImageIO's Python package (``pip install texremap[images]``).
+"""Images in files, for the command texremap: by OpenImageIO's Python package (the extra ``images``).
 
 The commands of texremap call an object with the methods of :class:`Images`; those call :class:`StoredImage` and
 :class:`NewImage`. What a new image keeps of the one that it follows is what the programs of the C++ build keep
@@ -18,7 +18,7 @@ try:
     import OpenImageIO as oiio
 except ImportError as failure:
     raise ImportError(
-        f"images cannot be read or written: {failure} (pip install 'texremap[images]' brings OpenImageIO)"
+        f"images cannot be read or written: {failure} (pip install OpenImageIO)"
     ) from failure
 
 # Names of the library, OpenImageIO and NumPy.

@@ -1,6 +1,6 @@
 """UsdPreviewSurface materials from the specular workflow to the metallic one, and back.
 
-``pip install texremap[usd]``; materials with textures also need ``texremap[images]``. The result is a new layer that
+Needs usd-core (the extra ``usd``); materials with textures also need OpenImageIO (the extra ``images``). The result is a new layer that
 sublayers the old one, which stays as it is: ``texremap usd scene.usda --to metallic -o scene_metallic.usda``.
 """
 
@@ -20,7 +20,7 @@ from .arrays import Converter
 try:
     from pxr import Gf, Sdf, Usd, UsdShade
 except ImportError as failure:
-    raise ImportError(f"USD files cannot be read: {failure} (pip install 'texremap[usd]' brings usd-core)") from failure
+    raise ImportError(f"USD files cannot be read: {failure} (pip install usd-core)") from failure
 
 # Of the stage, which a layer does not take from its sublayers.
 _STAGE_METADATA = ("defaultPrim", "upAxis", "metersPerUnit", "kilogramsPerUnit", "timeCodesPerSecond", "framesPerSecond",
