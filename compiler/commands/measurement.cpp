@@ -64,8 +64,8 @@ Reader<std::string> objective_name() {
 
 void MeasurementOptions::add_table_options(Command& app, const std::string& table) {
   app.option_group("Models");
-  app.add_option("--source MODEL", pair.source, "Model to convert from")->required();
-  app.add_option("--target MODEL", pair.target, "Model to convert to")->required();
+  app.add_option("--source,--from MODEL", pair.source, "Model to convert from")->required();
+  app.add_option("--target,--to MODEL", pair.target, "Model to convert to")->required();
   app.option_group("Output");
   app.add_option("-o,--output FILE", output, table)->required();
   add_force_flag(app, force);

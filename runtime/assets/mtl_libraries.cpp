@@ -26,7 +26,9 @@ MtlLibrary::MtlLibrary(std::string content, const std::string& path, const Asset
       maker(own_maker.value_or(maker_of(document))),
       images(&resources, folder_of(path)) {}
 
-void MtlLibraries::read(const std::vector<std::string>& lines, std::vector<std::string>& warnings) {
+void MtlLibraries::read(const std::vector<std::string>& lines, const std::string& obj,
+                        std::vector<std::string>& warnings) {
+  std::vector<std::string> missing_lines;
   for (const std::string& line : lines) {
     if (read_file(line, warnings)) continue;
     std::vector<std::string> missing;
@@ -40,9 +42,16 @@ void MtlLibraries::read(const std::vector<std::string>& lines, std::vector<std::
         missing.push_back(name);
     }
     if (found == 0 ? read_file(file_name_of(line), warnings) : missing.empty()) continue;
-    warnings.push_back("mtllib " + plain(missing.size() == 1 ? missing.front() : line, kLongestLibraryName) +
-                       ": is not there; its materials count as white");
+    missing_lines.push_back("mtllib " +
+                            plain(missing.size() == 1 ? missing.front() : line, kLongestLibraryName) +
+                            ": is not there");
   }
+  const std::string name = file_name_of(obj), own = name.substr(0, name.find_last_of('.')) + ".mtl";
+  const bool reads_own = libraries_.empty() && read_file(own, warnings);
+  if (reads_own && missing_lines.empty()) missing_lines.emplace_back("has no mtllib");
+  for (const std::string& line : missing_lines)
+    warnings.push_back(line + (reads_own ? "; " + plain(own, kLongestLibraryName) + " is read instead"
+                                         : "; its materials count as white"));
 }
 
 bool MtlLibraries::read_file(const std::string& name, std::vector<std::string>& warnings) {

@@ -37,10 +37,11 @@ class MtlLibraries {
   MtlLibraries(const AssetResources& resources, std::optional<MtlMaker> maker)
       : resources_(resources), maker_(maker) {}
 
-  // Reads the files that lines `mtllib` name: one name with spaces, or several names. Appends a warning for a
-  // file that is missing, and for one whose maker gives statements a meaning of its own. Throws kInput for
-  // one that cannot be read.
-  void read(const std::vector<std::string>& lines, std::vector<std::string>& warnings);
+  // Reads the files that lines `mtllib` name: one name with spaces, or several names; if none of them is
+  // there, the one that is named as the OBJ file `obj` is. Appends a warning for a file that is missing, and
+  // for one whose maker gives statements a meaning of its own. Throws kInput for one that cannot be read.
+  void read(const std::vector<std::string>& lines, const std::string& obj,
+            std::vector<std::string>& warnings);
   // A material by its name, of several the first.
   std::optional<Entry> find(const std::string& material) const;
   // Whether Tr is 1 in every material and d in none: MeshLab writes Tr 1 for what is opaque, where the

@@ -296,6 +296,12 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
   for (std::size_t i = block.first + 1; i < block.last; ++i) attempt([&] { read(i); });
   // Of several lines Ns only the last counts, so the others may say anything.
   if (exponent) attempt([&] { surface.exponent = reader.exponent(document.statements()[*exponent]); });
+  const bool is_black = surface.diffuse && *surface.diffuse == std::array<double, 3>{};
+  if (is_black && surface.diffuse_map) {
+    // No material shows a black image; exporters write the number that the map replaces.
+    warnings.emplace_back("Kd is 0 beside map_Kd, and counts as 1");
+    surface.diffuse = kUnused;
+  }
   surface.is_metal_rough = has_metal_rough_lines(document, block);
   apply_maker(maker, surface);
   if (failure) throw *failure;

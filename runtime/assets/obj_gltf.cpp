@@ -177,7 +177,7 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
   GltfTextures textures(options, resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles,
                         buffer, conversion);
   MtlLibraries libraries(resources, options.mtl_maker);
-  libraries.read(scene.libraries, conversion.warnings);
+  libraries.read(scene.libraries, place, conversion.warnings);
   for (const std::string& path : libraries.image_paths()) textures.take(path);
   ObjMaterials converter(options, resources, libraries, textures, conversion);
   const std::vector<SceneMaterial> materials = converter.converted(scene.materials);
@@ -214,7 +214,7 @@ std::vector<AssetResource> obj_resources(const ByteSource& obj, const std::strin
                                          const AssetResources& resources) {
   MtlLibraries libraries(resources, std::nullopt);
   std::vector<std::string> ignored;
-  libraries.read(obj_libraries(obj, place), ignored);
+  libraries.read(obj_libraries(obj, place), place, ignored);
   std::vector<AssetResource> named;
   for (const std::set<std::string>* paths : {&libraries.paths(), &libraries.image_paths()})
     for (const std::string& path : *paths) named.push_back({"", path, UriKind::kFile});

@@ -223,3 +223,30 @@ TEST_CASE("reports: 15 bsdf pbr packs roughness and metallic into Ks", "[assets]
   CHECK(numbers.number("metallicFactor") == 1.0);
   CHECK(numbers.number("metallicFactor", 1) == 0.0);
 }
+
+TEST_CASE("reports: a black Kd beside a map is not used", "[assets]") {
+  PlainResources resources;
+  resources.files["c.png"] = map_bytes({{10, 20, 30}, {200, 100, 50}});
+  const Scene scene = scene_of("newmtl a\nKd 0 0 0\nmap_Kd c.png\n", resources);
+  CHECK(scene.base() == std::vector<double>{1, 1, 1});
+  CHECK(scene.warnings() == "Kd is 0 beside map_Kd, and counts as 1\n");
+  CHECK(scene_of("newmtl a\nKd 0 0 0\n").base() == std::vector<double>{0, 0, 0});
+}
+
+TEST_CASE("reports: an MTL file of the OBJ file's name is read if the one that it names is not there",
+          "[assets]") {
+  PlainResources resources;
+  resources.files["a.mtl"] = "newmtl m\nKd .2 .4 .6\n";
+  const auto converted = [&](const std::string& first) {
+    return gltf_of_obj(MemorySource(first + "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"), "dir/a.obj",
+                       {}, resources, GltfOutput{false, "a"});
+  };
+  for (const std::string line : {"mtllib renamed.mtl\n", ""}) {
+    const AssetConversion scene = converted(line);
+    CHECK(scene.text.find("0.4") != std::string::npos);
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK(scene.warnings[0].ends_with("; a.mtl is read instead"));
+  }
+  resources.files["other.mtl"] = "newmtl m\nKd .1 .3 .5\n";
+  CHECK(converted("mtllib other.mtl\n").warnings.empty());
+}
