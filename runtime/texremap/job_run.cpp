@@ -234,9 +234,9 @@ void note_tints(const TextureSet& set, JobReport& report) {
     if (parameter_map == nullptr || tint <= kVisible) continue;
     const ChannelPlace used = parameter_map->channels.front();
     const ImageReader& map = set.maps[used.map];
-    report.warnings.push_back(map.path().string() + ": is not quite grey: its channels differ by at most " +
-                              fixed(255.0 * static_cast<double>(tint), 0) + " of 255, and " +
-                              map.layout().channels[used.channel].name + " is used");
+    report.warnings.push_back(map.path().string() + ": is not quite grey: its channels differ from " +
+                              map.layout().channels[used.channel].name + ", which is used, by at most " +
+                              fixed(255.0 * static_cast<double>(tint), 0) + " of 255");
   }
 }
 

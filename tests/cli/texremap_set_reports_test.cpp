@@ -67,9 +67,10 @@ TEST_CASE("reports: 19 a nearly grey roughness map", "[reports]") {
   const Words words = "convert in --from metal-rough --preset gltf --metallic 0 -o out";
   const ProcessResult result = require_success(sets.texremap(words));
   CHECK_THAT(result.errors,
-             Contains("warning: " + map + ": is not quite grey: its channels differ by at most "));
+             Contains("warning: " + map +
+                      ": is not quite grey: its channels differ from G, which is used, by at most "));
   if (extension == "png")
-    CHECK_THAT(result.errors, Contains(std::to_string(tint) + " of 255, and G is used"));
+    CHECK_THAT(result.errors, Contains("by at most " + std::to_string(tint) + " of 255"));
   CHECK(std::abs(sets.texel("out/sand_occlusionRoughnessMetallic.png")[1] - 100) <=
         (extension == "png" ? 0 : 3));
 
