@@ -62,9 +62,7 @@ class MaterialTextures {
 
  private:
   void require_one_grid(const UsedTexture& first, const UsedTexture& other, const GridReason& reason) const;
-  int png_level() const {
-    return options_.png_level.value_or(kUsualPngLevel);
-  }
+  int png_level() const { return options_.png_level.value_or(kUsualPngLevel); }
   // Brings textures with different transforms onto the grid of one of them.
   void bake(const std::vector<UsedTexture*>& textures, const GridReason& reason,
             std::vector<std::string>& warnings) const;
