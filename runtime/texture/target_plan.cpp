@@ -296,8 +296,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
     if (set.map_of(parameter) != nullptr) continue;
     if (set.parameters.count(parameter) == 0)
       throw Error(ErrorKind::kUsage, "--layout as-inputs: no input holds " +
-                                         std::string(parameter_name(parameter)) +
-                                         " (use --layout separate)");
+                                         std::string(parameter_name(parameter)) + " (use --layout separate)");
     plan.maps.push_back(own_map(set, parameter, choice));
   }
   for (const CarriedParameter& carried : set.carried) {

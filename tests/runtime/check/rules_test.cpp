@@ -143,10 +143,9 @@ TEST_CASE("check: what assets state, and files that are no assets") {
       for (const std::string& name : found(material, &target_readers()[3])) names.push_back(name);
     return names;
   };
-  CHECK(
-      rules_of(write("a.gltf", R"({"materials": [{"pbrMetallicRoughness": {"metallicFactor": 0},
+  CHECK(rules_of(write("a.gltf", R"({"materials": [{"pbrMetallicRoughness": {"metallicFactor": 0},
                         "extensions": {"KHR_materials_ior": {"ior": 1000}}}]})")) ==
-      Names{"ior", "ignored-by-reader"});
+        Names{"ior", "ignored-by-reader"});
   CHECK(rules_of(write("b.mtl", "newmtl a\nNs 0.3\nnewmtl b\nNs 0.9\n")) == Names{"exponent-range"});
   CHECK(rules_of(write("c.mtl", "newmtl a\nNs 96.078431\nnewmtl b\nNs 250\n")) == Names{});
   CHECK(materials_of(write("d.gltf", "{"), built_in_naming()).problems.size() == 1);
