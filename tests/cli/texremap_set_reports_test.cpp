@@ -38,7 +38,7 @@ class ReportedSets : public Tree {
 
 }  // namespace
 
-TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports]") {
+TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports][slow]") {
   const ReportedSets sets;
   sets.plain("in/textures/old_bench_diff_1k.jpg", {120, 80, 40});
   sets.plain("in/textures/old_bench_nor_1k.jpg", {128, 128, 255});
@@ -57,7 +57,7 @@ TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports]") {
   }
 }
 
-TEST_CASE("reports: 19 a nearly grey roughness map", "[reports]") {
+TEST_CASE("reports: 19 a nearly grey roughness map", "[reports][slow]") {
   const ReportedSets sets;
   const int tint = GENERATE(5, 18);
   const std::string extension = GENERATE("png", "jpg"), map = "in/sand_rough." + extension;
@@ -83,7 +83,7 @@ TEST_CASE("reports: 19 a nearly grey roughness map", "[reports]") {
   require_success(sets.texremap(words + ("--force --roughness *_rough." + extension + ":R")));
 }
 
-TEST_CASE("reports: one map for several sets of a folder", "[reports]") {
+TEST_CASE("reports: one map for several sets of a folder", "[reports][slow]") {
   const ReportedSets sets;
   for (const std::string name : {"black", "white"}) {
     sets.plain("in/king_" + name + "_roughness.png", {90});
@@ -123,7 +123,7 @@ void write_rock(const ReportedSets& sets, const std::string& normal) {
 
 }  // namespace
 
-TEST_CASE("reports: 07 green of normal maps between all engines", "[reports]") {
+TEST_CASE("reports: 07 green of normal maps between all engines", "[reports][slow]") {
   const ReportedSets sets;
   write_rock(sets, "T_Rock_N.png");
   for (const auto& [from, written] : kEngines)
@@ -145,7 +145,7 @@ TEST_CASE("reports: 07 green of normal maps between all engines", "[reports]") {
     }
 }
 
-TEST_CASE("reports: 07 the name of a normal map wins over --from", "[reports]") {
+TEST_CASE("reports: 07 the name of a normal map wins over --from", "[reports][slow]") {
   const ReportedSets sets;
   const auto green = [&](const std::string& words, const std::string& name) {
     std::filesystem::remove_all(sets.path("out"));
@@ -173,7 +173,7 @@ TEST_CASE("reports: 07 the name of a normal map wins over --from", "[reports]") 
   }
 }
 
-TEST_CASE("reports: a set for an engine is complete, by --to as by --preset", "[reports]") {
+TEST_CASE("reports: a set for an engine is complete, by --to as by --preset", "[reports][slow]") {
   const ReportedSets sets;
   write_rock(sets, "T_Rock_N.png");
   sets.plain("in/T_Rock_Height.png", {70});
@@ -199,7 +199,7 @@ TEST_CASE("reports: a set for an engine is complete, by --to as by --preset", "[
                                       "--only-converted leaves them out)"));
 }
 
-TEST_CASE("reports: what a packed map holds besides comes along as a map", "[reports]") {
+TEST_CASE("reports: what a packed map holds besides comes along as a map", "[reports][slow]") {
   const ReportedSets sets;
   sets.plain("in/T_Rock_BC.png", {120, 80, 40});
   sets.plain("in/T_Rock_ORDp.png", {250, 90, 33});
@@ -208,7 +208,7 @@ TEST_CASE("reports: what a packed map holds besides comes along as a map", "[rep
   CHECK(sets.texel("out/T_Rock_Occlusion.png") == std::vector{250});
 }
 
-TEST_CASE("reports: 16 an asset for an engine", "[reports]") {
+TEST_CASE("reports: 16 an asset for an engine", "[reports][slow]") {
   const ReportedSets sets;
   write_file(sets.path("rock.gltf"), R"({"asset": {"version": "2.0"}, "materials": [{}]})");
   for (const std::string option :
@@ -223,7 +223,7 @@ TEST_CASE("reports: 16 an asset for an engine", "[reports]") {
   CHECK(sets.texremap("convert rock.gltf --to metal-rough -o out").exit_code == 0);
 }
 
-TEST_CASE("reports: 10 formats that are not read", "[reports]") {
+TEST_CASE("reports: 10 formats that are not read", "[reports][slow]") {
   const ReportedSets sets;
   const auto refused = [&](const std::string& file, const std::string& name, const std::string& remedy) {
     write_file(sets.path(file), "x");
@@ -265,7 +265,7 @@ TEST_CASE("reports: 10 formats that are not read", "[reports]") {
     require_success(sets.texremap("convert --to gltf --diffuse 0.5 --from " + values));
 }
 
-TEST_CASE("reports: messages name what was typed", "[reports]") {
+TEST_CASE("reports: messages name what was typed", "[reports][slow]") {
   const ReportedSets sets;
   std::filesystem::create_directories(sets.path("My Textures"));
   std::filesystem::create_directories(sets.path("Other"));
@@ -286,7 +286,7 @@ TEST_CASE("reports: messages name what was typed", "[reports]") {
              !Contains("did you mean"));
 }
 
-TEST_CASE("reports: per cent and 0 to 255 are errors that name the right form", "[reports]") {
+TEST_CASE("reports: per cent and 0 to 255 are errors that name the right form", "[reports][slow]") {
   const ReportedSets sets;
   const auto said = [&](const std::string& words) {
     const ProcessResult result = sets.texremap("convert --from gltf --to usd " + words);
@@ -304,7 +304,7 @@ TEST_CASE("reports: per cent and 0 to 255 are errors that name the right form", 
              Contains("(write --roughness 0.6)"));
 }
 
-TEST_CASE("reports: a folder prints one line a set where nothing is visible", "[reports]") {
+TEST_CASE("reports: a folder prints one line a set where nothing is visible", "[reports][slow]") {
   const ReportedSets sets;
   constexpr std::size_t kSets = 12;
   for (std::size_t i = 0; i < kSets; ++i) {
