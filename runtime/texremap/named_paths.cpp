@@ -110,7 +110,7 @@ void require_one_kind(const fs::path& first, const std::vector<fs::path>& more) 
   for (const fs::path& path : more) whole += " " + path.string();
   std::vector<fs::path> all = more;
   if (!is_asset_name(first)) all.push_back(first);
-  const auto other = std::ranges::find_if_not(all, is_asset_name);
+  const auto other = std::ranges::find_if(all, [](const fs::path& path) { return !is_asset_name(path); });
   if (other == all.end()) return;
   std::error_code ignored;
   std::string remedy = "put paths with spaces in quotes: \"" + shown(whole) + "\"";
