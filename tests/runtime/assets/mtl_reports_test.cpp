@@ -2,6 +2,7 @@
 // bug reports.
 #include <catch2/catch.hpp>
 
+#include "assets/legacy_material.hpp"
 #include "assets/obj_gltf.hpp"
 #include "runtime/assets/mtl_texts.hpp"
 
