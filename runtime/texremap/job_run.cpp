@@ -228,10 +228,10 @@ std::unique_ptr<Converter> JobRunner::survey(TextureSet& set, JobReport& report)
 
 // Says which maps of one value have a trace of color, where it could be visible.
 void note_tints(const TextureSet& set, JobReport& report) {
-  constexpr float kVisible = 0.01f;
+  constexpr float kVisibleTint = 0.01f;
   for (const auto& [parameter, tint] : report.statistics.tints) {
     const SetParameter* parameter_map = set.map_of(parameter);
-    if (parameter_map == nullptr || tint <= kVisible) continue;
+    if (parameter_map == nullptr || tint <= kVisibleTint) continue;
     const ChannelPlace used = parameter_map->channels.front();
     const ImageReader& map = set.maps[used.map];
     report.warnings.push_back(map.path().string() + ": is not quite grey: its channels differ from " +
