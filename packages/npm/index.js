@@ -195,7 +195,7 @@ function arraysInto(name, value) {
 }
 
 const SURELY_NO_FRACTION = 2;  // a number from here on
-const LOOKED_AT = 4096;  // values of an array
+const LOOKED_AT = 4093;  // a prime, so that no channel of interleaved values is passed over
 
 // Refuses what can only be per cent or 0 to 255; exponents and wide ranges of specular are neither.
 function requireFractions(held, sources, encoding) {
@@ -220,11 +220,10 @@ function requireFractionNumbers(name, values) {
 
 // Looks at some of the values: maps of some bright texels are usual, whole maps of them are not.
 function requireFractionArray(name, array) {
-  const step = 1 + Math.floor(array.length / LOOKED_AT);
-  let looked = 0, above = 0;
-  for (let i = 0; i < array.length; i += step, ++looked) if (array[i] > 1) ++above;
-  if (2 * above <= looked) return;
-  const some = array.filter((value, i) => i % step === 0 && !Number.isNaN(value)).sort();
+  const looked = Math.min(array.length, LOOKED_AT);
+  const seen = Float64Array.from({ length: looked }, (_, k) => array[Math.floor((k * array.length) / looked)]);
+  if (2 * seen.filter((value) => value > 1).length <= looked) return;
+  const some = seen.filter((value) => !Number.isNaN(value)).sort();
   const median = some[some.length >> 1];
   const [whole, Type] = median <= 255 ? [255, 'Uint8Array'] : [65535, 'Uint16Array'];
   const remedy = median <= whole ? ` (divide them by ${whole}, or give them as ${Type})` : '';

@@ -184,7 +184,6 @@ for (const [words, options] of [
   [['--to', 'gltf', '--profile', 'cor'], { to: 'gltf', profile: 'cor' }],
   [['--to', 'gltf-specgloss', '--fold-specular'], { to: 'gltf-specgloss', foldSpecular: true }],
   [['--to', 'gltf', '--jpeg', '0'], { to: 'gltf', jpeg: 0 }],
-  [[], {}],
 ])
   test(`refused as by the command: ${JSON.stringify(options)}`, async () => {
     const [own, expected] = await refusals(words, options);
