@@ -239,7 +239,7 @@ class MtlEditor {
 
   // The maker says metallic and roughness by other statements.
   static MtlResult as_written(const MtlSurface& surface) {
-    const MetalRoughNumbers numbers = metal_rough_of(surface);
+    const MetalRoughNumbers numbers = metal_rough_of(surface, true);
     MtlResult result{
         numbers.base, numbers.metallic, numbers.roughness, surface.diffuse_map.has_value(), "", "", ""};
     if (surface.roughness_map) result.roughness_map = arguments_of(*surface.roughness_map);

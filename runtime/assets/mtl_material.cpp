@@ -199,12 +199,12 @@ void apply_blender(double scale, MtlSurface& surface) {
   if (surface.diffuse_map) surface.diffuse = kUnused;
   if (!surface.roughness) {
     const double exponent = std::clamp(surface.exponent.value_or(0.0), 0.0, scale);
-    surface.roughness = surface.exponent_map ? 1.0 : 1.0 - std::sqrt(exponent / scale);
+    surface.roughness = 1.0 - std::sqrt(exponent / scale);
   }
   if (!surface.metallic) {
     const double ambient = surface.ambient.value_or(1.0), illumination = surface.illumination.value_or(2.0);
     const bool is_metallic = illumination == 3.0 || illumination == 6.0 || ambient < 1.0;
-    surface.metallic = surface.reflection_map ? 1.0 : is_metallic ? ambient : 0.0;
+    surface.metallic = is_metallic ? ambient : 0.0;
   }
   if (!surface.roughness_map) surface.roughness_map = surface.exponent_map;
   if (!surface.metallic_map) surface.metallic_map = surface.reflection_map;
@@ -340,13 +340,13 @@ MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlM
   return cover;
 }
 
-MetalRoughNumbers metal_rough_of(const MtlSurface& surface) {
+MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core) {
   MetalRoughNumbers numbers;
   numbers.base = surface.diffuse.value_or(numbers.base);
   numbers.metallic = surface.metallic_map ? 1.0 : surface.metallic.value_or(0.0);
   numbers.roughness = surface.roughness_map ? 1.0 : surface.roughness.value_or(1.0);
   // Core cannot remove the highlight of a dielectric. At roughness 1 it is seen least.
-  if (surface.specular_level == 0.0 && numbers.metallic == 0.0) numbers.roughness = 1.0;
+  if (is_core && surface.specular_level == 0.0 && numbers.metallic == 0.0) numbers.roughness = 1.0;
   return numbers;
 }
 

@@ -94,7 +94,8 @@ struct MetalRoughNumbers {
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double metallic = 0.0, roughness = 1.0;
 };
-MetalRoughNumbers metal_rough_of(const MtlSurface& surface);
+// `is_core`: for a target that adds a highlight to every dielectric, so that one without it becomes rough.
+MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
 
 // The surface as factors, which its maps multiply.
 struct MtlReflection {

@@ -216,7 +216,7 @@ void ObjMaterials::keep_diffuse_map(Planned& planned) {
 // Later tools' lines say what glTF does. A map of them stands in the place of the number.
 void ObjMaterials::set_metal_rough(Planned& planned) {
   const MtlSurface& surface = planned.surface;
-  const MetalRoughNumbers numbers = metal_rough_of(surface);
+  const MetalRoughNumbers numbers = metal_rough_of(surface, options_.profile == MaterialProfile::kCore);
   planned.base = numbers.base;
   keep_diffuse_map(planned);
   planned.metallic = numbers.metallic;
@@ -241,7 +241,6 @@ void ObjMaterials::set_specular_level(Planned& planned) {
                                         " (--profile extensions keeps it)");
     return;
   }
-  if (planned.surface.roughness) planned.roughness = *planned.surface.roughness;
   set_extension(planned, kSpecularExtension,
                 level <= 1.0 ? Json{{"specularFactor", float_value(level)}}
                              : Json{{"specularColorFactor", numbers_of({level, level, level})}});

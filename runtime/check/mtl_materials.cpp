@@ -49,20 +49,9 @@ Channels channels_of(const MtlMap& map) {
 
 // Whether anything reads what a material says of its highlight: not without illumination of highlights, and
 // not where Ks is 0, which its map multiplies.
-bool has_highlight(const MtlDocument& document, const MtlBlock& block) {
-  constexpr double kFirstWithHighlight = 2.0;  // of illum
-  bool is_lit = true, is_black = false;
-  for (std::size_t i = block.first; i < block.last; ++i) {
-    const MtlStatement& statement = document.statements()[i];
-    const std::string word = document.word(statement);
-    if (word != "illum" && word != "ks") continue;
-    std::vector<double> numbers;
-    for (const TextSpan& span : document.words(statement))
-      numbers.push_back(mtl_number(document.raw(span)).value_or(kFirstWithHighlight));
-    if (word == "ks") is_black = std::ranges::all_of(numbers, [](double number) { return number == 0.0; });
-    if (word == "illum" && !numbers.empty()) is_lit = numbers.front() >= kFirstWithHighlight;
-  }
-  return is_lit && !is_black;
+bool has_highlight(const MtlSurface& surface) {
+  const bool is_black = surface.specular && *surface.specular == std::array<double, 3>{};
+  return surface.illumination.value_or(2.0) >= 2.0 && !is_black;
 }
 
 void add_map(const MtlMap& map, std::string_view word, Role role, bool is_read, CheckedMaterial& material) {
@@ -72,9 +61,9 @@ void add_map(const MtlMap& map, std::string_view word, Role role, bool is_read, 
   material.maps.push_back({path, path.string(), path.filename().string()});
 }
 
-// What a conversion refuses or changes.
-void add_failures(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
-                  CheckedMaterial& material) {
+// Reads a material as conversions do, and notes what they refuse.
+MtlSurface read_block(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
+                      CheckedMaterial& material) {
   const auto attempt = [&](const auto& step) {
     try {
       step();
@@ -87,6 +76,7 @@ void add_failures(const MtlDocument& document, const MtlBlock& block, MtlMaker m
   std::vector<std::string> ignored;
   attempt([&] { read_mtl_surface(document, block, maker, surface, ignored); });
   attempt([&] { (void)read_mtl_cover(document, block, maker, ignored); });
+  return surface;
 }
 
 // Roles that another maker gives to lines.
@@ -113,8 +103,8 @@ void add_mtl(const fs::path& file, FoundMaterials& found) {
     material.kind = MaterialKind::kMtl;
     material.place = file;
     material.name = shown(file) + ": " + name;
-    add_failures(document, block, maker, material);
-    const bool shines = maker != MtlMaker::kText || has_highlight(document, block);
+    const MtlSurface surface = read_block(document, block, maker, material);
+    const bool shines = maker != MtlMaker::kText || has_highlight(surface);
     for (std::size_t i = block.first; i < block.last; ++i) {
       const MtlStatement& statement = document.statements()[i];
       const std::string word = document.word(statement);

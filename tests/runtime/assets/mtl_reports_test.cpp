@@ -142,6 +142,11 @@ TEST_CASE("reports: 01 maps of Blender hold roughness and metallic, and levels o
   CHECK_FALSE(level(".5 .5 .5", MaterialProfile::kExtensions).material()["extensions"]);
   CHECK(level(".1 .1 .1", MaterialProfile::kCore).warnings().find("specular level") != std::string::npos);
   CHECK(level("0 0 0", MaterialProfile::kCore).number("roughnessFactor") == 1.0);
+  CHECK(level("0 0 0", MaterialProfile::kExtensions).number("roughnessFactor") == Approx(0.5));
+  // A map of roughness counts without the number beside it.
+  CHECK(scene_of(kBlender + "newmtl a\nKs .1 .1 .1\nillum 2\nPr .5\nmap_Pr r.png\n", resources,
+                 with(MaterialProfile::kExtensions))
+            .number("roughnessFactor") == 1.0);
 }
 
 TEST_CASE("reports: 02 an exponent below 0 is no highlight, and what can be read of a material is kept",
