@@ -52,7 +52,7 @@ TargetParameter value_target(ImagePixels& pixels, std::size_t channel);
 // Whether the colors of `result` are those of `map` times the factors, within a step of 8 bits.
 bool is_map_times(const ImagePixels& result, const ImagePixels& map, const std::array<double, 3>& factors);
 
-// What tells normals from other colors. Vectors are decoded from 0 to 1.
+// Measures that separate normals from other colors. Vectors are decoded from 0 to 1.
 struct NormalShares {
   double unit = 0.0, inwards = 0.0;  // shares of texels: of about unit length; pointing into the surface
   std::array<double, 3> mean{};      // of red, green and blue as stored

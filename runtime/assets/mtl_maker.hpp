@@ -23,10 +23,10 @@ inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "text
 // exponents of its own Blinn and Phong shaders, which the text of the format describes.
 MtlMaker maker_of(const MtlDocument& document);
 
-// What is assumed about a file of this maker: `Blender wrote it: ...`; empty for kText.
+// The warning that reports how a file of this maker is read: `Blender wrote it: ...`; empty for kText.
 std::string maker_warning(MtlMaker maker);
 
-// What Ns of roughness 0 is, for Blender.
+// The Ns that Blender writes for roughness 0.
 double blender_scale(MtlMaker maker);
 
 }  // namespace remap

@@ -294,7 +294,7 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
     }
   };
   for (std::size_t i = block.first + 1; i < block.last; ++i) attempt([&] { read(i); });
-  // Of several lines Ns only the last counts, so the others may say anything.
+  // If there are several lines Ns, the last one is used, and the others are not even read.
   if (exponent) attempt([&] { surface.exponent = reader.exponent(document.statements()[*exponent]); });
   const bool is_black = surface.diffuse && *surface.diffuse == std::array<double, 3>{};
   if (is_black && surface.diffuse_map) {

@@ -86,7 +86,8 @@ class GridSampler {
   const TextureGrid& grid_;
 };
 
-// What moves texture coordinates of `from` by one, moves those of `to` by its columns.
+// Moving the texture coordinates of `from` by 1 in u or v moves the coordinates of `to` by one of the
+// columns.
 using Matrix = std::array<std::array<double, 2>, 2>;
 Matrix steps_between(const TextureTransform& from, const TextureTransform& to) {
   Matrix steps{};
@@ -108,7 +109,7 @@ bool is_whole(const Matrix& steps) {
   return true;
 }
 
-// Whether texture coordinates from 0 to 1 stay there.
+// Returns whether texture coordinates from 0 to 1 stay within 0 to 1.
 bool is_within_one(const TextureTransform& transform) {
   constexpr double kRounding = 1e-6;
   for (const double u : {0.0, 1.0})
