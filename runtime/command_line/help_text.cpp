@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -87,7 +89,9 @@ std::string option_description(const CLI::Option& option) {
   if (const std::string allowed = allowed_values(option); !allowed.empty())
     remarks.push_back(type_and_checks(option).second.starts_with("{") ? "one of " + allowed : allowed);
   if (option.get_required()) remarks.push_back("required");
-  for (const CLI::Option* other : option.get_excludes()) remarks.push_back("not with " + other->get_name());
+  std::set<std::string> excluded;  // CLI11 keeps them by address, which differs from run to run
+  for (const CLI::Option* other : option.get_excludes()) excluded.insert(other->get_name());
+  for (const std::string& name : excluded) remarks.push_back("not with " + name);
   if (const std::string value = default_text(option); !value.empty()) remarks.push_back("default: " + value);
   std::string text = option.get_description();
   for (std::size_t i = 0; i < remarks.size(); ++i) text += (i == 0 ? " (" : "; ") + remarks[i];

@@ -125,3 +125,19 @@ TEST_CASE("help_text: the table says what the help says") {
   CHECK(*model.find("names")->text() == "--model");
   CHECK(*model.find("choices")->text() == "auto, svr");
 }
+
+TEST_CASE("help_text: excluded options stand in the order of their names, wherever they lie in memory") {
+  for (const bool narrow_first : {true, false}) {
+    Command app("A tool.", "tool");
+    bool exact = false, narrow = false, wide = false, plain = false;
+    Option* b =
+        narrow_first ? app.add_flag("--narrow", narrow, "Narrow") : app.add_flag("--wide", wide, "Wide");
+    Option* a = app.add_flag("--plain", plain, "Plain");
+    Option* c =
+        narrow_first ? app.add_flag("--wide", wide, "Wide") : app.add_flag("--narrow", narrow, "Narrow");
+    app.add_flag("--exact", exact, "Exact")->excludes(c)->excludes(a)->excludes(b);
+    lay_out_help(app.app());
+    const std::string text = app.app().help("tool", CLI::AppFormatMode::Normal);
+    CHECK_THAT(text, Catch::Matchers::Contains("Exact (not with --narrow; not with --plain; not with\n"));
+  }
+}
