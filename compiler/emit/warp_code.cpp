@@ -119,7 +119,7 @@ MaterialCode material_code(const WarpHeader& header) {
       "-1 where unknown.\n"
       "static constexpr double kCopyRmsError = " +
       double_literal(header.copy_rms_error) + ";\n";
-  code.functions = code_files({"floats", "rows", "appearance", coordinates.file, table.file, "warp_block"}) +
+  code.functions = code_files({"bits", "floats", "rows", "appearance", coordinates.file, table.file, "warp_block"}) +
                    "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + coordinates.numbers +
                    table.numbers;
   code.block = "kWarpBlock";

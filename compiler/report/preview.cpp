@@ -14,7 +14,7 @@
 #include "remap/error.hpp"
 #include "renderer/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
-#include "report/lit_sphere.hpp"
+#include "lights/lit_sphere.hpp"
 #include "table/light.hpp"
 
 namespace remap {

@@ -9,7 +9,7 @@
 
 #include "lower/fit.hpp"
 #include "renderer/renderer.hpp"
-#include "report/environment.hpp"
+#include "lights/environment.hpp"
 #include "report/sheet_labels.hpp"
 
 namespace remap {

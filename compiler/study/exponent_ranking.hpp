@@ -7,7 +7,7 @@
 
 #include "lower/short_form.hpp"
 #include "renderer/image.hpp"
-#include "report/environment.hpp"
+#include "lights/environment.hpp"
 #include "study/exponent_rules.hpp"
 #include "study/short_forms.hpp"
 

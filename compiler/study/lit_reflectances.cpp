@@ -7,7 +7,7 @@
 
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
-#include "study/display_curve.hpp"
+#include "lights/display_curve.hpp"
 #include "study/golden_section.hpp"
 
 namespace remap {

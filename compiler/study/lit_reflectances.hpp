@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/image.hpp"
-#include "report/lit_sphere.hpp"
+#include "lights/lit_sphere.hpp"
 
 namespace remap {
 

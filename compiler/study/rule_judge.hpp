@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lower/short_form.hpp"
-#include "study/lobe_pictures.hpp"
+#include "lights/lobe_pictures.hpp"
 
 namespace remap {
 

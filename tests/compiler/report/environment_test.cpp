@@ -1,5 +1,5 @@
 // Spheres under environments: the maps, their light, and the study that uses them.
-#include "report/environment.hpp"
+#include "lights/environment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/scene.hpp"
-#include "report/lit_sphere.hpp"
+#include "lights/lit_sphere.hpp"
 #include "study/environments_report.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/brdf.hpp"
-#include "report/radiance_pyramid.hpp"
+#include "lights/radiance_pyramid.hpp"
 
 namespace remap {
 

@@ -1,4 +1,4 @@
-#include "study/lobe_pictures.hpp"
+#include "lights/lobe_pictures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,30 +10,32 @@
 namespace remap {
 namespace {
 
-constexpr Light kPointLight{60.0, 3.0};
+constexpr double kPointDistance = 3.0;
 constexpr int kPointSamples = 8;  // per axis of a pixel: highlights are narrower than pixels
 
 }  // namespace
 
-StudyLights::StudyLights(std::vector<Environment> environments, const SphereSampling& sampling)
-    : environments_(std::move(environments)), sampling_(sampling) {
+StudyLights::StudyLights(std::vector<Environment> environments, const SphereSampling& sampling,
+                         std::vector<double> angles)
+    : environments_(std::move(environments)), angles_(std::move(angles)), sampling_(sampling) {
   sampling_.progress = nullptr;
   const std::array materials = {SphereMaterial{{Brdf::kGgx, Fresnel::kNone}, 1.0, 0.0, 1.0}};
   const SpherePictures pictures = render_spheres(RadiancePyramid(environments_), materials, sampling_);
   pixels_ = pictures.pixels();
   for (std::size_t light = 0; light < environment_count(); ++light)
     diffuse_.push_back(pictures.radiance(0, light));
-  diffuse_.push_back(point_lit("mitsuba/ggx-plain", 1.0, 0.0, 1.0));
+  for (std::size_t light = environment_count(); light < count(); ++light)
+    diffuse_.push_back(point_lit(light, "mitsuba/ggx-plain", 1.0, 0.0, 1.0));
 }
 
-std::vector<float> StudyLights::point_lit(const std::string& model, double alpha, double specular,
-                                          double diffuse) const {
+std::vector<float> StudyLights::point_lit(std::size_t light, const std::string& model, double alpha,
+                                          double specular, double diffuse) const {
   static const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
   Scene scene;
   scene.resolution = sampling_.resolution;
-  scene.light = kPointLight;
+  scene.light = {angles_[light - environment_count()], kPointDistance};
   scene.samples_per_axis = kPointSamples;
-  const double nearest = kPointLight.distance - 1.0, exposure = std::numbers::pi * nearest * nearest;
+  const double nearest = kPointDistance - 1.0, exposure = std::numbers::pi * nearest * nearest;
   const Image image =
       renderer->render(grey_material(renderer->model(model), alpha, specular, diffuse), scene);
   std::vector<float> values;
@@ -64,8 +66,10 @@ LobePictures::LobePictures(const StudyLights& lights, const std::string& model, 
       dark.push_back(pictures.radiance(0, light));
       slope.push_back(difference(pictures.radiance(1, light), dark.back()));
     }
-    dark.push_back(lights.point_lit(model, alpha, 0.0, 0.0));
-    slope.push_back(difference(lights.point_lit(model, alpha, 1.0, 0.0), dark.back()));
+    for (std::size_t light = lights.environment_count(); light < lights.count(); ++light) {
+      dark.push_back(lights.point_lit(light, model, alpha, 0.0, 0.0));
+      slope.push_back(difference(lights.point_lit(light, model, alpha, 1.0, 0.0), dark.back()));
+    }
   }
 }
 

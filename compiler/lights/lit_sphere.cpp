@@ -1,4 +1,4 @@
-#include "report/lit_sphere.hpp"
+#include "lights/lit_sphere.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,20 +7,21 @@
 #include <vector>
 
 #include "renderer/image.hpp"
-#include "report/environment.hpp"
-#include "report/lit_sphere.hpp"
+#include "lights/environment.hpp"
+#include "lights/lit_sphere.hpp"
 
 namespace remap {
 
-// Environments, and after them one point light at 60 degrees, under which the nearest point of a white
-// diffuse sphere that faces it has radiance 1.
+// Environments, and after them point lights, under which the nearest point of a white diffuse sphere that
+// faces them has radiance 1. Their angles to the camera are in degrees.
 class StudyLights {
  public:
-  StudyLights(std::vector<Environment> environments, const SphereSampling& sampling);
+  StudyLights(std::vector<Environment> environments, const SphereSampling& sampling,
+              std::vector<double> angles = {60.0});
 
   std::size_t environment_count() const { return environments_.size(); }
-  std::size_t count() const { return environments_.size() + 1; }
-  std::size_t point_light() const { return environments_.size(); }
+  std::size_t count() const { return environments_.size() + angles_.size(); }
+  std::size_t point_light() const { return environments_.size(); }  // the first
   const std::vector<Environment>& environments() const { return environments_; }
   int resolution() const { return sampling_.resolution; }
   const SphereSampling& sampling() const { return sampling_; }
@@ -28,11 +29,13 @@ class StudyLights {
   const std::vector<std::uint32_t>& pixels() const { return pixels_; }
   // A white Lambertian sphere; linear RGB of pixels().
   const std::vector<float>& diffuse(std::size_t light) const { return diffuse_[light]; }
-  // The picture of a built-in model under the point light, with alpha and specular.
-  std::vector<float> point_lit(const std::string& model, double alpha, double specular, double diffuse) const;
+  // The picture of a built-in model under point light `light`, with alpha and specular.
+  std::vector<float> point_lit(std::size_t light, const std::string& model, double alpha, double specular,
+                               double diffuse) const;
 
  private:
   std::vector<Environment> environments_;
+  std::vector<double> angles_;
   SphereSampling sampling_;
   std::vector<std::uint32_t> pixels_;
   std::vector<std::vector<float>> diffuse_;

@@ -1,4 +1,4 @@
-#include "report/environment.hpp"
+#include "lights/environment.hpp"
 
 #include <algorithm>
 #include <array>

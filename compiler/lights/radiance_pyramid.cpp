@@ -1,4 +1,4 @@
-#include "report/radiance_pyramid.hpp"
+#include "lights/radiance_pyramid.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "report/environment.hpp"
+#include "lights/environment.hpp"
 
 namespace remap {
 

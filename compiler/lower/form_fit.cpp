@@ -1,0 +1,247 @@
+#include "lower/form_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "core/number_text.hpp"
+#include "lower/evaluate.hpp"
+#include "lower/interpreter.hpp"
+#include "remap/error.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::array kPoles = {0.02, 0.035, 0.06, 0.1, 0.17, 0.3, 0.5, 1.0};
+constexpr int kRowIterations = 30;
+constexpr int kGrid = 40;             // of is_sound(), in each direction
+constexpr double kLeastFactor = 1e-3;  // of a sound form
+constexpr double kSmallestGain = 2e-5;  // of a sum of errors, relative
+constexpr double kStep = 1e-5;         // of differences, relative to a number
+constexpr double kRidge = 1e-9;        // of normal equations, relative
+
+double weight_of(double value) { return 1.0 / std::max(value, 0.02); }
+
+std::vector<std::pair<int, int>> products(const FormShape& shape) {
+  std::vector<std::pair<int, int>> all;
+  for (std::size_t j = 0; j < shape.powers; ++j)
+    for (std::size_t i = 0; i + j < shape.terms; ++i)
+      all.emplace_back(static_cast<int>(j), static_cast<int>(i));
+  return all;
+}
+
+FactorTerms shaped(const FormShape& shape, const Eigen::VectorXd& numbers) {
+  FactorTerms factor(shape.powers);
+  Eigen::Index next = 0;
+  for (const auto& [j, i] : products(shape))
+    factor[static_cast<std::size_t>(j)].push_back(static_cast<float>(numbers[next++]));
+  return factor;
+}
+
+// The factor by which `of` the targets are the sources', over the samples that `counts` keeps.
+template <typename Counts, typename Source, typename Target>
+std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples, const FormShape& shape,
+                                          double pole, const Counts& counts, const Source& source,
+                                          const Target& target) {
+  const auto terms = products(shape);
+  std::vector<const FormSample*> kept;
+  for (const FormSample& sample : samples)
+    if (counts(sample)) kept.push_back(&sample);
+  if (kept.size() < terms.size())
+    throw Error(ErrorKind::kNumeric, "form: " + std::to_string(kept.size()) + " rows below the limits do not "
+                                         "determine " + std::to_string(terms.size()) + " numbers");
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(kept.size()), static_cast<Eigen::Index>(terms.size()));
+  Eigen::VectorXd wanted(matrix.rows());
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    const FormSample& sample = *kept[static_cast<std::size_t>(r)];
+    const double weight = weight_of(target(sample)), t = sample.source.specular / (sample.source.specular + pole);
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
+      const auto& [j, i] = terms[static_cast<std::size_t>(k)];
+      matrix(r, k) = weight * source(sample) * std::pow(t, j) * std::pow(sample.source.alpha, i);
+    }
+    wanted[r] = weight * target(sample);
+  }
+  const Eigen::VectorXd numbers = matrix.colPivHouseholderQr().solve(wanted);
+  return {shaped(shape, numbers), (matrix * numbers - wanted).squaredNorm()};
+}
+
+std::vector<MappedTexel> targets_of(const CompactForm& form, const Domain& domain,
+                                    const std::vector<MappedTexel>& sources) {
+  std::vector<MappedTexel> targets;
+  targets.reserve(sources.size());
+  for (const MappedTexel& source : sources)
+    targets.push_back(form_texel(form, domain, source.alpha, source.specular));
+  return targets;
+}
+
+double sum_of(const std::vector<TexelError>& errors) {
+  double sum = 0.0;
+  for (const TexelError& error : errors) sum += error.value;
+  return sum;
+}
+
+// The gradient and the curvature of the sum of errors by the numbers.
+struct NormalEquations {
+  Eigen::MatrixXd curvature;
+  Eigen::VectorXd gradient;
+};
+
+NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
+                                 const std::vector<MappedTexel>& sources,
+                                 const std::vector<MappedTexel>& targets,
+                                 const std::vector<TexelError>& errors) {
+  const std::vector<double> numbers = numbers_of(form);
+  const auto count = static_cast<Eigen::Index>(numbers.size());
+  std::vector<Eigen::MatrixXd> slopes(sources.size(), Eigen::MatrixXd(2, count));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    std::vector<double> moved = numbers;
+    // Forms hold floats, so a step must be one of them.
+    const double step = std::max(kStep, std::fabs(numbers[static_cast<std::size_t>(k)]) * 1e-3);
+    moved[static_cast<std::size_t>(k)] += step;
+    const std::vector<MappedTexel> beyond = targets_of(with_numbers(form, moved), domain, sources);
+    for (std::size_t r = 0; r < sources.size(); ++r) {
+      slopes[r](0, k) = (beyond[r].alpha - targets[r].alpha) / step;
+      slopes[r](1, k) = (beyond[r].specular - targets[r].specular) / step;
+    }
+  }
+  NormalEquations equations{Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
+  for (std::size_t r = 0; r < sources.size(); ++r) {
+    const TexelError& error = errors[r];
+    Eigen::Matrix2d curvature;
+    curvature << error.by_alpha_2, error.by_both, error.by_both, error.by_specular_2;
+    equations.curvature += slopes[r].transpose() * curvature * slopes[r];
+    equations.gradient += slopes[r].transpose() * Eigen::Vector2d(error.by_alpha, error.by_specular);
+  }
+  return equations;
+}
+
+CompactForm refined_by_rows(const CompactForm& form, const Domain& domain, const std::vector<FormSample>& samples) {
+  std::vector<MappedTexel> sources;
+  for (const FormSample& sample : samples) sources.push_back(sample.source);
+  const TexelErrors squares = [&](const std::vector<MappedTexel>& targets) {
+    std::vector<TexelError> errors(targets.size());
+    for (std::size_t r = 0; r < targets.size(); ++r) {
+      const MappedTexel& wanted = samples[r].target;
+      const double a = weight_of(wanted.alpha), s = weight_of(wanted.specular);
+      const double off_alpha = targets[r].alpha - wanted.alpha, off_specular = targets[r].specular - wanted.specular;
+      errors[r] = {a * a * off_alpha * off_alpha + s * s * off_specular * off_specular,
+                   2.0 * a * a * off_alpha, 2.0 * s * s * off_specular, 2.0 * a * a, 0.0, 2.0 * s * s};
+    }
+    return errors;
+  };
+  return refined_form(form, domain, sources, squares, kRowIterations);
+}
+
+}  // namespace
+
+std::vector<FormShape> form_shapes() { return {{1, 1}, {1, 2}, {2, 2}, {2, 3}, {3, 4}}; }
+
+std::string shape_name(const FormShape& shape) {
+  return std::to_string(shape.powers) + " x " + std::to_string(shape.terms);
+}
+
+std::vector<double> numbers_of(const CompactForm& form) {
+  std::vector<double> numbers = {std::log(static_cast<double>(form.pole))};
+  for (const FactorTerms* factor : {&form.alpha, &form.specular})
+    for (const std::vector<float>& row : *factor) numbers.insert(numbers.end(), row.begin(), row.end());
+  if (form.alpha_limit || form.specular_limit)
+    for (const float number : {form.hinge.turn, form.hinge.turn_by_alpha, form.hinge.spread})
+      numbers.push_back(static_cast<double>(number));
+  return numbers;
+}
+
+CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers) {
+  auto next = numbers.begin();
+  form.pole = static_cast<float>(std::exp(std::clamp(*next++, std::log(0.01), std::log(4.0))));
+  for (FactorTerms* factor : {&form.alpha, &form.specular})
+    for (std::vector<float>& row : *factor)
+      for (float& term : row) term = static_cast<float>(*next++);
+  if (form.alpha_limit || form.specular_limit)
+    for (float* number : {&form.hinge.turn, &form.hinge.turn_by_alpha, &form.hinge.spread})
+      *number = static_cast<float>(*next++);
+  return form;
+}
+
+CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
+                     const FormShape& shape) {
+  CompactForm best;
+  double least = INFINITY;
+  const auto is_free = [](const FormSample& sample) {
+    return !sample.alpha_at_limit && !sample.specular_at_limit;
+  };
+  const auto alpha = [](const FormSample& sample) { return sample.source.alpha; };
+  const auto specular = [](const FormSample& sample) { return sample.source.specular; };
+  const auto has_light = [&](const FormSample& sample) { return is_free(sample) && sample.source.specular > 0.0; };
+  for (const double pole : kPoles) {
+    if (shape.powers == 1 && pole != kPoles.back()) continue;
+    CompactForm form;
+    form.pole = static_cast<float>(pole);
+    double alpha_error = 0.0, specular_error = 0.0;
+    std::tie(form.alpha, alpha_error) =
+        fit_factor(samples, shape, pole, is_free, alpha, [](const FormSample& s) { return s.target.alpha; });
+    std::tie(form.specular, specular_error) = fit_factor(samples, shape, pole, has_light, specular,
+                                                         [](const FormSample& s) { return s.target.specular; });
+    if (alpha_error + specular_error >= least) continue;
+    least = alpha_error + specular_error;
+    best = form;
+  }
+  if (std::ranges::any_of(samples, &FormSample::alpha_at_limit)) best.alpha_limit = static_cast<float>(limits.alpha);
+  if (limits.specular && std::ranges::any_of(samples, &FormSample::specular_at_limit))
+    best.specular_limit = static_cast<float>(*limits.specular);
+  if (!best.alpha_limit && !best.specular_limit) return best;
+  return refined_by_rows(best, domain, samples);
+}
+
+CompactForm refined_form(const CompactForm& form, const Domain& domain,
+                         const std::vector<MappedTexel>& sources, const TexelErrors& errors, int iterations) {
+  CompactForm best = form;
+  std::vector<MappedTexel> targets = targets_of(best, domain, sources);
+  std::vector<TexelError> here = errors(targets);
+  double least = sum_of(here), damping = 1e-3;
+  for (int i = 0; i < iterations; ++i) {
+    const NormalEquations equations = normal_equations(best, domain, sources, targets, here);
+    const std::vector<double> numbers = numbers_of(best);
+    bool is_better = false;
+    for (int attempt = 0; attempt < 6 && !is_better; ++attempt, damping *= 6.0) {
+      Eigen::MatrixXd curvature = equations.curvature;
+      const double ridge = kRidge * curvature.trace();
+      for (Eigen::Index k = 0; k < curvature.rows(); ++k) curvature(k, k) += damping * curvature(k, k) + ridge;
+      const Eigen::VectorXd step = curvature.ldlt().solve(equations.gradient);
+      std::vector<double> moved = numbers;
+      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] -= step[static_cast<Eigen::Index>(k)];
+      const CompactForm tried = with_numbers(best, moved);
+      if (!step.allFinite() || !is_sound(tried, domain)) continue;
+      const std::vector<MappedTexel> there = targets_of(tried, domain, sources);
+      const std::vector<TexelError> found = errors(there);
+      const double sum = sum_of(found);
+      if (!(sum < least)) continue;
+      is_better = true;
+      best = tried;
+      targets = there;
+      here = found;
+      if (sum > least * (1.0 - kSmallestGain)) return best;
+      least = sum;
+    }
+    if (!is_better) return best;
+    damping *= 1.0 / 60.0;
+  }
+  return best;
+}
+
+bool is_sound(const CompactForm& form, const Domain& domain) {
+  for (int i = 0; i <= kGrid; ++i)
+    for (int j = 0; j <= kGrid; ++j) {
+      const double share = static_cast<double>(i) / kGrid;
+      const double alpha = domain.alpha.min + (domain.alpha.max - domain.alpha.min) * share * share;
+      const double specular = domain.specular.min + (domain.specular.max - domain.specular.min) * j / kGrid;
+      const double t = specular / (specular + static_cast<double>(form.pole));
+      const double p = factor_value(form.alpha, alpha, t), q = factor_value(form.specular, alpha, t);
+      if (!(p > kLeastFactor && q > kLeastFactor && std::isfinite(p) && std::isfinite(q))) return false;
+      if (!(form_texel(form, domain, alpha, specular).alpha > kLeastFactor * alpha)) return false;
+    }
+  return true;
+}
+
+}  // namespace remap
