@@ -18,7 +18,6 @@
 #include "lower/lower.hpp"
 #include "support/campaign.hpp"
 #include "support/header_flags.hpp"
-#include "support/made_regimes.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -69,8 +68,7 @@ struct MadeModel {
 
 MadeModel lowered(Fit fit) {
   add_converter(&fit);
-  const Lowered& result = fit.converter->lowered;
-  return {fit, result.alpha_bound(), result.specular_bound()};
+  return {fit, fit.converter->alpha_bound, fit.converter->specular_bound};
 }
 
 // Gaussians along the diagonal of the domain, of a smooth shape.
@@ -117,22 +115,16 @@ std::vector<MadeModel> subjects() {
     fit.target.roughness = target;
     fit.target.specular = id == "same_names" ? fit.source.specular : fit.target.specular;
     fit.mapping = mapping;
-    fit.domain = {{0.02, 0.95}, {0.0, 0.6}};
+    fit.domain = {{0.02, 0.95}, {is_proportional(mapping) ? 0.0 : 0.02, 0.6}};
     all.push_back(lowered(fit));
   };
   const Parametric paper{{{1.06, -0.63, 0.06, 0.09}}, {{1, {0.74, -0.19, 0.0, -1.03, 3.6, 0.0}}}};
-  Parametric steep = paper;  // a narrow step near 0, as the sub-pixel row of the published table makes it
-  steep.specular[0].factor = {1.29, -26.6, 86.0, -1.03, 3.6, 0.0};
-  Parametric extreme = paper;
-  extreme.specular[0].factor = {0.9, -0.19, 0.0, -900.0, 3000.0, 0.0};
   const Parametric full{{{1.06, -0.63}, {0.05, -0.02}},
                         {{0, {0.02, 0.1, 2.0, 0.0, 0.0, 0.0}},
                          {1, {0.74, -0.19, 0.0, -0.6, 3.6, 1e-4}},
                          {1, {0.05, 0.0, 0.0, 0.1, 9.0, 0.0}},
                          {2, {0.2, 0.3, 1.5, 0.0, 0.0, 0.0}}}};
   const auto kAlpha = RoughnessConvention::kAlpha;
-  add("steep_slope", kAlpha, kAlpha, steep);
-  add("extreme_slope", kAlpha, kAlpha, extreme);
   add("all_powers", kAlpha, kAlpha, full);
   add("same_names", kAlpha, kAlpha, Parametric{{{0.9}}, {{1, {0.7, 0.0, 0.0, 0.0, 0.0, 0.0}}}});
   add("vectors", kAlpha, kAlpha, Svr{smooth_expansion(1), smooth_expansion(2)});
@@ -146,18 +138,21 @@ std::vector<MadeModel> subjects() {
   add("from_squared", RoughnessConvention::kSquared, kAlpha, full);
   add("to_exponent", kAlpha, RoughnessConvention::kExponent, paper);
   add("from_exponent", RoughnessConvention::kExponent, kAlpha, full);
-  all.push_back(lowered(made_regimes::fit()));
-  Fit capped = base;  // a limit, and no regime beyond it
+  Fit capped = base;  // at both limits, without a hinge
   capped.id = "capped";
   capped.mapping = Parametric{{{1.3}}, {{1, {1.4, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
   capped.domain = {{0.02, 0.95}, {0.0, 1.0}};
-  capped.regimes.specular_limit = 1.0;
+  capped.limits.specular = 1.0;
   all.push_back(lowered(capped));
-  add("series", kAlpha, kAlpha,
-      Series{made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6},
-                                    [](double a, double s) { return a * (0.9 - 0.1 * s); }),
-             made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6},
-                                    [](double a, double s) { return s * (1.0 - 0.3 * a); })});
+  CompactForm form;
+  form.pole = 0.3f;
+  form.alpha = {{1.3f, -0.1f, 0.02f}, {0.05f}};
+  form.specular = {{1.8f, -0.3f}, {0.2f, 0.01f}, {0.03f}};
+  add("compact", kAlpha, kAlpha, form);
+  form.alpha_limit = form.specular_limit = 1.0f;
+  form.hinge = {-0.3f, 0.1f, 0.4f};
+  add("hinged", kAlpha, kAlpha, form);
+  add("hinged_roughness", RoughnessConvention::kRoughness, RoughnessConvention::kExponent, form);
   return all;
 }
 
@@ -194,7 +189,7 @@ std::vector<float> texels(const Fit& fit) {
                          nan,
                          -nan,
                          -1.0f};
-  // Channels beyond 1e30 are left as they are where the mapping is no factor, and scaled where it is.
+  // A product that no float holds differs from that of doubles.
   for (const float width : edges)
     for (const float channel : edges)
       if (channel != 3.4e38f) rows.push_back({width, channel, 0.25f * top, channel});
@@ -349,10 +344,8 @@ TEST_CASE("generated header: self_test fails when any one coefficient is changed
   };
   add("original", header);
 
-  // Every float between the start of target_alpha and the end of target_specular, by more than the header's
-  // bound: high powers of a small variable weigh little.
-  const std::size_t start = header.find("inline float target_alpha"),
-                    end = header.find("// The rule of the domain");
+  // Every number of the polynomials, by more than the header's bound.
+  const std::size_t start = header.find("static void alpha_factor"), end = header.find("// A row of widths");
   REQUIRE(start < end);
   const std::string code = header.substr(start, end - start);
   const std::regex literal("-?[0-9]+\\.?[0-9]*(e-?[0-9]+)?f");
