@@ -162,9 +162,13 @@ bool is_there(const AssetResources& resources, const std::string& path) {
 
 std::string NewImageNames::free_name(const std::string& model, std::string_view suffix) {
   const std::string stem = stem_beside(model, prefix_, suffix);
-  for (std::size_t& number = ++numbers_[stem];; ++number) {
-    std::string name = stem + (number == 1 ? "" : "_" + std::to_string(number)) + ".png";
-    if (taken_.insert(name).second) return name;
+  return stem + free_ending(stem, ".png");
+}
+
+std::string NewImageNames::free_ending(const std::string& stem, const char* extension) {
+  for (std::size_t& number = ++numbers_[stem + extension];; ++number) {
+    std::string ending = (number == 1 ? "" : "_" + std::to_string(number)) + extension;
+    if (taken_.insert(stem + ending).second) return ending;
   }
 }
 

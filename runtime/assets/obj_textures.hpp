@@ -65,8 +65,7 @@ class GltfTextures {
   AssetConversion& conversion_;
   Json textures_ = Json::list(), images_ = Json::list(), samplers_ = Json::list();
   NewImageNames names_;
-  std::map<std::string, std::size_t> of_files_;  // images by path, and options with -mm
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_bytes_;  // new images by size and hash
+  std::map<std::string, std::size_t> of_files_;                    // images by path, and options with -mm
   std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;  // textures by image and whether they clamp
   std::size_t info_count_ = 0;
   bool has_transforms_ = false;
