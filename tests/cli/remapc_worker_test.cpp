@@ -57,6 +57,22 @@ TEST_CASE("remapc sweep: a worker is the source, and the second run is from the 
   CHECK(fake.nobody_is_left());
 }
 
+TEST_CASE("remapc sweep: the time of the whole sweep is estimated once, after ten pictures", "[slow]") {
+  const Session session;
+  const FakeSession fake;
+  const std::string line = "remapc: sweep fake/ggx -> mitsuba/ggx-plain: about ";
+  const ProcessResult loud = require_success(session.remapc(sweep(fake, "a.csv") + "--jobs 1"));
+  const std::size_t place = loud.errors.find(line);
+  REQUIRE(place != std::string::npos);
+  CHECK(loud.errors.find(" in all\n", place) != std::string::npos);
+  CHECK(loud.errors.find(line, place + 1) == std::string::npos);
+  CHECK(require_success(session.remapc(sweep(fake, "b.csv") + "--jobs 1 --quiet")).errors.empty());
+  // A sweep of a single block has no rows to judge by before it ends.
+  const ProcessResult brief =
+      require_success(session.remapc(sweep(fake, "c.csv") + "--roughness-samples 1 --jobs 1"));
+  CHECK(brief.errors.find(line) == std::string::npos);
+}
+
 TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the same table", "[slow]") {
   const Session session;
   const FakeSession fake;
