@@ -76,8 +76,14 @@ ModelDescription RendererSet::model(const std::string& name) const {
     names.push_back(model.name);
   }
   for (const WorkerEntry& worker : workers_) names.push_back(worker.name + "/...");
-  throw Error(ErrorKind::kUsage, name + ": unknown model of " + builtin_->version() + " and of the workers" +
-                                     suggestion(name, names));
+  const bool has_near = !nearest_name(name, names).empty();
+  throw Error(
+      ErrorKind::kUsage,
+      name + ": unknown model of " + builtin_->version() + " and of the workers" +
+          (has_near ? suggestion(name, names)
+                    : " (`remapc renderers` lists those of workers, `remapc list --models` the others; "
+                      "--worker \"" +
+                          name.substr(0, name.find('/')) + "=COMMAND\" connects another)"));
 }
 
 Image RendererSet::render(const Material& material, const Scene& scene) const {

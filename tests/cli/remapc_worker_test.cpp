@@ -17,10 +17,10 @@ using Catch::Matchers::Contains;
 namespace {
 
 Words sweep(const FakeSession& fake, const std::string& table, const std::string& fault = "",
-            const std::string& cache = "cache") {
+            const std::string& cache = "cache", int alphas = 5) {
   return "sweep --objective natural-1 --source fake/ggx --target mitsuba/ggx-plain --resolution 32 "
-         "--roughness-samples 5 "
-         "--specular-samples 2 --roughness-range 0.2,0.9" +
+         "--specular-samples 2 --roughness-range 0.2,0.9 --roughness-samples " +
+         std::to_string(alphas) +
          Words{"--worker", "fake=" + fake.command(fault), "--cache", cache, "-o", table};
 }
 
@@ -67,10 +67,22 @@ TEST_CASE("remapc sweep: the time of the whole sweep is estimated once, after te
   CHECK(loud.errors.find(" in all\n", place) != std::string::npos);
   CHECK(loud.errors.find(line, place + 1) == std::string::npos);
   CHECK(require_success(session.remapc(sweep(fake, "b.csv") + "--jobs 1 --quiet")).errors.empty());
-  // A sweep of a single block has no rows to judge by before it ends.
-  const ProcessResult brief =
-      require_success(session.remapc(sweep(fake, "c.csv") + "--roughness-samples 1 --jobs 1"));
-  CHECK(brief.errors.find(line) == std::string::npos);
+}
+
+TEST_CASE("remapc preview: finds the worker of a model in the user's list", "[slow]") {
+  const Session session;
+  const FakeSession fake;
+  require_success(session.remapc(sweep(fake, "a.csv", "", "cache", 8)));
+  require_success(session.remapc(session.fit("a.csv")));
+  const Words preview =
+      "preview fits/fake_ggx_to_mitsuba_ggx_plain.json --resolution 16 --alpha 0.3 --no-cache";
+  check_failure(session.remapc(preview), 2, "--worker \"fake=COMMAND\" connects another");
+  session.write("remap/workers.json",
+                R"({"workers": [{"name": "fake", "command": ")" + fake.command() + R"("}]})");
+  const Words with_list = Words{"/usr/bin/env", "XDG_CONFIG_HOME=" + session.path("")};
+  const ProcessResult result = require_success(session.run(with_list + (REMAPC_PROGRAM + preview)));
+  CHECK_THAT(result.output, Contains("45 degrees  sphere"));
+  CHECK(result.errors.empty());
 }
 
 TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the same table", "[slow]") {
