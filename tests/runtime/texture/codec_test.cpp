@@ -70,6 +70,12 @@ TEST_CASE("The codec reads WebP as it is stored, colors where nothing is seen am
                     "image: cannot be read: the image is damaged, or an animation (convert it to PNG)");
 }
 
+TEST_CASE("The codec refuses WebP of a few bytes that claims more texels than these can hold", "[texture]") {
+  const std::string bytes("RIFF\x16\0\0\0WEBPVP8L\x0a\0\0\0\x2f\xfe\xbf\xff\x0f\0\0\0\0\0", 30);
+  CHECK_THROWS_WITH(image_library().codec().decode(bytes, "image"),
+                    "image: is damaged: its size of 16383x16383 does not fit a file of 30 bytes");
+}
+
 TEST_CASE("The codec refuses images that are cut off, and other files", "[texture]") {
   const ImageCodec& codec = image_library().codec();
   for (const std::string extension : {"png", "tga", "bmp", "tif"}) {
