@@ -14,9 +14,11 @@ constexpr std::size_t kHead = 12, kFileBytes = kHead + 3 * 90 * 90 * 180 * sizeo
 constexpr std::string_view kCounts("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", kHead);  // 90, 90, 180
 
 std::string completed(std::string_view input) {
-  std::string file(input.substr(0, kHead));
+  std::string file(input);
   file.reserve(kFileBytes);
-  while (file.size() < kFileBytes) file += input.substr(kHead, kFileBytes - file.size());
+  while (file.size() < kFileBytes)  // what is there once more, without the head
+    file.append(file, kHead, std::min(file.size() - kHead, kFileBytes - file.size()));
+  file.resize(kFileBytes);
   return file;
 }
 
