@@ -52,6 +52,9 @@ struct BrdfModel {
 // an unknown name (with the nearest), and for a model whose specular is neither a scale nor F0.
 BrdfModel builtin_brdf(const std::string& name);
 
+// Whether builtin_brdf() knows the model and its specular is a scale or F0.
+bool is_linear_lobe(const std::string& name);
+
 // A model whose specular map holds a scale or F0. `lobe` is the model itself where reflectance is linear in
 // that value. Otherwise `lobe` is that of a perfect mirror, to be multiplied by the exact Fresnel reflectance
 // of a dielectric with the map's F0.

@@ -307,6 +307,12 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
 
 }  // namespace
 
+bool is_linear_lobe(const std::string& name) {
+  const BuiltinModel* model = find_builtin(name);
+  return model != nullptr &&
+         (model->reflectance == Reflectance::kScale || model->reflectance == Reflectance::kSchlick);
+}
+
 BrdfModel builtin_brdf(const std::string& name) {
   BuiltinRenderer().model(name);
   const BuiltinModel* model = find_builtin(name);

@@ -180,15 +180,6 @@ class LampStudio {
   End source_, target_;
 };
 
-bool is_builtin_lobe(const std::string& model) {
-  try {
-    (void)builtin_brdf(model);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 // Renders rows under an environment.
 class EnvironmentStudio {
  public:
@@ -227,7 +218,7 @@ class EnvironmentStudio {
   static constexpr int kMapRows = 64;
 
   static BrdfModel lobe_of(const ModelSide& side, const Environment& environment) {
-    if (!is_builtin_lobe(side.model))
+    if (!is_linear_lobe(side.model))
       throw Error(ErrorKind::kUsage,
                   "--light " + environment.name + ": cannot light " + side.model +
                       ", which is not a built-in model with a scale or F0 (use --light 45)");
@@ -372,8 +363,7 @@ PreviewLight preview_light(const std::string& word, double distance, double expo
 
 std::string default_light(const Fit& fit, const std::vector<Shape>& shapes) {
   const bool has_sphere = std::ranges::find(shapes, Shape::kSphere) != shapes.end();
-  return has_sphere && is_builtin_lobe(fit.source.model) && is_builtin_lobe(fit.target.model) ? "studio"
-                                                                                              : "45";
+  return has_sphere && is_linear_lobe(fit.source.model) && is_linear_lobe(fit.target.model) ? "studio" : "45";
 }
 
 std::vector<double> preview_alphas(const Domain& domain) {

@@ -55,10 +55,10 @@ std::size_t GltfNewImages::add_image(const ImagePixels& pixels, std::size_t mode
   std::string bytes =
       quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.png_level);
   // Materials that differ in color alone often have the same metallic and roughness.
-  const std::size_t number = names_.number_of(bytes, new_images_.size());
-  if (number == new_images_.size())
-    new_images_.push_back({std::move(bytes), quality ? kJpeg : kPng, model, std::string(suffix)});
-  return number;
+  const auto same = std::ranges::find(new_images_, bytes, &NewImage::bytes);
+  if (same != new_images_.end()) return static_cast<std::size_t>(same - new_images_.begin());
+  new_images_.push_back({std::move(bytes), quality ? kJpeg : kPng, model, std::string(suffix)});
+  return new_images_.size() - 1;
 }
 
 std::size_t GltfNewImages::add_texture(std::size_t image, std::size_t model) {

@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "assets/asset_uri.hpp"
 #include "assets/gltf_container.hpp"
 #include "assets/gltf_direction.hpp"
 #include "assets/gltf_spares.hpp"
 #include "assets/image_codec.hpp"
 #include "assets/json_spans.hpp"
-#include "assets/mtl_images.hpp"
 #include "assets/text_edits.hpp"
 
 namespace remap {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "assets/asset_uri.hpp"
 #include "assets/legacy_maps.hpp"
 #include "assets/map_pixels.hpp"
 #include "assets/mtl_document.hpp"
@@ -297,12 +298,12 @@ class MtlEditor {
                                                                          : surface.diffuse_map;
     std::string png =
         images_.resources().codec().encode_png(pixels, options_.png_level.value_or(kUsualPngLevel));
-    std::vector<NewResource>& files = conversion_.files;
-    const std::size_t number = names_.number_of(png, files.size());
-    if (number == files.size())
-      files.push_back(
-          {names_.free_name(images_.place_of(model->file).value_or("material"), suffix), std::move(png)});
-    return argument(files[number].path);
+    if (const auto same = std::ranges::find(conversion_.files, png, &NewResource::bytes);
+        same != conversion_.files.end())
+      return argument(same->path);
+    const std::string name = names_.free_name(images_.place_of(model->file).value_or("material"), suffix);
+    conversion_.files.push_back({name, std::move(png)});
+    return argument(name);
   }
 
   static std::string becomes_text_of(const MtlResult& result, const MtlSurface& surface) {

@@ -160,18 +160,6 @@ bool is_there(const AssetResources& resources, const std::string& path) {
   }
 }
 
-std::string NewImageNames::free_name(const std::string& model, std::string_view suffix) {
-  const std::string stem = stem_beside(model, prefix_, suffix);
-  return stem + free_ending(stem, ".png");
-}
-
-std::string NewImageNames::free_ending(const std::string& stem, const char* extension) {
-  for (std::size_t& number = ++numbers_[stem + extension];; ++number) {
-    std::string ending = (number == 1 ? "" : "_" + std::to_string(number)) + extension;
-    if (taken_.insert(stem + ending).second) return ending;
-  }
-}
-
 LegacyMaps SurfaceMaps::with(const LegacyMaterial& factors, const MtlSurface& surface,
                              bool as_dielectric) const {
   LegacyMaps maps{diffuse.get(), specular.get(), exponent.get(), 'l', factors, as_dielectric};

@@ -2,12 +2,10 @@
 // them.
 #pragma once
 
-#include <functional>
 #include <list>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -62,29 +60,6 @@ class MtlImages {
 
 // Whether a file can be opened.
 bool is_there(const AssetResources& resources, const std::string& path);
-
-// Names of new images beside those that the asset names. Images with the same bytes are one.
-class NewImageNames {
- public:
-  // Names begin with `prefix` (AssetResources::image_prefix()).
-  explicit NewImageNames(std::string prefix) : prefix_(std::move(prefix)) {}
-
-  void take(const std::string& path) { taken_.insert(path); }
-  // `a/wood_baseColor.png` of `a/wood.jpg`, with a number where that is taken.
-  std::string free_name(const std::string& model, std::string_view suffix);
-  // What follows `stem` in a free name: the extension, after a number where that is taken.
-  std::string free_ending(const std::string& stem, const char* extension);
-  // The number of the image with these bytes: `next` for bytes that are new.
-  std::size_t number_of(const std::string& bytes, std::size_t next) {
-    return by_bytes_.try_emplace({bytes.size(), std::hash<std::string>()(bytes)}, next).first->second;
-  }
-
- private:
-  std::string prefix_;
-  std::set<std::string> taken_;
-  std::map<std::string, std::size_t> numbers_;                           // of the last name of each stem
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> by_bytes_;  // images by size and hash
-};
 
 // The decoded maps of a surface, all of one size.
 struct SurfaceMaps {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -51,8 +52,9 @@ std::size_t GltfTextures::add_file(MtlImages& images, const MtlMap& map, std::ve
 std::size_t GltfTextures::add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
                                      std::string_view suffix) {
   std::string png = resources_.codec().encode_png(pixels, png_level_);
-  if (const std::size_t number = names_.number_of(png, images_.size()); number != images_.size())
-    return number;
+  const auto [known, is_new] =
+      of_bytes_.try_emplace({png.size(), std::hash<std::string>()(png)}, images_.size());
+  if (!is_new) return known->second;
   const std::string path = names_.free_name(images.place_of(model.file).value_or("material"), suffix);
   if (place_ == NewImagePlace::kBuffer) return add_bytes(std::move(png), "image/png", path);
   conversion_.files.push_back({path, std::move(png)});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assets/asset.hpp"
+#include "assets/asset_uri.hpp"
 #include "assets/mtl_images.hpp"
 #include "assets/mtl_material.hpp"
 #include "assets/obj_buffer.hpp"
@@ -65,7 +66,8 @@ class GltfTextures {
   AssetConversion& conversion_;
   Json textures_ = Json::list(), images_ = Json::list(), samplers_ = Json::list();
   NewImageNames names_;
-  std::map<std::string, std::size_t> of_files_;                    // images by path, and options with -mm
+  std::map<std::string, std::size_t> of_files_;  // images by path, and options with -mm
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_bytes_;  // new images by size and hash
   std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;  // textures by image and whether they clamp
   std::size_t info_count_ = 0;
   bool has_transforms_ = false;

@@ -76,7 +76,7 @@ TEST_CASE("remapc preview: finds the worker of a model in the user's list", "[sl
   require_success(session.remapc(session.fit("a.csv")));
   const Words preview =
       "preview fits/fake_ggx_to_mitsuba_ggx_plain.json --resolution 16 --alpha 0.3 --shape sphere --no-cache";
-  check_failure(session.remapc(preview), 2, "--worker \"fake=COMMAND\" connects another");
+  check_failure(session.remapc(preview), 2, "--worker \"fake=COMMAND\" connects another renderer");
   session.write("remap/workers.json",
                 R"({"workers": [{"name": "fake", "command": ")" + fake.command() + R"("}]})");
   const Words with_list = Words{"/usr/bin/env", "XDG_CONFIG_HOME=" + session.path("")};
