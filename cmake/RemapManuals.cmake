@@ -1,8 +1,7 @@
-# remap_install_manuals(TOOL MAN SHARE): the manual pages of TOOL below the folder MAN of an installation, its completion for bash, zsh
-# and fish below SHARE.
-function(remap_install_manuals tool man share)
+# remap_install_manuals(TOOL MAN SHARE COMPLETIONS): the manual pages of TOOL below the folder MAN of an installation, its completion for
+# bash, zsh and fish, from the folder COMPLETIONS, below SHARE.
+function(remap_install_manuals tool man share completions)
   file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/man/${tool}*.1)
-  set(completions ${PROJECT_SOURCE_DIR}/docs/completions)
   install(FILES ${pages} DESTINATION ${man}/man1)
   install(FILES ${completions}/bash/${tool} DESTINATION ${share}/bash-completion/completions)
   install(FILES ${completions}/zsh/_${tool} DESTINATION ${share}/zsh/site-functions)

@@ -39,7 +39,7 @@ if(tools)
   install(FILES ${PROJECT_SOURCE_DIR}/runtime/sets/naming.json DESTINATION ${data_folder})
 endif()
 foreach(tool IN LISTS tools)
-  remap_install_manuals(${tool} ${CMAKE_INSTALL_MANDIR} ${CMAKE_INSTALL_DATADIR})
+  remap_install_manuals(${tool} ${CMAKE_INSTALL_MANDIR} ${CMAKE_INSTALL_DATADIR} ${PROJECT_SOURCE_DIR}/docs/completions)
 endforeach()
 
 # The library, headers, and what finds them.

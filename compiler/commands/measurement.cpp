@@ -27,6 +27,13 @@ std::string pictures_text(const PictureCount& pictures) {
          (lost == 0 ? "" : ", " + counted(lost, "worker") + " lost");
 }
 
+// `about 12:30 in all`; empty before some rows and ten pictures of workers are done, and after the last row.
+std::string estimate_text(double seconds, const PictureCount& pictures, std::size_t done, std::size_t rows) {
+  constexpr std::size_t kEnoughPictures = 10;
+  if (pictures.rendered + pictures.cached < kEnoughPictures || done == 0 || done == rows) return "";
+  return "about " + clock_text(seconds * static_cast<double>(rows) / static_cast<double>(done)) + " in all";
+}
+
 // Adds the options that choose which parameters of a model are roughness, specular and diffuse.
 void add_role_options(Command& app, const std::string& side, ParameterRoles& roles) {
   const std::string prefix = "--" + side;
@@ -127,10 +134,29 @@ SweepExecution Measurement::start(const std::string& label, std::size_t rows) {
   create_parent(options_.output);
   const std::string models = label + " " + options_.pair.source + " -> " + options_.pair.target;
   progress_.emplace(models, rows, !options_.quiet);
-  renderer_->watch(
-      [this, models](const PictureCount& pictures) { progress_->relabel(models + pictures_text(pictures)); });
-  return {options_.jobs, [this](std::size_t done, std::size_t) { progress_->advance_to(done); },
+  renderer_->watch([this, models](const PictureCount&) { show_progress(models); });
+  return {options_.jobs,
+          [this, models](std::size_t done, std::size_t all) {
+            progress_->advance_to(done);
+            estimate(models, done, all);
+            show_progress(models);
+          },
           &interruption()};
+}
+
+void Measurement::show_progress(const std::string& models) {
+  const std::lock_guard lock(mutex_);
+  progress_->relabel(models + pictures_text(renderer_->pictures()) +
+                     (estimate_.empty() ? "" : ", " + estimate_));
+}
+
+void Measurement::estimate(const std::string& models, std::size_t done, std::size_t rows) {
+  const std::lock_guard lock(mutex_);
+  const std::string text = estimate_text(stopwatch_.seconds(), renderer_->pictures(), done, rows);
+  if (text.empty()) return;
+  if (estimate_.empty() && !options_.quiet && !terminal_watches_errors())
+    print_message("remapc", models + ": " + text);
+  estimate_ = text;
 }
 
 void Measurement::write(const std::string& table, const Comments& comments) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,10 +65,15 @@ class Measurement {
 
  private:
   void report(const std::map<std::string, std::size_t>& statuses, double rms_error, const Json& fields) const;
+  void show_progress(const std::string& models);
+  // Estimates the time of all rows, and prints the first estimate if no terminal shows progress.
+  void estimate(const std::string& models, std::size_t done, std::size_t rows);
 
   const MeasurementOptions& options_;
   Stopwatch stopwatch_;
   std::optional<Progress> progress_;  // of rows; its label also counts the pictures of workers
+  std::mutex mutex_;
+  std::string estimate_;  // of the time of all rows; empty if unknown
   std::unique_ptr<RendererSet> renderer_;
   LightMatch light_;
 };

@@ -1,13 +1,17 @@
 // `remapc preview` compares a source with its conversion, as pictures and figures.
 #include "report/preview.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 
 #include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
+#include "commands/share_progress.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
@@ -21,7 +25,7 @@ namespace {
 struct PreviewCommand {
   std::string fit;
   std::filesystem::path fit_folder, output;
-  std::vector<std::string> lights = {"45"};
+  std::vector<std::string> lights;  // empty: default_light()
   double distance = 3.0, exposure = 1.0;
   PreviewOptions options;  // without lights
   bool bare = false, force = false, json = false;
@@ -70,16 +74,24 @@ Json preview_json(const PreviewCommand& command, const Fit& fit, const Preview& 
   return json;
 }
 
-PreviewOptions with_lights(const Command& given, const PreviewCommand& command) {
+PreviewOptions with_lights(const Command& given, const PreviewCommand& command, const Fit& fit) {
   PreviewOptions options = command.options;
-  bool has_environment = false;
-  for (const std::string& light : command.lights) {
-    options.lights.push_back(preview_light(light, command.distance, command.exposure));
-    has_environment = has_environment || std::holds_alternative<Environment>(options.lights.back().light);
-  }
+  std::vector<std::string> words = command.lights;
+  if (words.empty()) words = {default_light(fit, options.shapes)};
+  for (const std::string& word : words)
+    options.lights.push_back(preview_light(word, command.distance, command.exposure));
+  const auto is_environment = [](const PreviewLight& light) {
+    return std::holds_alternative<Environment>(light.light);
+  };
+  const auto environments = std::ranges::count_if(options.lights, is_environment);
+  const auto require = [&](const char* option, bool has_such_light, const std::string& light) {
+    if (!has_such_light && given.count(option) > 0)
+      throw usage_error(std::string(option) + " needs " + light);
+  };
   for (const char* option : {"--exposure", "--directions"})
-    if (!has_environment && given.count(option) > 0)
-      throw usage_error(std::string(option) + " needs an environment as --light");
+    require(option, environments > 0, "an environment as --light (add --light studio)");
+  require("--distance", environments < std::ssize(options.lights),
+          "a light that is not an environment (add --light 45)");
   return options;
 }
 
@@ -87,8 +99,12 @@ void run(const Command& given, const PreviewCommand& command) {
   watch_interruptions();
   require_new(command.output, command.force);
   const Fit fit = find_fit(command.fit, command.fit_folder);
-  const PreviewOptions options = with_lights(given, command);
-  const Preview preview = make_preview(*make_renderers(command.renderers), fit, options);
+  PreviewOptions options = with_lights(given, command, fit);
+  const Preview preview = [&] {
+    ShareProgress progress("preview", fit.id);
+    options.progress = std::ref(progress);
+    return make_preview(*make_renderers(command.renderers), fit, options);
+  }();
   if (!command.output.empty())
     write_png(command.output, command.bare ? preview.sheet : labelled(preview.sheet, preview.labels));
   if (command.json)
@@ -132,9 +148,9 @@ void add_preview_command(Command& app) {
       ->add_option(
           "--light LIGHT,...", options.lights,
           "Lights, comma-separated: headlight, degrees from the camera, or an environment, which lights "
-          "spheres of built-in models: sky, overcast, studio, or a map (EXR, HDR)")
-      ->delimiter(',')
-      ->default_text("45");
+          "spheres of built-in models: sky, overcast, studio, or a map (EXR, HDR) (default: studio; 45 for "
+          "models of workers and other shapes)")
+      ->delimiter(',');
   command->add_option("--exposure", options.exposure, "Mean luminance of environments")->positive();
   command->add_option("--diffuse", options.options.diffuse, "Diffuse reflectance of all pictures, 0 to 1");
   command->add_option("--resolution", options.options.resolution, "Width and height of each picture")
@@ -143,19 +159,18 @@ void add_preview_command(Command& app) {
   command->add_option("--distance", options.distance,
                       "Distance of a light that is no environment, in sphere radii");
   command
-      ->add_option("--directions", options.options.directions,
-                   "Light directions of an environment per sample of a pixel")
+      ->add_option("--directions", options.options.directions, "Light directions of an environment per pixel")
       ->range(16, 65536);
   command
       ->add_option("--pixel-samples", options.options.samples_per_axis,
-                   "N x N samples per pixel; 1: the pixel center")
+                   "N x N samples per pixel (under an environment, only of its edge); 1: the pixel center")
       ->range(1, 16);
   add_renderer_options(*command, options.renderers);
   command->footer(
       "Example:\n"
       "  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 \\\n"
       "    -o preview.png\n"
-      "  remapc preview mitsuba_ward_to_mitsuba_as --light 45,studio -o preview.png");
+      "  remapc preview mitsuba_ward_to_mitsuba_as --light 45,sky -o preview.png");
 }
 
 }  // namespace remap

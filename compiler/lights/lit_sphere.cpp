@@ -192,7 +192,7 @@ void add_samples(const Rendering& rendering, const PixelSampler& sampler, std::s
 }  // namespace
 
 SpherePictures::SpherePictures(std::size_t material_count, std::size_t channel_count, int resolution)
-    : channel_count_(channel_count), resolution_(resolution) {
+    : material_count_(material_count), channel_count_(channel_count), resolution_(resolution) {
   const std::vector<float> cosines = view_cosines(resolution, 1);
   for (std::size_t i = 0; i < cosines.size(); ++i)
     if (cosines[i] > 0.0f) pixels_.push_back(static_cast<std::uint32_t>(i));
@@ -201,8 +201,7 @@ SpherePictures::SpherePictures(std::size_t material_count, std::size_t channel_c
 
 // Pixels are the outermost dimension, because a thread works on one pixel at a time.
 std::size_t SpherePictures::offset(std::size_t material, std::size_t half, std::size_t pixel) const {
-  const std::size_t material_count = values_.size() / (kHalves * pixels_.size() * channel_count_);
-  return ((pixel * kHalves + half) * material_count + material) * channel_count_;
+  return ((pixel * kHalves + half) * material_count_ + material) * channel_count_;
 }
 
 float* SpherePictures::values(std::size_t material, std::size_t half, std::size_t pixel) {
@@ -248,7 +247,7 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
     for (auto pixel = begin; pixel != end; ++pixel) {
       SurfacePoint point;
       sphere_point(sampling.resolution, *pixel % side + 0.5, static_cast<double>(row) + 0.5, &point);
-      const PixelSampler sampler(rendering.mixture, point, *pixel);
+      const PixelSampler sampler(rendering.mixture, point, sampling.shares_directions ? 0 : *pixel);
       const auto place = static_cast<std::size_t>(pixel - pixels.begin());
       add_lamps(rendering, sampler, place, &pictures);
       add_samples(rendering, sampler, place, &pictures);

@@ -29,6 +29,9 @@ struct SphereSampling {
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
   std::function<void()> progress;  // called for each of `resolution` pixel rows, from any thread
   const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
+  // All pixels share their directions: a few give a smooth picture. Its error is smooth, too, and differs
+  // from pixel to pixel otherwise.
+  bool shares_directions = false;
 };
 
 // Linear RGB pictures of materials under each environment, at the pixels that show the sphere. The directions
@@ -51,7 +54,7 @@ class SpherePictures {
  private:
   std::size_t offset(std::size_t material, std::size_t half, std::size_t pixel) const;
 
-  std::size_t channel_count_;
+  std::size_t material_count_, channel_count_;
   int resolution_;
   std::vector<std::uint32_t> pixels_;
   std::vector<float> values_;

@@ -52,7 +52,7 @@ struct BrdfModel {
 // an unknown name (with the nearest), and for a model whose specular is neither a scale nor F0.
 BrdfModel builtin_brdf(const std::string& name);
 
-// Whether a built-in model of this name is a lobe whose pictures are linear in its specular.
+// Whether builtin_brdf() knows the model and its specular is a scale or F0.
 bool is_linear_lobe(const std::string& name);
 
 // A model whose specular map holds a scale or F0. `lobe` is the model itself where reflectance is linear in

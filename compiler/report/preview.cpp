@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -65,27 +66,38 @@ struct CoveredPicture {
   std::vector<float> coverage;  // 0 to 1
 };
 
-// Averages a picture of side * n pixels down to side. Channel c comes from the material `first + c`, or from
-// `first` where the specular is grey.
+// The share of each pixel that the sphere covers, from samples x samples points.
+std::vector<float> sphere_coverage(int side, int samples) {
+  const auto width = static_cast<std::size_t>(side), step = static_cast<std::size_t>(samples);
+  std::vector<float> coverage(width * width, 0.0f);
+  for (const std::uint32_t place : shape_pixels(Shape::kSphere, side * samples))
+    coverage[place / (width * step) / step * width + place % (width * step) / step] +=
+        1.0f / static_cast<float>(step * step);
+  return coverage;
+}
+
+// The pixel beside `pixel` on its way to the center of the picture.
+std::size_t inner_pixel(std::size_t pixel, std::size_t width) {
+  const auto inner = [&](std::size_t place) { return place < width / 2 ? place + 1 : place - 1; };
+  return inner(pixel / width) * width + inner(pixel % width);
+}
+
+// Channel c comes from the material `first + c`, or from `first` where the specular is grey. A pixel of the
+// rim whose center misses the sphere looks like its inner neighbour.
 CoveredPicture covered_picture(const SpherePictures& pictures, std::size_t first, std::size_t material_count,
-                               int side) {
-  const auto width = static_cast<std::size_t>(side), fine = static_cast<std::size_t>(pictures.resolution());
-  const std::size_t step = fine / width;
+                               int samples) {
+  const auto width = static_cast<std::size_t>(pictures.resolution());
   CoveredPicture picture{std::vector<float>(3 * width * width, 0.0f),
-                         std::vector<float>(width * width, 0.0f)};
+                         sphere_coverage(pictures.resolution(), samples)};
+  std::vector<bool> is_known(width * width, false);
+  for (const std::uint32_t pixel : pictures.pixels()) is_known[pixel] = true;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::vector<float> radiance = pictures.radiance(first + std::min(c, material_count - 1), 0);
-    for (std::size_t i = 0; i < pictures.pixels().size(); ++i) {
-      const std::size_t place = pictures.pixels()[i];
-      const std::size_t pixel = place / fine / step * width + place % fine / step;
-      picture.radiance[3 * pixel + c] += radiance[3 * i + c];
-      if (c == 0) picture.coverage[pixel] += 1.0f;
-    }
-  }
-  for (std::size_t pixel = 0; pixel < picture.coverage.size(); ++pixel) {
-    for (std::size_t c = 0; c < 3; ++c)
-      picture.radiance[3 * pixel + c] /= std::max(picture.coverage[pixel], 1.0f);
-    picture.coverage[pixel] /= static_cast<float>(step * step);
+    for (std::size_t i = 0; i < pictures.pixels().size(); ++i)
+      picture.radiance[3 * pictures.pixels()[i] + c] = radiance[3 * i + c];
+    for (std::size_t pixel = 0; pixel < is_known.size(); ++pixel)
+      if (!is_known[pixel] && picture.coverage[pixel] > 0.0f)
+        picture.radiance[3 * pixel + c] = picture.radiance[3 * inner_pixel(pixel, width) + c];
   }
   return picture;
 }
@@ -119,6 +131,9 @@ std::vector<float> over_background(const CoveredPicture& picture, const std::vec
 // The three pictures of a row.
 using RowPictures = std::array<CoveredPicture, kColumns>;
 
+// Takes the share of a row's work that is finished, 0 to 1.
+using RowProgress = std::function<void(double)>;
+
 // Renders rows under a point light.
 class LampStudio {
  public:
@@ -130,10 +145,14 @@ class LampStudio {
                          parse_number(comment(fit, kLightScaleComment)).value_or(1.0), options.diffuse)),
         target_(make_end(renderer, fit, "target", fit.target, 1.0, options.diffuse)) {}
 
-  RowPictures operator()(const PreviewFigure& figure) const {
-    return {photograph(source_, figure.alpha, options_.specular, figure.shape),
-            photograph(target_, figure.alpha, options_.specular, figure.shape),
-            photograph(target_, figure.target_alpha, figure.target_specular, figure.shape)};
+  RowPictures operator()(const PreviewFigure& figure, const RowProgress& progress) const {
+    RowPictures row;
+    row[0] = photograph(source_, figure.alpha, options_.specular, figure.shape);
+    progress(1.0 / kColumns);
+    row[1] = photograph(target_, figure.alpha, options_.specular, figure.shape);
+    progress(2.0 / kColumns);
+    row[2] = photograph(target_, figure.target_alpha, figure.target_specular, figure.shape);
+    return row;
   }
 
  private:
@@ -168,12 +187,13 @@ class EnvironmentStudio {
       : options_(options),
         source_(lobe_of(fit.source, environment)),
         target_(lobe_of(fit.target, environment)),
-        pyramid_(std::span(&environment, 1)) {
-    sampling_.resolution = options.resolution * options.samples_per_axis;
+        pyramid_(std::span(&environment, 1), kMapRows) {
+    sampling_.resolution = options.resolution;
     sampling_.samples = options.directions;
+    sampling_.shares_directions = true;
   }
 
-  RowPictures operator()(const PreviewFigure& figure) const {
+  RowPictures operator()(const PreviewFigure& figure, const RowProgress& progress) const {
     std::vector<SphereMaterial> materials;
     const auto add = [&](const BrdfModel& model, double alpha, const std::vector<double>& specular) {
       for (const double value : specular)
@@ -182,21 +202,26 @@ class EnvironmentStudio {
     add(source_, figure.alpha, options_.specular);
     add(target_, figure.alpha, options_.specular);
     add(target_, figure.target_alpha, figure.target_specular);
-    const SpherePictures pictures = render_spheres(pyramid_, materials, sampling_);
+    SphereSampling sampling = sampling_;
+    std::atomic<int> lines = 0;
+    sampling.progress = [&] { progress(static_cast<double>(++lines) / sampling_.resolution); };
+    const SpherePictures pictures = render_spheres(pyramid_, materials, sampling);
     RowPictures row;
     const std::size_t count = options_.specular.size();
     for (std::size_t column = 0; column < kColumns; ++column)
-      row[column] = covered_picture(pictures, column * count, count, options_.resolution);
+      row[column] = covered_picture(pictures, column * count, count, options_.samples_per_axis);
     return row;
   }
 
  private:
+  // Spots of light are directions, each of which costs as much as a sample: a finer map has more of them.
+  static constexpr int kMapRows = 64;
+
   static BrdfModel lobe_of(const ModelSide& side, const Environment& environment) {
-    const std::vector<ModelDescription> known = make_builtin_renderer()->models();
-    if (std::ranges::find(known, side.model, &ModelDescription::name) == known.end())
-      throw Error(ErrorKind::kUsage, "--light " + environment.name +
-                                         ": shows models of the built-in renderer only, and " + side.model +
-                                         " is none (headlight or degrees show models of workers, too)");
+    if (!is_linear_lobe(side.model))
+      throw Error(ErrorKind::kUsage,
+                  "--light " + environment.name + ": cannot light " + side.model +
+                      ", which is not a built-in model with a scale or F0 (use --light 45)");
     return builtin_brdf(side.model);
   }
 
@@ -254,7 +279,7 @@ std::vector<Shape> lit_shapes(const PreviewLight& light, const std::vector<Shape
 class SheetFiller {
  public:
   SheetFiller(const Fit& fit, const PreviewOptions& options, std::size_t rows)
-      : fit_(fit), options_(options) {
+      : fit_(fit), options_(options), rows_(rows) {
     preview_.specular = options.specular;
     preview_.labels.columns = {"source\n" + fit.source.model, "copied\n" + fit.target.model,
                                "converted\n" + fit.target.model};
@@ -264,15 +289,22 @@ class SheetFiller {
   void add_rows(const std::string& light, Shape shape, const auto& studio) {
     for (const double alpha : options_.alphas) {
       PreviewFigure figure = converted(fit_, options_.specular, light, shape, alpha);
-      add_pictures(studio(figure), figure);
+      add_pictures(studio(figure, [&](double share) { tell(share); }), figure);
       preview_.labels.rows.push_back(row_label(options_.specular, figure));
       preview_.figures.push_back(std::move(figure));
+      tell(0.0);
     }
   }
 
   Preview result() { return std::move(preview_); }
 
  private:
+  // `share`: of the row in work.
+  void tell(double share) const {
+    const double finished = static_cast<double>(preview_.figures.size()) + share;
+    if (options_.progress) options_.progress(finished / static_cast<double>(rows_));
+  }
+
   // Compares the pictures, and places them in the next row of the sheet.
   void add_pictures(const RowPictures& pictures, PreviewFigure& figure) {
     const std::vector<std::uint32_t> pixels = covered_pixels(pictures[0]);
@@ -303,6 +335,7 @@ class SheetFiller {
 
   const Fit& fit_;
   const PreviewOptions& options_;
+  const std::size_t rows_;
   Preview preview_;
 };
 
@@ -326,6 +359,11 @@ PreviewLight preview_light(const std::string& word, double distance, double expo
   if (!(*angle > -180.0 && *angle <= 180.0))
     throw Error(ErrorKind::kUsage, "--light: " + word + " is outside -180 to 180 degrees");
   return {word == "headlight" ? word : word + " degrees", Light{*angle, distance}};
+}
+
+std::string default_light(const Fit& fit, const std::vector<Shape>& shapes) {
+  const bool has_sphere = std::ranges::find(shapes, Shape::kSphere) != shapes.end();
+  return has_sphere && is_linear_lobe(fit.source.model) && is_linear_lobe(fit.target.model) ? "studio" : "45";
 }
 
 std::vector<double> preview_alphas(const Domain& domain) {

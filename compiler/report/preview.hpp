@@ -3,6 +3,7 @@
 // Copying the numbers is what a conversion competes with.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -25,6 +26,9 @@ struct PreviewLight {
 // load_environment does.
 PreviewLight preview_light(const std::string& word, double distance, double exposure);
 
+// `studio`, which lights spheres of built-in models; `45` if a model or every shape is another.
+std::string default_light(const Fit& fit, const std::vector<Shape>& shapes);
+
 struct PreviewOptions {
   std::vector<PreviewLight> lights;
   std::vector<Shape> shapes = {Shape::kSphere, Shape::kTorus};
@@ -32,9 +36,10 @@ struct PreviewOptions {
   std::vector<double> specular;  // of the source, in the fit's unit: one value, or red, green, blue; empty:
                                  // half of the domain
   double diffuse = 0.0;          // reflectance of a Lambertian lobe that all pictures have, 0 to 1
-  int resolution = 256;          // width and height of each picture, pixels
-  int samples_per_axis = 2;      // N x N samples in each pixel
-  int directions = 512;          // of an environment's light, for each sample
+  int resolution = 160;          // width and height of each picture, pixels
+  int samples_per_axis = 2;      // N x N samples in each pixel; under an environment of its coverage only
+  int directions = 64;           // of an environment's light, for each pixel
+  std::function<void(double share)> progress;  // of the whole, 0 to 1; from any thread. It may throw
 };
 
 // How far a picture is from the source's, in display values (sRGB) over the pixels that show the shape. Under

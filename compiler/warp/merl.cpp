@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/errors.hpp"
@@ -52,7 +53,9 @@ std::vector<float> read_merl(const std::filesystem::path& file) {
   for (std::size_t c = 0; c < kScales.size(); ++c)
     for (const QuadratureDirection& direction : half_vector_quadrature()) {
       const double value = kScales[c] * values[c * kCells + cell_of(direction)];
-      samples.push_back(value > 0.0 && std::isfinite(value) ? static_cast<float>(value) : 0.0f);
+      // A value above the largest float is as damaged as an infinite one.
+      const bool is_measured = value > 0.0 && value <= std::numeric_limits<float>::max();
+      samples.push_back(is_measured ? static_cast<float>(value) : 0.0f);
     }
   return samples;
 }

@@ -76,8 +76,15 @@ ModelDescription RendererSet::model(const std::string& name) const {
     names.push_back(model.name);
   }
   for (const WorkerEntry& worker : workers_) names.push_back(worker.name + "/...");
-  throw Error(ErrorKind::kUsage, name + ": unknown model of " + builtin_->version() + " and of the workers" +
-                                     suggestion(name, names));
+  const std::string nearest = nearest_name(name, names);
+  const std::string advice =
+      nearest.empty()
+          ? "`remapc renderers` lists the models of workers, `remapc list --models` the built-in ones; "
+            "--worker \"" +
+                name.substr(0, name.find('/')) + "=COMMAND\" connects another renderer"
+          : "did you mean " + nearest + "?";
+  throw Error(ErrorKind::kUsage,
+              name + ": unknown model of " + builtin_->version() + " and of the workers (" + advice + ")");
 }
 
 Image RendererSet::render(const Material& material, const Scene& scene) const {

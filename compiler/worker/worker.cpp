@@ -76,7 +76,7 @@ std::string Worker::ended(const std::string& shown, const std::string& what) {
   std::string message = plain(what, kLongestWhat);
   if (const std::string log = process_->log_end(); !log.empty())
     message += "; last lines of its log: " + end_of(log);
-  if (!has_answered_ && !entry_.install.empty()) message += "; to install it: " + entry_.install;
+  if (!has_answered_ && !entry_.install.empty()) message += " (install it with: " + entry_.install + ")";
   return message_of(shown, message);
 }
 

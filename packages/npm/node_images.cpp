@@ -420,13 +420,14 @@ class NewByNode final : public NewImage {
     layout_.texel_bytes = layout_.channels.size() * byte_count(stored);
   }
 
-  // The tags of the file that it follows, and its own: those of colors as the programs choose them.
+  // Keeps the tags of the file that the image follows, and adds the color tags that the programs choose. Data
+  // gets no color tag.
   void choose_chunks(const StoredByNode& model, const std::string& model_format,
                      const ImageChanges& changes) {
     const bool follows = model_format == "png" && !changes.channels;
     const Transfer transfer =
         changes.colors ? changes.colors->of(layout_.channels.front().type) : Transfer::kLinear;
-    const bool keeps = follows && (!changes.colors || transfer == changes.colors->followed);
+    const bool keeps = follows && changes.colors && transfer == changes.colors->followed;
     const bool is_srgb =
         keeps ? find_chunk(model.chunks(), "sRGB") != nullptr : changes.colors && transfer == Transfer::kSrgb;
     if (is_srgb)

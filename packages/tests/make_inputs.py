@@ -89,6 +89,8 @@ class Inputs:
         for name, tag in tags.items():
             self.png(f"tagged/{name}/{name}_roughness.png", 16, 16, 1, low=0.1, tags=[tag])
             self.png(f"tagged/{name}/{name}_specular.png", 16, 16, 3, tags=[tag])
+        for role, channels in (("MaskMap", 4), ("BaseMap", 3), ("Normal", 3)):
+            self.png(f"tagged_unity/brick_{role}.png", 16, 16, channels, tags=[tags["srgb"]])
         self.png("unity/brick_MaskMap.png", 16, 16, 4)
         self.png("unity/brick_BaseMap.png", 16, 16, 3)
         self.gltf()

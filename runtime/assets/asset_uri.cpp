@@ -78,4 +78,16 @@ UriKind uri_kind(std::string_view uri) {
   return is_absolute ? UriKind::kAbsolute : UriKind::kFile;
 }
 
+std::string NewImageNames::free_name(const std::string& model, std::string_view suffix) {
+  const std::string stem = stem_beside(model, prefix_, suffix);
+  return stem + free_ending(stem, ".png");
+}
+
+std::string NewImageNames::free_ending(const std::string& stem, const char* extension) {
+  for (std::size_t& number = ++numbers_[stem + extension];; ++number) {
+    std::string ending = (number == 1 ? "" : "_" + std::to_string(number)) + extension;
+    if (taken_.insert(stem + ending).second) return ending;
+  }
+}
+
 }  // namespace remap

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace remap {
 
@@ -34,5 +38,23 @@ enum class UriKind {
   kRemote,    // of another scheme, such as https
 };
 UriKind uri_kind(std::string_view uri);
+
+// Free names for the new images of an asset.
+class NewImageNames {
+ public:
+  // Names begin with `prefix` (AssetResources::image_prefix()).
+  explicit NewImageNames(std::string prefix) : prefix_(std::move(prefix)) {}
+  // The asset uses this path already.
+  void take(const std::string& path) { taken_.insert(path); }
+  // `a/wood_baseColor.png` for `a/wood.jpg`, or `a/wood_baseColor_2.png` if that name is taken.
+  std::string free_name(const std::string& model, std::string_view suffix);
+  // `.png`, or `_2.png` if `stem` with `.png` is taken.
+  std::string free_ending(const std::string& stem, const char* extension);
+
+ private:
+  std::string prefix_;
+  std::set<std::string> taken_;
+  std::map<std::string, std::size_t> numbers_;  // of the last name of each stem and extension
+};
 
 }  // namespace remap

@@ -40,11 +40,12 @@ GltfNewImages::GltfNewImages(const SpannedJson& json, const GltfContainer& conta
       buffers_(root_["buffers"].entries()),
       image_count_(images_.size()),
       texture_count_(textures_.size()),
-      view_count_(views_.size()) {
+      view_count_(views_.size()),
+      names_(resources.image_prefix()) {
   for (const std::vector<SpanValue>* list : {&images_, &buffers_})
     for (const SpanValue& value : *list)
       if (const auto uri = value["uri"].text(); uri && uri_kind(*uri) == UriKind::kFile)
-        uris_.push_back(percent_decoded(*uri));
+        names_.take(percent_decoded(*uri));
 }
 
 std::size_t GltfNewImages::add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
@@ -103,13 +104,7 @@ std::string GltfNewImages::free_uri(const std::string& model, const NewImage& im
   if (const std::string path = stem_beside(percent_decoded(model), prefix, image.suffix);
       path != percent_decoded(stem))
     stem = uri_of_path(path);
-  for (std::size_t number = 1;; ++number) {
-    const std::string uri =
-        stem + (number == 1 ? "" : "_" + std::to_string(number)) + (image.type == kJpeg ? ".jpg" : ".png");
-    if (std::ranges::find(uris_, percent_decoded(uri)) != uris_.end()) continue;
-    uris_.push_back(percent_decoded(uri));
-    return uri;
-  }
+  return stem + names_.free_ending(percent_decoded(stem), image.type == kJpeg ? ".jpg" : ".png");
 }
 
 // `own`: the image whose place it takes; none for a new place.

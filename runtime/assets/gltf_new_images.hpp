@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/asset_uri.hpp"
 #include "assets/gltf_container.hpp"
 #include "assets/gltf_direction.hpp"
 #include "assets/gltf_spares.hpp"
@@ -81,7 +82,6 @@ class GltfNewImages {
   const AssetResources& resources_;
   const std::string& place_;
   std::vector<SpanValue> textures_, images_, views_, buffers_;
-  std::vector<std::string> uris_;  // of files, which new ones must not take
   std::vector<NewImage> new_images_;
   std::vector<NewTexture> new_textures_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // by image and sampler
@@ -94,6 +94,7 @@ class GltfNewImages {
   BinaryTail tail_;
   std::vector<NewResource> files_;
   std::vector<SpanValue> removed_extensions_;
+  NewImageNames names_;  // beside the URIs of files
 };
 
 }  // namespace remap

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "assets/asset_uri.hpp"
 #include "assets/legacy_maps.hpp"
 #include "assets/map_pixels.hpp"
 #include "assets/mtl_document.hpp"

@@ -160,14 +160,6 @@ bool is_there(const AssetResources& resources, const std::string& path) {
   }
 }
 
-std::string NewImageNames::free_name(const std::string& model, std::string_view suffix) {
-  const std::string stem = stem_beside(model, prefix_, suffix);
-  for (std::size_t& number = ++numbers_[stem];; ++number) {
-    std::string name = stem + (number == 1 ? "" : "_" + std::to_string(number)) + ".png";
-    if (taken_.insert(name).second) return name;
-  }
-}
-
 LegacyMaps SurfaceMaps::with(const LegacyMaterial& factors, const MtlSurface& surface,
                              bool as_dielectric) const {
   LegacyMaps maps{diffuse.get(), specular.get(), exponent.get(), 'l', factors, as_dielectric};

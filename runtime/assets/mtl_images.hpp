@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,22 +60,6 @@ class MtlImages {
 
 // Whether a file can be opened.
 bool is_there(const AssetResources& resources, const std::string& path);
-
-// Names of new images beside those that the asset names.
-class NewImageNames {
- public:
-  // Names begin with `prefix` (AssetResources::image_prefix()).
-  explicit NewImageNames(std::string prefix) : prefix_(std::move(prefix)) {}
-
-  void take(const std::string& path) { taken_.insert(path); }
-  // `a/wood_baseColor.png` of `a/wood.jpg`, with a number where that is taken.
-  std::string free_name(const std::string& model, std::string_view suffix);
-
- private:
-  std::string prefix_;
-  std::set<std::string> taken_;
-  std::map<std::string, std::size_t> numbers_;  // of the last name of each stem
-};
 
 // The decoded maps of a surface, all of one size.
 struct SurfaceMaps {

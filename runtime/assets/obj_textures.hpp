@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assets/asset.hpp"
+#include "assets/asset_uri.hpp"
 #include "assets/mtl_images.hpp"
 #include "assets/mtl_material.hpp"
 #include "assets/obj_buffer.hpp"

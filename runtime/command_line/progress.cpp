@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kInterval{100};
 
+}  // namespace
+
 std::string clock_text(double seconds) {
   const long whole = static_cast<long>(seconds + 0.5);
   const long hours = whole / 3600, minutes = whole / 60 % 60;
@@ -18,8 +20,6 @@ std::string clock_text(double seconds) {
     std::snprintf(text, sizeof text, "%ld:%02ld", minutes, whole % 60);
   return text;
 }
-
-}  // namespace
 
 Progress::Progress(std::string label, std::size_t total, bool shown)
     : label_(std::move(label)),

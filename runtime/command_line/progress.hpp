@@ -10,6 +10,9 @@
 
 namespace remap {
 
+// `1:05:00` of an hour and five minutes, `0:13`.
+std::string clock_text(double seconds);
+
 // Shows `label  42 %, 0:13 left` on standard error, updates it at most ten times a second, and erases it when
 // destroyed. Prints nothing where standard error is not a terminal. Thread-safe.
 class Progress {

@@ -25,7 +25,7 @@ class StoredImage {
   virtual ~StoredImage() = default;
   virtual const ImageLayout& layout() const noexcept = 0;  // of the selected level
   virtual std::string part_name() const = 0;               // empty for a part without a name
-  virtual int part_count() const noexcept = 0;             // of the file
+  virtual int part_count() const noexcept = 0;             // of the file; only part 0 knows it
   virtual int level_count() const noexcept = 0;            // of the part: mip levels
   // Selects the mip level for layout() and read_rows(). The initial level 0 is the full picture.
   virtual void select_level(int level) = 0;

@@ -4,7 +4,7 @@ What follows an option is one of: its choices, a name that the program lists, fi
 """
 import re
 
-FILES = re.compile("FILE|FOLDER|DIR|MAP|PATH|IMAGE|MASK")
+FILES = re.compile(r"FILE|FOLDER|DIR|MAP|PATH|IMAGE|MASK|\bOUT\b")
 # Shell commands that print what a value or an argument may be.
 LISTED = {"MODEL": "{program} list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p'",
           "fit": "{program} list 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p'"}
@@ -134,6 +134,6 @@ def fish(table):
 
 
 def completions(table):
-    """Path below docs/completions -> text."""
+    """Path below a folder of completions -> text."""
     name = table["name"]
     return {f"bash/{name}": bash(table), f"zsh/_{name}": zsh(table), f"fish/{name}.fish": fish(table)}

@@ -72,7 +72,8 @@ def table_of(parser):
     """What --help-table prints, of a parser of argparse."""
     def option(action):
         value = action.metavar or "|".join(action.choices or ())
-        return {"names": ", ".join(action.option_strings) or value, "value": value, "description": action.help}
+        return {"names": ", ".join(action.option_strings) or value, "value": value, "description": action.help,
+                "choices": " ".join(action.choices or ()), "repeats": False}
 
     actions = parser._actions
     return {"name": parser.prog, "usage": parser.usage, "description": parser.description.replace("\n", " ").rstrip("."), "commands": [],

@@ -30,9 +30,17 @@ expect "remapc fit --model s" "series svr"
 expect "texremap convert --roughness " ""      # files, which bash adds
 expect "texremap convert assets" ""            # files
 expect "texremap convert --threads 4 --qui" "--quiet"
+# Only the Python package has texremap usd.
+expect "texremap us" ""
+. packages/python/completions/bash/texremap
+expect "texremap us" "usd"
+expect "texremap usd --to " "metallic specular"
+expect "texremap usd -o " ""                   # files
+expect "texremap usd --dr" "--dry-run"
+expect "texremap convert --qui" "--quiet"
 for shell in zsh fish; do
   command -v "$shell" >/dev/null || continue
-  for file in docs/completions/"$shell"/*; do
+  for file in {docs,packages/python}/completions/"$shell"/*; do
     "$shell" -n "$file" || { echo "$file: $shell cannot read it" && faults=1; }
   done
 done

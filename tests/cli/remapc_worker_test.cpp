@@ -17,10 +17,10 @@ using Catch::Matchers::Contains;
 namespace {
 
 Words sweep(const FakeSession& fake, const std::string& table, const std::string& fault = "",
-            const std::string& cache = "cache") {
+            const std::string& cache = "cache", int alphas = 5) {
   return "sweep --objective natural-1 --source fake/ggx --target mitsuba/ggx-plain --resolution 32 "
-         "--roughness-samples 5 "
-         "--specular-samples 2 --roughness-range 0.2,0.9" +
+         "--specular-samples 2 --roughness-range 0.2,0.9 --roughness-samples " +
+         std::to_string(alphas) +
          Words{"--worker", "fake=" + fake.command(fault), "--cache", cache, "-o", table};
 }
 
@@ -55,6 +55,34 @@ TEST_CASE("remapc sweep: a worker is the source, and the second run is from the 
   CHECK(fake.pictures() == pictures);
   CHECK(session.content("b.csv") == table);
   CHECK(fake.nobody_is_left());
+}
+
+TEST_CASE("remapc sweep: the time of the whole sweep is estimated once, after ten pictures", "[slow]") {
+  const Session session;
+  const FakeSession fake;
+  const std::string line = "remapc: sweep fake/ggx -> mitsuba/ggx-plain: about ";
+  const ProcessResult loud = require_success(session.remapc(sweep(fake, "a.csv") + "--jobs 1"));
+  const std::size_t place = loud.errors.find(line);
+  REQUIRE(place != std::string::npos);
+  CHECK(loud.errors.find(" in all\n", place) != std::string::npos);
+  CHECK(loud.errors.find(line, place + 1) == std::string::npos);
+  CHECK(require_success(session.remapc(sweep(fake, "b.csv") + "--jobs 1 --quiet")).errors.empty());
+}
+
+TEST_CASE("remapc preview: finds the worker of a model in the user's list", "[slow]") {
+  const Session session;
+  const FakeSession fake;
+  require_success(session.remapc(sweep(fake, "a.csv", "", "cache", 8)));
+  require_success(session.remapc(session.fit("a.csv")));
+  const Words preview =
+      "preview fits/fake_ggx_to_mitsuba_ggx_plain.json --resolution 16 --alpha 0.3 --shape sphere --no-cache";
+  check_failure(session.remapc(preview), 2, "--worker \"fake=COMMAND\" connects another renderer");
+  session.write("remap/workers.json",
+                R"({"workers": [{"name": "fake", "command": ")" + fake.command() + R"("}]})");
+  const Words with_list = Words{"/usr/bin/env", "XDG_CONFIG_HOME=" + session.path("")};
+  const ProcessResult result = require_success(session.run(with_list + (REMAPC_PROGRAM + preview)));
+  CHECK_THAT(result.output, Contains("45 degrees  sphere"));
+  CHECK(result.errors.empty());
 }
 
 TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the same table", "[slow]") {

@@ -15,18 +15,26 @@ namespace {
 void write_again(const fs::path& file) {
   static const fs::path root = "/dev/shm/remap-fuzz-listing-" + std::to_string(::getpid());
   constexpr std::size_t kMostFiles = 16;
+  fs::remove_all(root);
   remap::TreeManifest read = remap::read_manifest(file, {1, 1});
   const auto place_of = [](const fs::path& name) { return (root / "tree" / name).lexically_normal(); };
-  for (const auto& [name, size] : read.listing.found.sizes)
-    if (place_of(name).lexically_relative(root / "tree").string().starts_with(".."))
-      std::abort();                                          // leads out
-  if (read.listing.found.sizes.size() > kMostFiles) return;  // to make them all would take too long
-  for (const auto& [name, size] : read.listing.found.sizes)
-    remap::write_file(place_of(name), "x", remap::Flush::kNo);
+  const auto placed = [&](const remap::ListedSizes& sizes) {
+    remap::ListedSizes all;
+    for (const auto& [name, size] : sizes) all[place_of(name)] = size;
+    return all;
+  };
+  const remap::ListedSizes sizes = placed(read.listing.found.sizes);
+  for (const auto& [name, size] : sizes)
+    if (name.lexically_relative(root / "tree").string().starts_with("..")) std::abort();  // leads out
+  if (sizes.size() > kMostFiles) return;                            // to make them all would take too long
+  remap::read_or_refuse([&] { remap::require_as_listed(sizes); });  // none is there yet
+  for (const auto& [name, size] : sizes) remap::write_file(name, "x", remap::Flush::kNo);
+  remap::read_or_refuse([&] { remap::require_as_listed(sizes); });
   const std::size_t problems = read.listing.found.problems.size();
   const remap::ManifestHead head = remap::write_manifest(root / "m.jsonl", root / "tree", "", read.listing);
   const remap::TreeManifest again = remap::read_manifest(root / "m.jsonl", {1, 1});
   if (again.costs.size() != head.count || again.listing.found.problems.size() < problems) std::abort();
+  remap::require_as_listed(placed(again.listing.found.sizes));
   fs::remove_all(root);
 }
 

@@ -209,7 +209,7 @@ complete -c remapc -n '__fish_seen_subcommand_from preview' -l resolution -x -d 
 complete -c remapc -n '__fish_seen_subcommand_from preview' -s h -l help -d 'Show this help'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l help-all -d 'Show this help with rare options'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l distance -x -d 'Distance of a light that is no environment, in sphere radii'
-complete -c remapc -n '__fish_seen_subcommand_from preview' -l directions -x -d 'Light directions of an environment per sample of a pixel'
+complete -c remapc -n '__fish_seen_subcommand_from preview' -l directions -x -d 'Light directions of an environment per pixel'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l pixel-samples -x -d 'N x N samples per pixel'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l worker -x -d 'Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l worker-folder -r -F -d 'Existing folder through which workers hand over pictures'

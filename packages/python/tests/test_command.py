@@ -140,6 +140,7 @@ def test_help_shows_usd():
 
 
 def test_manual_pages_and_completion_are_installed():
-    installed = {path.as_posix().rpartition("share/")[2] for path in importlib.metadata.files("texremap")}
+    installed = {path.as_posix().rpartition("share/")[2]: path for path in importlib.metadata.files("texremap")}
     assert {"man/man1/texremap.1", "man/man1/texremap-convert.1", "man/man1/texremap-usd.1", "bash-completion/completions/texremap",
-            "zsh/site-functions/_texremap", "fish/vendor_completions.d/texremap.fish"} <= installed
+            "zsh/site-functions/_texremap", "fish/vendor_completions.d/texremap.fish"} <= installed.keys()
+    assert "'usd '*)" in installed["bash-completion/completions/texremap"].read_text()

@@ -367,19 +367,15 @@ def _suit_format(spec, format):
 
 
 def _tag_colors(spec, format, kind, follows, changes, metadata):
-    def forget():
-        for name in _COLOR_SPACE:
-            spec.erase_attribute(name)
-
-    if not changes["is_color"]:
-        if not follows:
-            forget()
+    is_whole, is_color = kind in _WHOLE, changes["is_color"]
+    transfer = changes["transfer_of_whole" if is_whole else "transfer_of_floats"] if is_color else None
+    if is_color and follows and (not is_whole or transfer == changes["followed_transfer"]):
         return
-    is_whole = kind in _WHOLE
-    transfer = changes["transfer_of_whole" if is_whole else "transfer_of_floats"]
-    if follows and (not is_whole or transfer == changes["followed_transfer"]):
+    # Data has no tag, whatever the file has that it follows.
+    for name in _COLOR_SPACE:
+        spec.erase_attribute(name)
+    if not is_color:
         return
-    forget()
     spec.attribute("oiio:ColorSpace", "sRGB" if transfer == "srgb" else "Linear")
     is_usual = transfer == ("srgb" if is_whole else "linear")
     if not is_usual and format != "png":

@@ -18,7 +18,7 @@ constexpr std::uint64_t kCopies = 4;
 constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
 
 // By libwebp itself: OpenImageIO 2.4 multiplies the colors by alpha in 8 bits, whatever it is asked for.
-ImagePixels webp_pixels(std::string_view bytes, const std::string& place) {
+ImagePixels webp_pixels(std::string_view bytes, const ImageHead& head, const std::string& place) {
   const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   WebPBitstreamFeatures features;
   bool is_read = WebPGetFeatures(data, bytes.size(), &features) == VP8_STATUS_OK;
@@ -28,6 +28,8 @@ ImagePixels webp_pixels(std::string_view bytes, const std::string& place) {
     pixels.height = static_cast<std::size_t>(features.height);
     pixels.channels = features.has_alpha != 0 ? 4 : 3;
     const std::size_t row = pixels.width * pixels.channels;
+    require_plausible(OIIO::ImageSpec(features.width, features.height, static_cast<int>(pixels.channels)),
+                      head, bytes_of(bytes), place);
     require_image_memory(kCopies * row * pixels.height, place);
     pixels.bytes.resize(row * pixels.height);
     const auto decode = pixels.has_alpha() ? &WebPDecodeRGBAInto : &WebPDecodeRGBInto;
@@ -44,7 +46,7 @@ class AssetCodec final : public ImageCodec {
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {
     const ImageBytes image = bytes_of(bytes);
     const ImageHead head = checked_head(image, place, ImageUse::kAsset);
-    if (head.format == "webp") return webp_pixels(bytes, place);
+    if (head.format == "webp") return webp_pixels(bytes, head, place);
     OIIO::ImageSpec config, ignored;
     config.attribute(kUnassociatedAlpha, 1);
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstring>
+#include <limits>
 
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
@@ -110,12 +111,19 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
     throw input_error(place + ": is damaged, or of an unknown kind: compression " +
                       std::to_string(compression) + " of " + std::to_string(bits) + " bits");
   if (pixels > image.size) refuse_damaged(place, "its texels would begin behind its end");
-  if (compression != 0) return;
   const auto side = [&](std::size_t at, std::size_t size) {
     const std::uint32_t value = number_at(begin, at, size, false);
     return static_cast<std::uint64_t>(size == 4 && value > 0x7fffffffu ? 0u - value : value);
   };
   const std::uint64_t width = side(18, is_old ? 2 : 4), height = is_old ? side(20, 2) : side(22, 4);
+  if (compression == 1 || compression == 2) {  // run lengths, all of which are read when the file is opened
+    constexpr std::uint64_t kLongest = std::numeric_limits<int>::max();
+    const auto shorter = [&](std::uint64_t texels) { return static_cast<int>(std::min(texels, kLongest)); };
+    ImageHead head;
+    head.is_read_whole = true;
+    require_plausible(OIIO::ImageSpec(shorter(width), shorter(height), 3), head, image, place);
+  }
+  if (compression != 0) return;
   if ((width * bits + 31) / 32 * 4 * height > image.size - pixels)
     refuse_damaged(place, "it has fewer texels than its size of " + std::to_string(width) + "x" +
                               std::to_string(height) + " needs (the file may be truncated)");

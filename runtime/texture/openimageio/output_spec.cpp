@@ -131,21 +131,18 @@ void choose_compression_level(OIIO::ImageSpec& spec, const std::string& format, 
     spec.attribute("Compression", "zip:" + std::to_string(level));
 }
 
-// Tags the colors of a new file. One that stores them as the file that it follows keeps that file's tag.
-// glTF and most readers take the colors of PNG for sRGB and ignore its gamma, so data has no tag, and linear
-// colors have one only because they were asked for.
+// Tags the colors of a new file. One that stores them as the file that it follows keeps that file's tag. Data
+// has no tag, whatever the file has that it follows: readers that follow the tag would decode it. glTF and
+// most readers take the colors of PNG for sRGB and ignore its gamma, so linear colors have a tag only because
+// they were asked for.
 void tag_colors(OIIO::ImageSpec& spec, std::string_view format, PixelType type, bool follows,
                 const ImageChanges& changes, Metadata& metadata) {
-  const auto forget = [&spec] {
-    for (const char* name : {"oiio:ColorSpace", "oiio:Gamma", "Exif:ColorSpace"}) spec.erase_attribute(name);
-  };
-  if (!changes.colors) {
-    if (!follows) forget();
-    return;
-  }
+  const bool keeps_tag = follows && changes.colors &&
+                         (!is_integer(type) || changes.colors->of(type) == changes.colors->followed);
+  if (keeps_tag) return;
+  for (const char* name : {"oiio:ColorSpace", "oiio:Gamma", "Exif:ColorSpace"}) spec.erase_attribute(name);
+  if (!changes.colors) return;
   const Transfer transfer = changes.colors->of(type);
-  if (follows && (!is_integer(type) || transfer == changes.colors->followed)) return;
-  forget();
   spec.attribute("oiio:ColorSpace", transfer == Transfer::kSrgb ? "sRGB" : "Linear");
   const bool is_usual = transfer == usual_color_transfer(type);
   if (!is_usual && format != "png")

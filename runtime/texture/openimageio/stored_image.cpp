@@ -193,6 +193,7 @@ class OpenedImage : public StoredImage {
   const OIIO::ImageSpec& spec() const { return levels_[static_cast<std::size_t>(level_)]; }
   void open();
   void open_input();
+  void count_parts();
   void find_planes();
   void refuse_spoiled_webp();
   [[noreturn]] void fail(const std::string& what, int system_code = 0) const;
@@ -263,17 +264,25 @@ void OpenedImage::refuse_spoiled_webp() {
   }
 }
 
-void OpenedImage::find_planes() {
+void OpenedImage::count_parts() {
   // The WebP reader reads nothing after it was asked for a frame that is not there; of an animation the first
   // counts.
   const int most_parts = std::string_view(input_->format_name()) == "webp" ? 1 : kMostParts;
   while (part_count_ < most_parts && input_->seek_subimage(part_count_, 0)) ++part_count_;
   if (part_count_ == kMostParts && input_->seek_subimage(part_count_, 0))
     fail("has more than " + std::to_string(kMostParts) + " parts, the most that are read (split the file)");
+}
+
+void OpenedImage::find_planes() {
+  // The TIFF reader goes through all parts before the one that it is asked for. If every part counted the
+  // parts, the time would grow with the cube of their number.
+  if (part_ == 0 || part_ >= kMostParts || !input_->seek_subimage(part_, 0)) {
+    count_parts();
+    if (part_ >= part_count_)
+      fail("part " + std::to_string(part_) + " not found (number of parts: " + std::to_string(part_count_) +
+           ")");
+  }
   (void)input_->geterror();
-  if (part_ >= part_count_)
-    fail("part " + std::to_string(part_) + " not found (number of parts: " + std::to_string(part_count_) +
-         ")");
   for (int number = 0; input_->seek_subimage(part_, number); ++number) levels_.push_back(input_->spec());
   (void)input_->geterror();
   if (!input_->seek_subimage(part_, 0))

@@ -42,12 +42,28 @@ Environment cap_environment(const Direction& middle) {
 }
 
 SpherePictures render(const Environment& environment, const SphereMaterial& material, int resolution,
-                      int samples) {
+                      int samples, bool shares_directions = false) {
   const RadiancePyramid pyramid({&environment, 1}, 64);
   SphereSampling sampling;
   sampling.resolution = resolution;
   sampling.samples = samples;
+  sampling.shares_directions = shares_directions;
   return render_spheres(pyramid, {&material, 1}, sampling);
+}
+
+// The mean difference of pixels of a row from the mean of their neighbours.
+double roughness_of(const SpherePictures& pictures) {
+  const std::vector<float> radiance = pictures.radiance(0, 0);
+  const std::vector<std::uint32_t>& pixels = pictures.pixels();
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i + 1 < pixels.size(); ++i)
+    if (pixels[i + 1] - pixels[i - 1] == 2) {
+      sum += std::fabs(static_cast<double>(radiance[3 * i]) -
+                       0.5 * static_cast<double>(radiance[3 * i - 3] + radiance[3 * i + 3]));
+      ++count;
+    }
+  return sum / static_cast<double>(count);
 }
 
 // The centroid of the light in the picture, in pixels right and up from its middle.
@@ -369,4 +385,13 @@ TEST_CASE("study environments: invalid options are refused") {
     spoil(options);
     CHECK_THROWS_WITH(study_environments(options), Catch::Contains(message));
   }
+}
+
+TEST_CASE("spheres: few directions that all pixels share give a picture as smooth as many") {
+  const Environment studio = builtin_environments(64).back();
+  REQUIRE(studio.name == "studio");
+  const SphereMaterial material{{}, 0.3, 0.5, 0.0};
+  const double fine = roughness_of(render(studio, material, 48, 4096));
+  CHECK(roughness_of(render(studio, material, 48, 64)) > 2.0 * fine);
+  CHECK(roughness_of(render(studio, material, 48, 64, true)) < 1.5 * fine);
 }

@@ -3,6 +3,7 @@
 #include "report/preview.hpp"
 
 #include <cmath>
+#include <mutex>
 
 #include <catch2/catch.hpp>
 
@@ -138,6 +139,45 @@ TEST_CASE("preview: a fit of a model with fixed parameters is shown with them") 
   for (const PreviewFigure& figure : preview_of(fit).figures) CHECK(figure.converted.ssim < 0.95);
 }
 
+TEST_CASE("preview: the default light is a studio, and a lamp for what no environment lights") {
+  const auto light = [](const char* source, const char* target, const std::vector<Shape>& shapes) {
+    return default_light(scaled_fit(source, target, 1.0), shapes);
+  };
+  CHECK(light("mitsuba/ward", "mitsuba/ggx", {Shape::kSphere, Shape::kTorus}) == "studio");
+  CHECK(light("mitsuba/ward", "mitsuba/ggx", {Shape::kTorus}) == "45");
+  CHECK(light("mitsuba3/ggx", "mitsuba/ggx", {Shape::kSphere}) == "45");
+  CHECK(light("mitsuba/ggx", "mitsuba/ggx-ior", {Shape::kSphere}) == "45");
+}
+
+TEST_CASE("preview: progress rises to the whole, and what it throws ends the preview") {
+  for (const std::string light : {"45", "studio"}) {
+    PreviewOptions options = small_preview({light});
+    std::mutex mutex;
+    std::vector<double> shares;
+    options.progress = [&](double share) {
+      const std::lock_guard lock(mutex);
+      shares.push_back(share);
+    };
+    preview_of(identity(), options);
+    CHECK(shares.size() > options.alphas.size());
+    CHECK(shares.back() == 1.0);
+    for (const double share : shares) CHECK((share > 0.0 && share <= 1.0));
+    options.progress = [](double) { throw Error(ErrorKind::kInterrupted, "interrupted"); };
+    CHECK_THROWS_WITH(preview_of(identity(), options), "interrupted");
+  }
+}
+
+TEST_CASE("preview: the rim of a sphere under an environment is smooth and as bright as what it bounds") {
+  PreviewOptions options = small_preview({"overcast"});
+  options.diffuse = 1.0;
+  const Preview preview = preview_of(identity(), options);
+  // The columns of the first picture in the row through its middle: background, rim, sphere.
+  const int row = 2 + 24;
+  CHECK(pixel(preview.sheet, 1, row, 1) == kSheetBackground);
+  CHECK(pixel(preview.sheet, 4, row, 1) > 2.0f * kSheetBackground);
+  for (int x = 2; x < 50; ++x) CHECK(pixel(preview.sheet, x, row, 1) >= kSheetBackground - 1e-6f);
+}
+
 TEST_CASE("preview: environments have the mean luminance of the exposure") {
   const auto luminance = [](const char* name, double exposure) {
     return mean_luminance(std::get<Environment>(preview_light(name, 3.0, exposure).light));
@@ -155,7 +195,8 @@ TEST_CASE("preview: invalid options are refused") {
                     Contains("unknown light 'skye'") && Contains("sky, overcast, studio"));
   CHECK_THROWS_WITH(preview_light("200", 3.0, 1.0), Contains("200 is outside -180 to 180 degrees"));
   refused("mitsuba/ggxx", small_preview(), "did you mean mitsuba/ggx?");
-  refused("cycles-5/ggx", small_preview({"sky"}), "--light sky: shows models of the built-in renderer only");
+  refused("cycles-5/ggx", small_preview({"sky"}),
+          "--light sky: cannot light cycles-5/ggx, which is not a built-in model");
   PreviewOptions options = small_preview({"sky"});
   options.shapes = {Shape::kTorus};
   refused("mitsuba/ggx", options, "--light sky: lights spheres only");

@@ -1,9 +1,11 @@
 // Measured BRDFs: a model written in the format of the MERL database is read back as the same model.
 #include "warp/tabulated_set.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -88,4 +90,26 @@ TEST_CASE("MERL: other files are refused", "[warp]") {
   std::ofstream(file, std::ios::binary) << "short";
   CHECK_THROWS_WITH(read_merl(file), Catch::Contains("is not a BRDF of the MERL database"));
   CHECK_THROWS_WITH(read_merl(folder.path() / "none.binary"), Catch::Contains("none.binary"));
+}
+
+TEST_CASE("MERL: values that are negative, not finite or too large for a float are 0", "[warp]") {
+  constexpr std::size_t kCells = 90 * 90 * 180;
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "damaged.binary";
+  const auto write_with = [&](double value) {
+    std::ofstream stream(file, std::ios::binary);
+    const std::array<std::int32_t, 3> counts = {90, 90, 180};
+    stream.write(reinterpret_cast<const char*>(counts.data()), sizeof counts);
+    const std::vector<double> values(kCells, value);
+    for (int c = 0; c < 3; ++c)
+      stream.write(reinterpret_cast<const char*>(values.data()),
+                   static_cast<std::streamsize>(values.size() * sizeof(double)));
+  };
+  for (const double value :
+       {-1.0, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    write_with(value);
+    CHECK(std::ranges::all_of(read_merl(file), [](float sample) { return sample == 0.0f; }));
+  }
+  write_with(1500.0);
+  CHECK(read_merl(file).front() == Approx(1.0));
 }

@@ -242,7 +242,7 @@ TEST_CASE("worker: the error for a missing command has the shell's message and h
     WorkerRenderer({"fake", "/no/such/program", "", "scripts/renderers fake"}, session.settings());
   });
   CHECK_THAT(message, Contains("request describe: ended with exit code 127; last lines of its log: "));
-  CHECK_THAT(message, Contains("/no/such/program") && Contains("; to install it: scripts/renderers fake"));
+  CHECK_THAT(message, Contains("/no/such/program") && Contains(" (install it with: scripts/renderers fake)"));
 }
 
 TEST_CASE("worker: banners before the first answer are skipped") {

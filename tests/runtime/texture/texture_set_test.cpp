@@ -1,7 +1,10 @@
 // The choice of channels and files for the parameters of a converter.
 #include "texture/texture_set.hpp"
 
+#include <ctime>
 #include <fcntl.h>
+#include <fstream>
+#include <iterator>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -45,6 +48,35 @@ std::vector<std::size_t> roughness_channels(const std::filesystem::path& file,
   for (const ChannelPlace& place : set.parameters.at(Parameter::kRoughness).channels)
     channels.push_back(place.channel);
   return channels;
+}
+
+// A TIFF file of parts of one grey texel each.
+std::string tiff_of_parts(std::uint32_t count) {
+  std::string bytes("II*\0\x8\0\0\0", 8);
+  const auto add = [&](std::uint32_t number, int size) {
+    for (int i = 0; i < size; ++i) bytes += static_cast<char>(number >> 8 * i & 0xffu);
+  };
+  constexpr std::uint32_t kTags[][2] = {{256, 1}, {257, 1}, {258, 8}, {259, 1}, {262, 1},
+                                        {273, 4}, {277, 1}, {278, 1}, {279, 1}};
+  for (std::uint32_t part = 0; part < count; ++part) {
+    add(std::size(kTags), 2);
+    for (const auto& [tag, value] : kTags) {
+      add(tag, 2);
+      add(4, 2);  // a number of 32 bits
+      add(1, 4);
+      add(value, 4);
+    }
+    add(part + 1 < count ? static_cast<std::uint32_t>(bytes.size()) + 4 : 0, 4);
+  }
+  return bytes;
+}
+
+// Of the processor, for several runs.
+template <typename Run>
+std::clock_t ticks_of(Run run) {
+  const std::clock_t start = std::clock();
+  for (int i = 0; i < 10; ++i) run();
+  return std::clock() - start;
 }
 
 ConstantValues constants(const char* text) {
@@ -164,6 +196,20 @@ TEST_CASE("image reader: folders and missing parts are refused with the reason")
   CHECK_THROWS_WITH(ImageReader(files.folder.path()), Contains("is a folder"));
   CHECK_THROWS_WITH(ImageReader(files.image("one.exr", {"Y"}), 1),
                     Contains("part 1 not found (number of parts: 1)"));
+}
+
+TEST_CASE("image reader: only the first part of a file counts the parts, which takes long") {
+  const TemporaryFolder folder;
+  const auto most = folder.path() / "128.tif", more = folder.path() / "129.tif";
+  std::ofstream(most, std::ios::binary) << tiff_of_parts(128);
+  std::ofstream(more, std::ios::binary) << tiff_of_parts(129);
+  CHECK(ImageReader(most).part_count() == 128);
+  const auto first = ticks_of([&] { ImageReader{most, 0}; });
+  const auto last = ticks_of([&] { ImageReader{most, 127}; });
+  CHECK(2 * last < first);
+  CHECK_THROWS_WITH(ImageReader(most, 128), Contains("part 128 not found (number of parts: 128)"));
+  CHECK_THROWS_WITH(ImageReader(more), Contains("has more than 128 parts"));
+  CHECK_THROWS_WITH(ImageReader(more, 128), Contains("has more than 128 parts"));
 }
 
 TEST_CASE("texture set: a lack of open files is no fault of the image") {
