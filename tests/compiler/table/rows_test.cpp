@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "table/folds.hpp"
 #include "table/split.hpp"
 
 using namespace remap;
