@@ -28,14 +28,16 @@ std::string provenance(const Fit& fit) {
   if (fit.pictures)
     text += "Pictures of spheres differ by " + fixed(fit.pictures->converted.rmse, 1) +
             " % of white on average (root mean square of display values), by " +
-            fixed(fit.pictures->copied.rmse, 1) + " %\nwhere the numbers are copied: lights and materials that had no "
+            fixed(fit.pictures->copied.rmse, 1) +
+            " %\nwhere the numbers are copied: lights and materials that had no "
             "part in the fit.\n";
   if (!fit.table.name.empty()) text += "Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
   if (!comment("objective").empty())
     text += "objective " + comment("objective") + " (lights " + comment("lights") + ", weighting " +
             comment("weighting") + "), " + comment("resolution") + " pixels squared, by " +
             comment("renderer") + ".\n";
-  text += "Fit: " + kind_name(fit.mapping) + ", " + std::to_string(number_count(fit.converter->form)) + " numbers";
+  text += "Fit: " + kind_name(fit.mapping) + ", " + std::to_string(number_count(fit.converter->form)) +
+          " numbers";
   if (fit.split.trained_rows + fit.split.held_out_rows != 0)
     text += ", seed " + std::to_string(fit.split.seed) + ", " + std::to_string(fit.split.trained_rows) +
             " rows trained, " + std::to_string(fit.split.held_out_rows) + " held out";
@@ -49,7 +51,8 @@ std::string provenance(const Fit& fit) {
     text += "Its error is not known.\n";
   return text + "The code is within " + two_digits(fit.converter->alpha_bound) + " of the fit in alpha and " +
          two_digits(fit.converter->specular_bound) + " in specular (proven).\nCovers " +
-         range_text("alpha", fit.domain.alpha) + ", " + range_text(fit.source.specular, fit.domain.specular) + ".";
+         range_text("alpha", fit.domain.alpha) + ", " + range_text(fit.source.specular, fit.domain.specular) +
+         ".";
 }
 
 HeaderEnd end_of(const ModelSide& side) {

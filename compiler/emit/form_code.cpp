@@ -51,7 +51,8 @@ std::string form_code(const ConverterData& converter) {
   const CompactForm& form = converter.form;
   const ConverterInfo& info = converter.info;
   const FormEnds ends = ends_of(info.source.roughness, info.target.roughness, info.roughness);
-  const ConventionText source = convention_text(info.source.roughness), target = convention_text(info.target.roughness);
+  const ConventionText source = convention_text(info.source.roughness),
+                       target = convention_text(info.target.roughness);
   const std::string roots = "take_roots(row);\n";
   const bool is_limited = form.alpha_limit || form.specular_limit;
   const std::string to_alpha = row_loop("own", source.to_alpha) + (source.alpha_is_root ? roots : "");
@@ -76,7 +77,7 @@ std::string form_code(const ConverterData& converter) {
                                               {"turn", float_text(form.hinge.turn)},
                                               {"turn_by_alpha", float_text(form.hinge.turn_by_alpha)},
                                               {"spread", float_text(form.hinge.spread)}})
-                            : ""},
+                             : ""},
        {"alpha_powers", std::to_string(form.alpha.size())},
        {"specular_powers", std::to_string(form.specular.size())},
        {"alpha_of_alpha", depends_on_alpha(form.alpha) ? "float alpha" : "float"},

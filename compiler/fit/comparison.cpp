@@ -14,11 +14,12 @@ namespace {
 constexpr int kIterations = 12;
 constexpr std::size_t kMostTerms = 3;  // of forms fitted to pictures: more follow the lights that choose
 constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
-constexpr double kNear = 1.01;        // of the best
-constexpr double kNearRmse = 0.05;    // percent of the display's range
-constexpr double kNearRow = 0.01;     // relative
-constexpr double kNarrowWidth = 0.05;  // below, rows take part in the refinement, which pictures do not resolve
-constexpr double kRowWeight = 3.0;     // of the squared relative error of such a row
+constexpr double kNear = 1.01;         // of the best
+constexpr double kNearRmse = 0.05;     // percent of the display's range
+constexpr double kNearRow = 0.01;      // relative
+constexpr double kNarrowWidth =
+    0.05;                           // below, rows take part in the refinement, which pictures do not resolve
+constexpr double kRowWeight = 3.0;  // of the squared relative error of such a row
 constexpr std::size_t kMostNarrowRows = 60;
 
 FormSample sample_of(const TableRow& row) {
@@ -55,16 +56,19 @@ CompactForm refined(const CompactForm& form, const Domain& domain, const PairPic
   const std::size_t shown = sources.size();
   for (const FormSample& sample : narrow) sources.push_back(sample.source);
   const TexelErrors by_pictures = pictures.choosing_errors(unit);
-  const double weight = kRowWeight * static_cast<double>(shown) / std::max(1.0, static_cast<double>(narrow.size()));
+  const double weight =
+      kRowWeight * static_cast<double>(shown) / std::max(1.0, static_cast<double>(narrow.size()));
   const TexelErrors errors = [&](const std::vector<MappedTexel>& targets) {
     std::vector<TexelError> all =
         by_pictures({targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(shown)});
     for (std::size_t r = 0; r < narrow.size(); ++r) {
       const MappedTexel &wanted = narrow[r].target, &found = targets[shown + r];
       const double a = error_weight(wanted.alpha), s = error_weight(wanted.specular);
-      const double off_alpha = a * (found.alpha - wanted.alpha), off_specular = s * (found.specular - wanted.specular);
-      all.push_back({weight * (off_alpha * off_alpha + off_specular * off_specular), 2.0 * weight * a * off_alpha,
-                     2.0 * weight * s * off_specular, 2.0 * weight * a * a, 0.0, 2.0 * weight * s * s});
+      const double off_alpha = a * (found.alpha - wanted.alpha),
+                   off_specular = s * (found.specular - wanted.specular);
+      all.push_back({weight * (off_alpha * off_alpha + off_specular * off_specular),
+                     2.0 * weight * a * off_alpha, 2.0 * weight * s * off_specular, 2.0 * weight * a * a, 0.0,
+                     2.0 * weight * s * s});
     }
     return all;
   };
@@ -102,8 +106,8 @@ CandidateRecord record_of(const std::string& name, const RowSplit& split, const 
   record.name = name;
   record.number_count = number_count(fit.mapping);
   const std::vector<TableRow>& rows = judging_rows(split);
-  const Residuals residuals = residuals_of(
-      rows, [&](double alpha, double specular) { return evaluate_fit(fit, alpha, specular); });
+  const Residuals residuals =
+      residuals_of(rows, [&](double alpha, double specular) { return evaluate_fit(fit, alpha, specular); });
   std::vector<double> alphas, speculars;
   for (const TableRow& row : rows) {
     alphas.push_back(row.alpha2);
@@ -161,8 +165,8 @@ void choose(Comparison* comparison) {
     const double here = distance(candidates[i].record), there = distance(candidates[chosen].record);
     const bool is_near = here <= 1.0, was_near = there <= 1.0;
     if (is_near != was_near ? is_near
-                            : is_near ? candidates[i].record.number_count < candidates[chosen].record.number_count
-                                      : here < there)
+        : is_near           ? candidates[i].record.number_count < candidates[chosen].record.number_count
+                            : here < there)
       chosen = i;
   }
   if (chosen == candidates.size()) {
@@ -174,8 +178,9 @@ void choose(Comparison* comparison) {
   for (std::size_t i = 0; i < candidates.size(); ++i)
     if (may_be_chosen(candidates[i]))
       candidates[i].record.verdict = i == chosen ? "chosen"
-                                     : distance(candidates[i].record) <= 1.0 ? "more numbers for no other picture"
-                                                                             : "farther from the best";
+                                     : distance(candidates[i].record) <= 1.0
+                                         ? "more numbers for no other picture"
+                                         : "farther from the best";
   comparison->chosen = chosen;
 }
 
@@ -199,9 +204,8 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
   PictureErrors unit;
   if (pictures != nullptr) {
     const CompactForm by_rows = fit_form(samples, base.limits, base.domain, kUnitShape);
-    unit = pictures->chosen([&](double alpha, double specular) {
-      return form_texel(by_rows, base.domain, alpha, specular);
-    });
+    unit = pictures->chosen(
+        [&](double alpha, double specular) { return form_texel(by_rows, base.domain, alpha, specular); });
   }
   const auto enter = [&](const std::string& name, const auto& mapping_of) {
     Candidate& candidate = comparison.candidates.emplace_back();
@@ -219,9 +223,10 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
     if (pictures != nullptr && shape.terms > kMostTerms) continue;
     enter(shape_name(shape), [&] {
       CompactForm form = fit_form(samples, base.limits, base.domain, shape);
-      if (!is_sound(form, base.domain)) throw numeric_error("a factor is not positive");
+      if (!is_sound(form, base.domain))
+        throw numeric_error("not positive, or it falls where the source rises");
       if (pictures != nullptr) form = refined(form, base.domain, *pictures, unit, samples);
-      return rounded_form(form);
+      return within_limits(rounded_form(form), base.domain, base.limits);
     });
   }
   choose(&comparison);

@@ -186,7 +186,7 @@ CompactForm composed_form(const std::vector<Fit>& steps, const Fit& chain) {
     }
   CompactForm form;
   for (const FormShape& shape : form_shapes()) {
-    form = fit_form(samples, chain.limits, chain.domain, shape);
+    form = within_limits(fit_form(samples, chain.limits, chain.domain, shape), chain.domain, chain.limits);
     if (!is_sound(form, chain.domain)) continue;
     const bool is_near = std::ranges::all_of(samples, [&](const FormSample& sample) {
       const MappedTexel found = form_texel(form, chain.domain, sample.source.alpha, sample.source.specular);

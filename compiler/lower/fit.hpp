@@ -69,9 +69,9 @@ struct TableRecord {
 
 // One row of the comparison by which `--model auto` decided (compiler/fit/comparison.hpp).
 struct CandidateRecord {
-  std::string name;                // kind, and its shape
-  std::size_t number_count = 0;    // of its coefficients: its complexity
-  ErrorFigures alpha, specular;    // on the held-out rows
+  std::string name;              // kind, and its shape
+  std::size_t number_count = 0;  // of its coefficients: its complexity
+  ErrorFigures alpha, specular;  // on the held-out rows
   // Root mean square on them relative to the value, or to a fiftieth of 1 where that is more.
   double relative_alpha = 0.0, relative_specular = 0.0;
   std::optional<PictureErrors> pictures;  // none: a renderer does not take part

@@ -73,7 +73,8 @@ Json mapping_json(const MappingKind& mapping) {
 }
 
 Json to_json(const Limits& limits) {
-  return {{"alpha", finite(limits.alpha)}, {"specular", limits.specular ? Json(finite(*limits.specular)) : Json()}};
+  return {{"alpha", finite(limits.alpha)},
+          {"specular", limits.specular ? Json(finite(*limits.specular)) : Json()}};
 }
 
 Json to_json(const PictureErrors& errors) {

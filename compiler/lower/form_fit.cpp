@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::array kPoles = {0.02, 0.035, 0.06, 0.1, 0.17, 0.3, 0.5, 1.0};
 constexpr int kRowIterations = 30;
-constexpr int kGrid = 40;             // of is_sound(), in each direction
-constexpr double kLeastFactor = 1e-3;  // of a sound form
+constexpr int kGrid = 40;               // steps over the domain, in each direction
+constexpr double kLeastFactor = 1e-3;   // of a sound form
 constexpr double kSmallestGain = 2e-5;  // of a sum of errors, relative
-constexpr double kStep = 1e-5;         // of differences, relative to a number
-constexpr double kRidge = 1e-9;        // of normal equations, relative
+constexpr double kStep = 1e-5;          // of differences, relative to a number
+constexpr double kRidge = 1e-9;         // of normal equations, relative
 
 double weight_of(double value) { return 1.0 / std::max(value, 0.02); }
 
@@ -50,13 +50,16 @@ std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples
   for (const FormSample& sample : samples)
     if (counts(sample)) kept.push_back(&sample);
   if (kept.size() < terms.size())
-    throw Error(ErrorKind::kNumeric, "form: " + std::to_string(kept.size()) + " rows below the limits do not "
-                                         "determine " + std::to_string(terms.size()) + " numbers");
+    throw Error(ErrorKind::kNumeric, "form: " + std::to_string(kept.size()) +
+                                         " rows below the limits do not "
+                                         "determine " +
+                                         std::to_string(terms.size()) + " numbers");
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(kept.size()), static_cast<Eigen::Index>(terms.size()));
   Eigen::VectorXd wanted(matrix.rows());
   for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
     const FormSample& sample = *kept[static_cast<std::size_t>(r)];
-    const double weight = weight_of(target(sample)), t = sample.source.specular / (sample.source.specular + pole);
+    const double weight = weight_of(target(sample)),
+                 t = sample.source.specular / (sample.source.specular + pole);
     for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
       const auto& [j, i] = terms[static_cast<std::size_t>(k)];
       matrix(r, k) = weight * source(sample) * std::pow(t, j) * std::pow(sample.source.alpha, i);
@@ -74,6 +77,15 @@ std::vector<MappedTexel> targets_of(const CompactForm& form, const Domain& domai
   for (const MappedTexel& source : sources)
     targets.push_back(form_texel(form, domain, source.alpha, source.specular));
   return targets;
+}
+
+// A texel of the grid over the domain, denser where alpha is small.
+MappedTexel grid_texel(const Domain& domain, int i, int j) {
+  const auto between = [](const Range& range, double share) {
+    return range.min + (range.max - range.min) * share;
+  };
+  const double share = static_cast<double>(i) / kGrid;
+  return {between(domain.alpha, share * share), between(domain.specular, static_cast<double>(j) / kGrid)};
 }
 
 double sum_of(const std::vector<TexelError>& errors) {
@@ -117,7 +129,8 @@ NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
   return equations;
 }
 
-CompactForm refined_by_rows(const CompactForm& form, const Domain& domain, const std::vector<FormSample>& samples) {
+CompactForm refined_by_rows(const CompactForm& form, const Domain& domain,
+                            const std::vector<FormSample>& samples) {
   std::vector<MappedTexel> sources;
   for (const FormSample& sample : samples) sources.push_back(sample.source);
   const TexelErrors squares = [&](const std::vector<MappedTexel>& targets) {
@@ -125,9 +138,14 @@ CompactForm refined_by_rows(const CompactForm& form, const Domain& domain, const
     for (std::size_t r = 0; r < targets.size(); ++r) {
       const MappedTexel& wanted = samples[r].target;
       const double a = weight_of(wanted.alpha), s = weight_of(wanted.specular);
-      const double off_alpha = targets[r].alpha - wanted.alpha, off_specular = targets[r].specular - wanted.specular;
+      const double off_alpha = targets[r].alpha - wanted.alpha,
+                   off_specular = targets[r].specular - wanted.specular;
       errors[r] = {a * a * off_alpha * off_alpha + s * s * off_specular * off_specular,
-                   2.0 * a * a * off_alpha, 2.0 * s * s * off_specular, 2.0 * a * a, 0.0, 2.0 * s * s};
+                   2.0 * a * a * off_alpha,
+                   2.0 * s * s * off_specular,
+                   2.0 * a * a,
+                   0.0,
+                   2.0 * s * s};
     }
     return errors;
   };
@@ -173,7 +191,9 @@ CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limit
   };
   const auto alpha = [](const FormSample& sample) { return sample.source.alpha; };
   const auto specular = [](const FormSample& sample) { return sample.source.specular; };
-  const auto has_light = [&](const FormSample& sample) { return is_free(sample) && sample.source.specular > 0.0; };
+  const auto has_light = [&](const FormSample& sample) {
+    return is_free(sample) && sample.source.specular > 0.0;
+  };
   for (const double pole : kPoles) {
     if (shape.powers == 1 && pole != kPoles.back()) continue;
     CompactForm form;
@@ -181,13 +201,14 @@ CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limit
     double alpha_error = 0.0, specular_error = 0.0;
     std::tie(form.alpha, alpha_error) =
         fit_factor(samples, shape, pole, is_free, alpha, [](const FormSample& s) { return s.target.alpha; });
-    std::tie(form.specular, specular_error) = fit_factor(samples, shape, pole, has_light, specular,
-                                                         [](const FormSample& s) { return s.target.specular; });
+    std::tie(form.specular, specular_error) = fit_factor(
+        samples, shape, pole, has_light, specular, [](const FormSample& s) { return s.target.specular; });
     if (alpha_error + specular_error >= least) continue;
     least = alpha_error + specular_error;
     best = form;
   }
-  if (std::ranges::any_of(samples, &FormSample::alpha_at_limit)) best.alpha_limit = static_cast<float>(limits.alpha);
+  if (std::ranges::any_of(samples, &FormSample::alpha_at_limit))
+    best.alpha_limit = static_cast<float>(limits.alpha);
   if (limits.specular && std::ranges::any_of(samples, &FormSample::specular_at_limit))
     best.specular_limit = static_cast<float>(*limits.specular);
   if (!best.alpha_limit && !best.specular_limit) return best;
@@ -207,7 +228,8 @@ CompactForm refined_form(const CompactForm& form, const Domain& domain,
     for (int attempt = 0; attempt < 6 && !is_better; ++attempt, damping *= 6.0) {
       Eigen::MatrixXd curvature = equations.curvature;
       const double ridge = kRidge * curvature.trace();
-      for (Eigen::Index k = 0; k < curvature.rows(); ++k) curvature(k, k) += damping * curvature(k, k) + ridge;
+      for (Eigen::Index k = 0; k < curvature.rows(); ++k)
+        curvature(k, k) += damping * curvature(k, k) + ridge;
       const Eigen::VectorXd step = curvature.ldlt().solve(equations.gradient);
       std::vector<double> moved = numbers;
       for (std::size_t k = 0; k < moved.size(); ++k) moved[k] -= step[static_cast<Eigen::Index>(k)];
@@ -231,17 +253,35 @@ CompactForm refined_form(const CompactForm& form, const Domain& domain,
 }
 
 bool is_sound(const CompactForm& form, const Domain& domain) {
+  std::array<MappedTexel, kGrid + 1> sharper{};
+  for (int i = 0; i <= kGrid; ++i) {
+    MappedTexel darker{};
+    for (int j = 0; j <= kGrid; ++j) {
+      const MappedTexel source = grid_texel(domain, i, j);
+      const double t = source.specular / (source.specular + static_cast<double>(form.pole));
+      const double p = factor_value(form.alpha, source.alpha, t),
+                   q = factor_value(form.specular, source.alpha, t);
+      if (!(p > kLeastFactor && q > kLeastFactor && std::isfinite(p) && std::isfinite(q))) return false;
+      const MappedTexel texel = form_texel(form, domain, source.alpha, source.specular);
+      if (!(texel.alpha > kLeastFactor * source.alpha)) return false;
+      if (i > 0 && texel.alpha < sharper[static_cast<std::size_t>(j)].alpha) return false;
+      if (j > 0 && texel.specular < darker.specular) return false;
+      sharper[static_cast<std::size_t>(j)] = darker = texel;
+    }
+  }
+  return true;
+}
+
+CompactForm within_limits(CompactForm form, const Domain& domain, const Limits& limits) {
   for (int i = 0; i <= kGrid; ++i)
     for (int j = 0; j <= kGrid; ++j) {
-      const double share = static_cast<double>(i) / kGrid;
-      const double alpha = domain.alpha.min + (domain.alpha.max - domain.alpha.min) * share * share;
-      const double specular = domain.specular.min + (domain.specular.max - domain.specular.min) * j / kGrid;
-      const double t = specular / (specular + static_cast<double>(form.pole));
-      const double p = factor_value(form.alpha, alpha, t), q = factor_value(form.specular, alpha, t);
-      if (!(p > kLeastFactor && q > kLeastFactor && std::isfinite(p) && std::isfinite(q))) return false;
-      if (!(form_texel(form, domain, alpha, specular).alpha > kLeastFactor * alpha)) return false;
+      const MappedTexel source = grid_texel(domain, i, j);
+      const MappedTexel texel = form_texel(form, domain, source.alpha, source.specular);
+      if (texel.alpha > limits.alpha) form.alpha_limit = static_cast<float>(limits.alpha);
+      if (limits.specular && texel.specular > *limits.specular)
+        form.specular_limit = static_cast<float>(*limits.specular);
     }
-  return true;
+  return form;
 }
 
 }  // namespace remap

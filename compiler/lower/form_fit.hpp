@@ -50,7 +50,11 @@ using TexelErrors = std::function<std::vector<TexelError>(const std::vector<Mapp
 CompactForm refined_form(const CompactForm& form, const Domain& domain,
                          const std::vector<MappedTexel>& sources, const TexelErrors& errors, int iterations);
 
-// Whether P and Q are positive and finite over the domain, and the hinge leaves a width: on a dense grid.
+// Whether P and Q are positive and finite over the domain, the hinge leaves a width, target alpha never falls
+// where source alpha rises, and target specular never where source specular does: on a dense grid.
 bool is_sound(const CompactForm& form, const Domain& domain);
+
+// The form, held at those limits that it passes somewhere in the domain.
+CompactForm within_limits(CompactForm form, const Domain& domain, const Limits& limits);
 
 }  // namespace remap

@@ -49,13 +49,12 @@ struct Rule {
   }
 };
 
-double limit_of(const std::optional<float>& limit) {
-  return limit ? static_cast<double>(*limit) : INFINITY;
-}
+double limit_of(const std::optional<float>& limit) { return limit ? static_cast<double>(*limit) : INFINITY; }
 
 Rule rule_of(const Fit& fit) {
   if (const auto* form = std::get_if<CompactForm>(&fit.mapping))
-    return {fit.mapping, fit.domain, limit_of(form->alpha_limit), limit_of(form->specular_limit), form->hinge};
+    return {fit.mapping, fit.domain, limit_of(form->alpha_limit), limit_of(form->specular_limit),
+            form->hinge};
   return {fit.mapping, fit.domain, fit.limits.alpha, fit.limits.specular.value_or(INFINITY), {}};
 }
 
@@ -102,7 +101,8 @@ double evaluate_texel(const Fit& fit, double roughness, std::span<const double> 
                       std::span<double> specular_out, bool* in_domain) {
   const FormEnds ends = ends_of(fit.source.roughness, fit.target.roughness, own_roughness_range(fit));
   const Range covered = specular_range(fit);
-  bool inside = Range{static_cast<double>(ends.width_min), static_cast<double>(ends.width_max)}.contains(roughness);
+  bool inside =
+      Range{static_cast<double>(ends.width_min), static_cast<double>(ends.width_max)}.contains(roughness);
   for (std::size_t c = 0; c < specular.size(); ++c) {
     inside = inside && covered.contains(specular[c]);
     specular_out[c] = std::isnan(specular[c]) ? 0.0 : std::max(specular[c], 0.0);
@@ -111,8 +111,8 @@ double evaluate_texel(const Fit& fit, double roughness, std::span<const double> 
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double own = std::clamp(std::isnan(roughness) ? 0.0 : roughness, static_cast<double>(ends.width_from),
                                 static_cast<double>(ends.width_to));
-  const double alpha =
-      std::max(rule_of(fit)(to_alpha(fit.source.roughness, own), specular_out), static_cast<double>(ends.least_alpha));
+  const double alpha = std::max(rule_of(fit)(to_alpha(fit.source.roughness, own), specular_out),
+                                static_cast<double>(ends.least_alpha));
   for (std::size_t c = 0; c < specular.size(); ++c)
     if (std::isnan(specular[c]) || std::isnan(roughness)) specular_out[c] = nan;
   return std::isnan(roughness) ? nan : from_alpha(fit.target.roughness, alpha);

@@ -49,8 +49,9 @@ struct Oversize {
     std::size_t terms = 0;
     for (const FactorTerms* factor : {&form.alpha, &form.specular})
       for (const std::vector<float>& row : *factor) terms = std::max(terms, row.size());
-    return excess(std::array{Count{std::max(form.alpha.size(), form.specular.size()), kMostPowersOfT, "powers of t"},
-                             Count{terms, kMostPowersOfAlpha, "powers of alpha"}});
+    return excess(
+        std::array{Count{std::max(form.alpha.size(), form.specular.size()), kMostPowersOfT, "powers of t"},
+                   Count{terms, kMostPowersOfAlpha, "powers of alpha"}});
   }
 };
 

@@ -34,7 +34,8 @@ std::vector<FormSample> samples_of(const Fit& fit) {
   const Domain& domain = fit.domain;
   for (int i = 0; i <= kSampledAlphas; ++i)
     for (int j = 0; j <= kSampledSpeculars; ++j) {
-      const double share = static_cast<double>(i) / kSampledAlphas, part = static_cast<double>(j) / kSampledSpeculars;
+      const double share = static_cast<double>(i) / kSampledAlphas,
+                   part = static_cast<double>(j) / kSampledSpeculars;
       const double alpha = domain.alpha.min + (domain.alpha.max - domain.alpha.min) * share * share;
       const double specular = domain.specular.min + (domain.specular.max - domain.specular.min) * part * part;
       samples.push_back({{alpha, specular}, evaluate_mapping(fit.mapping, alpha, specular), false, false});
@@ -78,8 +79,10 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
     return {*form, rounding.alpha, rounding.specular};
   }
   if (!is_proportional(fit.mapping) && fit.domain.specular.min <= 0.0)
-    throw Error(ErrorKind::kNumeric, fit.id + ": target specular does not vanish with the source's, so its domain must "
-                                              "begin above specular 0");
+    throw Error(ErrorKind::kNumeric,
+                fit.id +
+                    ": target specular does not vanish with the source's, so its domain must "
+                    "begin above specular 0");
   const std::vector<FormSample> samples = samples_of(fit);
   const double unit = largest(samples, fit.limits.specular);
   const double alpha_within = options.alpha_tolerance, specular_within = options.specular_tolerance * unit;
@@ -105,10 +108,11 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
     if (proven <= 1.0) return best;
   }
   if (proven <= kLoosest) return best;
-  throw Error(ErrorKind::kNumeric,
-              fit.id + ": no form of up to " + std::to_string(kMostLoweredPowers) + " x " +
-                  std::to_string(kMostLoweredTerms) + " terms is proven within " + two_figures(kLoosest * alpha_within) +
-                  " in alpha and " + two_figures(kLoosest * options.specular_tolerance) + " of the largest specular");
+  throw Error(ErrorKind::kNumeric, fit.id + ": no form of up to " + std::to_string(kMostLoweredPowers) +
+                                       " x " + std::to_string(kMostLoweredTerms) +
+                                       " terms is proven within " + two_figures(kLoosest * alpha_within) +
+                                       " in alpha and " + two_figures(kLoosest * options.specular_tolerance) +
+                                       " of the largest specular");
 }
 
 }  // namespace remap

@@ -17,8 +17,8 @@ struct Lowered {
   double alpha_bound = 0.0, specular_bound = 0.0;
 };
 
-// The form with the fewest terms that meets the tolerances, or that is nearest to them; a compact fit as it is.
-// Throws kNumeric where none is proven within ten times the tolerances.
+// The form with the fewest terms that meets the tolerances, or that is nearest to them; a compact fit as it
+// is. Throws kNumeric where none is proven within ten times the tolerances.
 Lowered lower(const Fit& fit, const LoweringOptions& options = {});
 
 // Lowers the fit and sets fit->converter. Takes up to a second. Throws as lower(), and leaves the fit as it

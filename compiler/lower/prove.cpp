@@ -146,7 +146,8 @@ Distance rounding_of(const CompactForm& form, const Domain& domain) {
     const double n = static_cast<double>(operations(factor) + kOthers) * 2.0 * kFloatUnit;
     return n / (1.0 - n) * (value * magnitude(factor, alpha, t) * (1.0 + hinge)) + 1e-37;
   };
-  const double cut = specular * magnitude(form.specular, alpha, t), width = alpha * magnitude(form.alpha, alpha, t);
+  const double cut = specular * magnitude(form.specular, alpha, t),
+               width = alpha * magnitude(form.alpha, alpha, t);
   const double turn = (std::fabs(static_cast<double>(form.hinge.turn)) +
                        std::fabs(static_cast<double>(form.hinge.turn_by_alpha)) * alpha) *
                       (form.specular_limit ? cut / static_cast<double>(*form.specular_limit) + 1.0 : 0.0);

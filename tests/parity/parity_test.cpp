@@ -115,7 +115,8 @@ std::vector<MadeModel> subjects() {
     fit.target.roughness = target;
     fit.target.specular = id == "same_names" ? fit.source.specular : fit.target.specular;
     fit.mapping = mapping;
-    fit.domain = {{0.02, 0.95}, {is_proportional(mapping) ? 0.0 : 0.02, 0.6}};
+    fit.domain = {{0.02, 0.95}, {0.0, 0.6}};
+    if (!is_proportional(mapping)) fit.domain = {{0.2, 0.95}, {0.15, 0.6}};
     all.push_back(lowered(fit));
   };
   const Parametric paper{{{1.06, -0.63, 0.06, 0.09}}, {{1, {0.74, -0.19, 0.0, -1.03, 3.6, 0.0}}}};

@@ -48,13 +48,12 @@ TEST_CASE("chain: closed form of two polynomials") {
   CHECK(chain.id == "x_a_to_x_c");
   CHECK(chain.source.model == "x/a");
   CHECK(chain.target.model == "x/c");
-  CHECK(kind_name(chain.mapping) == "chain");
-  CHECK(is_proportional(chain.mapping));
+  CHECK(kind_name(chain.mapping) == "compact");
   for (const double alpha : {0.02, 0.3, 1.0}) {
     const double middle = 0.6 * alpha + 0.2 * alpha * alpha;
     const MappedTexel texel = evaluate_mapping(chain.mapping, alpha, 0.4);
-    CHECK(texel.alpha == Approx(0.9 * middle + 0.05 * middle * middle).epsilon(1e-14));
-    CHECK(texel.specular == Approx(0.16).epsilon(1e-14));
+    CHECK(texel.alpha == Approx(0.9 * middle + 0.05 * middle * middle).epsilon(3e-4));
+    CHECK(texel.specular == Approx(0.16).epsilon(1e-6));
   }
 }
 
@@ -118,8 +117,8 @@ TEST_CASE("chain: against its steps, with the rules of their domains") {
   CHECK(alpha_depends_on_specular(chain.mapping));
   CHECK_FALSE(is_proportional(chain.mapping));
   const ChainDifference difference = difference_from_steps(chain, {a, b});
-  CHECK(difference.alpha < 1e-7);  // floats at the edges of domains
-  CHECK(difference.grey_specular < 1e-7);
+  CHECK(difference.alpha < 4e-3);  // a step of an 8-bit map
+  CHECK(difference.grey_specular < 1e-4);
   // The width of a dark channel lags behind that of the largest: 0.05 of specular at a slope of 0.2 or so.
   CHECK(difference.color_specular > 1e-4);
   CHECK(difference.color_specular < 0.05);

@@ -22,7 +22,7 @@ using namespace remap;
 namespace {
 
 constexpr int kPoints = kSlowBuild ? 2000 : 20000;
-constexpr Domain kWhole{{0.01, 1.0}, {0.0, 1.0}}, kLit{{0.01, 1.0}, {0.02, 1.0}};
+constexpr Domain kWhole{{0.01, 1.0}, {0.0, 1.0}}, kLit{{0.2, 1.0}, {0.2, 1.0}};
 
 Fit fit_of(const MappingKind& mapping, const Domain& domain) {
   Fit fit = example_fit();
@@ -55,12 +55,15 @@ Distance worst_share(const Fit& fit, const Lowered& lowered, std::uint64_t seed)
   };
   Distance worst;
   for (int i = 0; i < kPoints; ++i) {
-    const float a = between(fit.domain.alpha), s = between(fit.domain.specular), t = s / (s + lowered.form.pole);
-    const MappedTexel expected = evaluate_mapping(fit.mapping, static_cast<double>(a), static_cast<double>(s));
+    const float a = between(fit.domain.alpha), s = between(fit.domain.specular),
+                t = s / (s + lowered.form.pole);
+    const MappedTexel expected =
+        evaluate_mapping(fit.mapping, static_cast<double>(a), static_cast<double>(s));
     const double alpha = static_cast<double>(a * factor_in_floats(lowered.form.alpha, a, t));
     const double specular = static_cast<double>(s * factor_in_floats(lowered.form.specular, a, t));
     worst.alpha = std::max(worst.alpha, std::fabs(alpha - expected.alpha) / lowered.alpha_bound);
-    worst.specular = std::max(worst.specular, std::fabs(specular - expected.specular) / lowered.specular_bound);
+    worst.specular =
+        std::max(worst.specular, std::fabs(specular - expected.specular) / lowered.specular_bound);
   }
   return worst;
 }

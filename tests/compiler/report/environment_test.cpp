@@ -11,11 +11,11 @@
 #include <catch2/catch.hpp>
 
 #include "core/files.hpp"
+#include "lights/lit_sphere.hpp"
 #include "lower/fit_file.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/scene.hpp"
-#include "lights/lit_sphere.hpp"
 #include "study/environments_report.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"

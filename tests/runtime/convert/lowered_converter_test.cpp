@@ -34,7 +34,8 @@ const std::vector<Fit>& fits() {
       made.push_back(lowered_fit(fit));
       fit.target.roughness = fit.source.roughness;
       fit.mapping = curved(name == "alpha" ? 2.0 : 0.5);
-      fit.domain.specular.min = 0.01;
+      fit.domain.alpha.min = 0.2;
+      fit.domain.specular.min = 0.2;
       made.push_back(lowered_fit(fit));
     }
     return made;
