@@ -148,6 +148,48 @@ void look_at_targa(const ImageBytes& image, const std::string& place) {
       refuse_damaged(place, "a text of its extension area has no end");
 }
 
+// OpenImageIO looks up colors behind the end of a palette.
+void look_at_targa_palette(std::string_view begin, const ImageBytes& image, const std::string& place) {
+  constexpr std::size_t kHeader = 18, kChunk = std::size_t{1} << 16;
+  constexpr std::uint32_t kPlain = 1, kRunLengths = 9;
+  const std::uint32_t type = number_at(begin, 2, 1, false), first = number_at(begin, 3, 2, false),
+                      colors = number_at(begin, 5, 2, false), color_bits = number_at(begin, 7, 1, false),
+                      index_bytes = (number_at(begin, 16, 1, false) + 7) / 8;
+  if (type != kPlain && type != kRunLengths) return;
+  if (begin[1] != 1 || first != 0 || index_bytes > 2)
+    throw input_error(place + ": has a palette of an unknown kind (convert it to PNG)");
+  std::uint64_t at = kHeader + number_at(begin, 0, 1, false) + std::uint64_t{colors} * ((color_bits + 7) / 8);
+  std::uint64_t left = std::uint64_t{number_at(begin, 12, 2, false)} * number_at(begin, 14, 2, false);
+  std::string chunk;
+  std::size_t next = 0;
+  bool has_ended = false;
+  const auto number = [&](std::size_t count) {  // 0 behind the end, which the reader finds itself
+    if (chunk.size() - next < count) {
+      at += next;
+      chunk.resize(kChunk);
+      chunk.resize(image.read(at, chunk.data(), chunk.size()));
+      next = 0;
+      has_ended = chunk.size() < count;
+    }
+    const std::uint32_t value = has_ended ? 0 : number_at(chunk, next, count, false);
+    next += has_ended ? 0 : count;
+    return value;
+  };
+  while (left > 0 && !has_ended) {
+    std::uint64_t texels = left, indices = left;
+    if (type == kRunLengths) {
+      const std::uint32_t packet = number(1);
+      texels = std::min<std::uint64_t>(left, (packet & 0x7f) + 1);
+      indices = (packet & 0x80) != 0 ? 1 : texels;
+    }
+    for (; indices > 0 && !has_ended; --indices)
+      if (number(index_bytes) >= colors && !has_ended)
+        refuse_damaged(place, "a texel has a color behind the end of the palette, which has " +
+                                  std::to_string(colors) + " colors");
+    left -= texels;
+  }
+}
+
 // OpenEXR allocates and fills as much as an attribute claims.
 void look_at_exr(const ImageBytes& image, const std::string& place) {
   constexpr std::size_t kStart = 8, kMostAttributes = 100'000, kNames = 2 * 256;  // name and type
@@ -226,7 +268,10 @@ ImageHead checked_head(const ImageBytes& image, const std::string& place, ImageU
     head.is_read_whole = number_at(begin, 28, 1, true) != 0;  // interlaced
   }
   if (head.format == "bmp") look_at_bmp(begin, image, place);
-  if (head.format == "targa") look_at_targa(image, place);
+  if (head.format == "targa") {
+    look_at_targa(image, place);
+    look_at_targa_palette(begin, image, place);
+  }
   if (head.format == "openexr") look_at_exr(image, place);
   if (head.format == "jpeg") head.is_read_whole = is_progressive(image);
   if (head.format == "webp" || head.format == "targa") head.is_read_whole = true;

@@ -85,6 +85,25 @@ TEST_CASE("The codec refuses images of a few bytes that claim more texels than t
                     Catch::Contains("has 2147483647x2147483647 texels, more than the most that are read"));
 }
 
+TEST_CASE("The codec refuses Targa files with colors behind the end of their palette", "[texture]") {
+  const auto targa = [](char type, char bits, const std::string& indices) {
+    const std::string begin{0, 1, type, 0, 0, 2, 0, 24, 0, 0, 0, 0, 3, 0, 1, 0, bits, 0};
+    return begin + std::string("\1\2\3\11\12\13", 6) + indices;
+  };
+  const auto decode = [](const std::string& bytes) { return image_library().codec().decode(bytes, "image"); };
+  const std::string behind =
+      "image: is damaged: a texel has a color behind the end of the palette, which has 2 colors";
+  CHECK(decode(targa(1, 8, {1, 0, 1})).width == 3);
+  CHECK_THROWS_WITH(decode(targa(1, 8, {1, 0, 2})), behind);
+  CHECK_THROWS_WITH(decode(targa(1, 16, {1, 0, 0, 0, 1, 1})), behind);
+  // Runs of one color, and of as many as their length says.
+  CHECK(decode(targa(9, 8, std::string("\x81\1\0\0", 4))).width == 3);
+  CHECK_THROWS_WITH(decode(targa(9, 8, std::string("\x82\2", 2))), behind);
+  CHECK_THROWS_WITH(decode(targa(9, 8, std::string("\2\1\0\2", 4))), behind);
+  CHECK_THROWS_WITH(decode(targa(1, 24, std::string(9, '\0'))),
+                    "image: has a palette of an unknown kind (convert it to PNG)");
+}
+
 TEST_CASE("The codec refuses images that are cut off, and other files", "[texture]") {
   const ImageCodec& codec = image_library().codec();
   for (const std::string extension : {"png", "tga", "bmp", "tif"}) {
