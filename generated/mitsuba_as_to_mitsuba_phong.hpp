@@ -8,7 +8,7 @@
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 5 numbers, seed 1, 779 rows trained, 195 held out.
 // Error on the rows held out: alpha rms 0.041, 99 % 0.11, max 0.11;
-// specular rms 0.051, 99 % 0.18, max 0.19.
+// specular rms 0.051, 99 % 0.19, max 0.19.
 // The code is within 1.7e-05 of the fit in alpha and 1.6e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_PHONG_HPP
@@ -59,7 +59,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.30515f, turn_by_alpha = 0.54234f, spread = -0.94475f;
+  static constexpr float turn = 0.29871f, turn_by_alpha = 0.54736f, spread = -0.94649f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
@@ -67,7 +67,7 @@ struct Form {
     c[0] = 1.6946f;
   }
   static void specular_factor(float, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 1.3436f;
+    c[0] = 1.3426f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -346,19 +346,19 @@ struct mitsuba_as_to_mitsuba_phong {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {6161.844f, 1.0f}, {12.0f, 1.7e-05f}},
-        {{0.13375f, 0.9375f}, {32.789474f, 1.0f}, {0.0047f, 1.7e-05f}},
-        {{0.2575f, 0.875f}, {7.5982175f, 1.0f}, {0.00069f, 1.7e-05f}},
-        {{0.38125f, 0.8125f}, {2.536787f, 1.0f}, {0.00023f, 1.7e-05f}},
-        {{0.505f, 0.75f}, {0.7166304f, 1.0f}, {0.00011f, 1.7e-05f}},
-        {{0.62875f, 0.6875f}, {0.0f, 0.8665815f}, {6.5e-05f, 1.7e-05f}},
-        {{0.7525f, 0.625f}, {0.0f, 0.62142974f}, {6.5e-05f, 1.6e-05f}},
-        {{0.87625f, 0.5625f}, {0.0f, 0.40955228f}, {6.5e-05f, 1.6e-05f}},
-        {{1.0f, 0.5f}, {0.0f, 0.23094916f}, {6.5e-05f, 1.6e-05f}},
-        {{0.005f, 0.5f}, {27856.363f, 0.6718f}, {110.0f, 1.6e-05f}},
-        {{1.5f, 0.25f}, {0.0f, 0.11547458f}, {6.5e-05f, 1.6e-05f}},
+        {{0.01f, 1.0f}, {6178.9873f, 1.0f}, {12.0f, 1.7e-05f}},
+        {{0.13375f, 0.9375f}, {32.861248f, 1.0f}, {0.0047f, 1.7e-05f}},
+        {{0.2575f, 0.875f}, {7.6121893f, 1.0f}, {0.00069f, 1.7e-05f}},
+        {{0.38125f, 0.8125f}, {2.5410998f, 1.0f}, {0.00023f, 1.7e-05f}},
+        {{0.505f, 0.75f}, {0.7181066f, 1.0f}, {0.00011f, 1.7e-05f}},
+        {{0.62875f, 0.6875f}, {0.0f, 0.8658314f}, {6.5e-05f, 1.7e-05f}},
+        {{0.7525f, 0.625f}, {0.0f, 0.6205655f}, {6.5e-05f, 1.6e-05f}},
+        {{0.87625f, 0.5625f}, {0.0f, 0.40861025f}, {6.5e-05f, 1.6e-05f}},
+        {{1.0f, 0.5f}, {0.0f, 0.22996594f}, {6.5e-05f, 1.6e-05f}},
+        {{0.005f, 0.5f}, {27856.363f, 0.6713f}, {110.0f, 1.6e-05f}},
+        {{1.5f, 0.25f}, {0.0f, 0.11498297f}, {6.5e-05f, 1.6e-05f}},
         {{0.505f, 0.0f}, {0.73094434f, 0.0f}, {0.00011f, 1.6e-05f}},
-        {{0.505f, 2.0f}, {0.18721394f, 1.0f}, {7.5e-05f, 3.2e-05f}},
+        {{0.505f, 2.0f}, {0.19164898f, 1.0f}, {7.5e-05f, 3.2e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

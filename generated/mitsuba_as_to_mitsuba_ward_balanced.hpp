@@ -8,8 +8,8 @@
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 7 numbers, seed 1, 833 rows trained, 208 held out.
 // Error on the rows held out: alpha rms 0.038, 99 % 0.17, max 0.18;
-// specular rms 0.017, 99 % 0.05, max 0.05.
-// The code is within 1e-05 of the fit in alpha and 1.9e-05 in specular (proven).
+// specular rms 0.017, 99 % 0.05, max 0.051.
+// The code is within 9.9e-06 of the fit in alpha and 1.9e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_WARD_BALANCED_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.38129f, turn_by_alpha = -0.036426f, spread = -0.84663f;
+  static constexpr float turn = -0.38362f, turn_by_alpha = -0.033568f, spread = -0.84833f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.44f * alpha + 0.97344f;
+    c[0] = 0.43912f * alpha + 0.97345f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.75573f * alpha + 0.9595f;
+    c[0] = 0.75435f * alpha + 0.95946f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -345,19 +345,19 @@ struct mitsuba_as_to_mitsuba_ward_balanced {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.0097784f, 0.9670573f}, {1.1e-05f, 2e-05f}},
-        {{0.13375f, 0.9375f}, {0.1380688f, 0.99429274f}, {1.1e-05f, 2e-05f}},
-        {{0.2575f, 0.875f}, {0.27884588f, 1.0f}, {1.1e-05f, 2e-05f}},
-        {{0.38125f, 0.8125f}, {0.43301567f, 1.0f}, {1.1e-05f, 2e-05f}},
-        {{0.505f, 0.75f}, {0.60261583f, 1.0f}, {1.1e-05f, 2e-05f}},
-        {{0.62875f, 0.6875f}, {0.7859941f, 0.98633236f}, {1.1e-05f, 2e-05f}},
-        {{0.7525f, 0.625f}, {0.9816663f, 0.95511675f}, {1.1e-05f, 2e-05f}},
-        {{0.87625f, 0.5625f}, {1.0f, 0.7648436f}, {1.1e-05f, 2e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.5574234f}, {1.1e-05f, 1.9e-05f}},
-        {{0.005f, 0.5f}, {0.0048892f, 0.48352864f}, {1.1e-05f, 1.9e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.2787117f}, {1.1e-05f, 1.9e-05f}},
-        {{0.505f, 0.0f}, {0.6037982f, 0.0f}, {1.1e-05f, 1.9e-05f}},
-        {{0.505f, 2.0f}, {0.53494143f, 1.0f}, {1.1e-05f, 3.8e-05f}},
+        {{0.01f, 1.0f}, {0.009778412f, 0.9670035f}, {1.1e-05f, 2e-05f}},
+        {{0.13375f, 0.9375f}, {0.13805439f, 0.9940822f}, {1.1e-05f, 2e-05f}},
+        {{0.2575f, 0.875f}, {0.278821f, 1.0f}, {1.1e-05f, 2e-05f}},
+        {{0.38125f, 0.8125f}, {0.43295464f, 1.0f}, {1.1e-05f, 2e-05f}},
+        {{0.505f, 0.75f}, {0.6025057f, 1.0f}, {1.1e-05f, 2e-05f}},
+        {{0.62875f, 0.6875f}, {0.7856525f, 0.98570836f}, {1.1e-05f, 2e-05f}},
+        {{0.7525f, 0.625f}, {0.98117554f, 0.95444274f}, {1.1e-05f, 2e-05f}},
+        {{0.87625f, 0.5625f}, {1.0f, 0.7644744f}, {1.1e-05f, 2e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.5569921f}, {1.1e-05f, 1.9e-05f}},
+        {{0.005f, 0.5f}, {0.004889206f, 0.48350176f}, {1.1e-05f, 1.9e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.27849606f}, {1.1e-05f, 1.9e-05f}},
+        {{0.505f, 0.0f}, {0.6035788f, 0.0f}, {1.1e-05f, 1.9e-05f}},
+        {{0.505f, 2.0f}, {0.53471833f, 1.0f}, {1.1e-05f, 3.8e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

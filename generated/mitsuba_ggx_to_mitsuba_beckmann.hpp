@@ -7,7 +7,7 @@
 // Table mitsuba_ggx_to_mitsuba_beckmann.csv, sha256 5b6fcfada4eef69301447a4c9bddb3b9056d95cfa23f45828e7e88fbd6ac6359;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 7 numbers, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 0.061, 99 % 0.15, max 0.15;
+// Error on the rows held out: alpha rms 0.057, 99 % 0.13, max 0.13;
 // f0 rms 0.055, 99 % 0.13, max 0.13.
 // The code is within 3.4e-06 of the fit in alpha and 3.6e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
@@ -55,7 +55,11 @@ struct Form {
   static constexpr float specular_min = 0.0f, specular_max = 1.0f;
   static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;
   static constexpr float pole = 0.57709f;
-  static constexpr bool is_limited = false;
+  static constexpr bool is_limited = true;
+  // The target's limits. What one cuts off changes the other parameter.
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -343,7 +347,7 @@ struct mitsuba_ggx_to_mitsuba_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.012397043f, 1.0492927f}, {3.9e-06f, 4.2e-06f}},
+        {{0.01f, 1.0f}, {0.012397043f, 1.0f}, {3.9e-06f, 4.1e-06f}},
         {{0.13375f, 0.9375f}, {0.16257785f, 0.9286097f}, {4e-06f, 4.1e-06f}},
         {{0.2575f, 0.875f}, {0.30672196f, 0.8150847f}, {4.1e-06f, 4e-06f}},
         {{0.38125f, 0.8125f}, {0.44473928f, 0.70873433f}, {4.1e-06f, 4e-06f}},
@@ -351,11 +355,11 @@ struct mitsuba_ggx_to_mitsuba_beckmann {
         {{0.62875f, 0.6875f}, {0.7019443f, 0.51764166f}, {4.2e-06f, 3.9e-06f}},
         {{0.7525f, 0.625f}, {0.82084876f, 0.43295226f}, {4.3e-06f, 3.9e-06f}},
         {{0.87625f, 0.5625f}, {0.9330476f, 0.3555457f}, {4.4e-06f, 3.8e-06f}},
-        {{1.0f, 0.5f}, {1.0383079f, 0.28546545f}, {4.4e-06f, 3.8e-06f}},
+        {{1.0f, 0.5f}, {1.0f, 0.28546545f}, {4.4e-06f, 3.8e-06f}},
         {{0.005f, 0.5f}, {0.0060592745f, 0.5105271f}, {3.9e-06f, 3.9e-06f}},
-        {{1.5f, 0.25f}, {1.0117563f, 0.13600211f}, {4.4e-06f, 3.7e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.13600211f}, {4.4e-06f, 3.7e-06f}},
         {{0.505f, 0.0f}, {0.52973163f, 0.0f}, {4.2e-06f, 3.6e-06f}},
-        {{0.505f, 2.0f}, {0.5822301f, 1.6484619f}, {4.2e-06f, 8e-06f}},
+        {{0.505f, 2.0f}, {0.5822301f, 1.0f}, {4.2e-06f, 7.7e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -8,8 +8,8 @@
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 7 numbers, seed 1, 766 rows trained, 192 held out.
 // Error on the rows held out: alpha rms 0.085, 99 % 0.23, max 0.23;
-// specular rms 0.094, 99 % 0.26, max 0.3.
-// The code is within 1.6e-05 of the fit in alpha and 2.1e-05 in specular (proven).
+// specular rms 0.095, 99 % 0.26, max 0.3.
+// The code is within 1.7e-05 of the fit in alpha and 2.1e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_DUER_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.51537f, turn_by_alpha = -0.1514f, spread = -0.90489f;
+  static constexpr float turn = -0.52138f, turn_by_alpha = -0.16335f, spread = -0.89712f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.41451f * alpha + 1.1648f;
+    c[0] = 0.42272f * alpha + 1.1654f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.75241f * alpha + 0.95147f;
+    c[0] = 0.76166f * alpha + 0.95138f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -345,19 +345,19 @@ struct mitsuba_ggx_to_mitsuba_ward_duer {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.0116894515f, 0.9589941f}, {1.7e-05f, 2.2e-05f}},
-        {{0.13375f, 0.9375f}, {0.1632072f, 0.98634833f}, {1.7e-05f, 2.2e-05f}},
-        {{0.2575f, 0.875f}, {0.32712603f, 1.0f}, {1.7e-05f, 2.2e-05f}},
-        {{0.38125f, 0.8125f}, {0.5029881f, 1.0f}, {1.7e-05f, 2.2e-05f}},
-        {{0.505f, 0.75f}, {0.69393444f, 0.9985778f}, {1.7e-05f, 2.2e-05f}},
-        {{0.62875f, 0.6875f}, {0.89623487f, 0.9793766f}, {1.7e-05f, 2.2e-05f}},
-        {{0.7525f, 0.625f}, {1.0f, 0.8530647f}, {1.7e-05f, 2.2e-05f}},
-        {{0.87625f, 0.5625f}, {1.0f, 0.6281809f}, {1.7e-05f, 2.2e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.40534294f}, {1.7e-05f, 2.1e-05f}},
-        {{0.005f, 0.5f}, {0.0058447258f, 0.47949705f}, {1.7e-05f, 2.1e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.20267147f}, {1.7e-05f, 2.1e-05f}},
-        {{0.505f, 0.0f}, {0.69393444f, 0.0f}, {1.7e-05f, 2.1e-05f}},
-        {{0.505f, 2.0f}, {0.59487695f, 1.0f}, {1.7e-05f, 4.2e-05f}},
+        {{0.01f, 1.0f}, {0.011696272f, 0.9589966f}, {1.7e-05f, 2.2e-05f}},
+        {{0.13375f, 0.9375f}, {0.16343433f, 0.9874238f}, {1.7e-05f, 2.2e-05f}},
+        {{0.2575f, 0.875f}, {0.3275291f, 1.0f}, {1.7e-05f, 2.2e-05f}},
+        {{0.38125f, 0.8125f}, {0.50376415f, 1.0f}, {1.7e-05f, 2.2e-05f}},
+        {{0.505f, 0.75f}, {0.6957171f, 1.0f}, {1.7e-05f, 2.2e-05f}},
+        {{0.62875f, 0.6875f}, {0.89985776f, 0.9833132f}, {1.7e-05f, 2.2e-05f}},
+        {{0.7525f, 0.625f}, {1.0f, 0.8533903f}, {1.8e-05f, 2.2e-05f}},
+        {{0.87625f, 0.5625f}, {1.0f, 0.6281258f}, {1.8e-05f, 2.2e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.40460786f}, {1.8e-05f, 2.1e-05f}},
+        {{0.005f, 0.5f}, {0.005848136f, 0.4794983f}, {1.7e-05f, 2.1e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.20230393f}, {1.8e-05f, 2.1e-05f}},
+        {{0.505f, 0.0f}, {0.69633114f, 0.0f}, {1.7e-05f, 2.1e-05f}},
+        {{0.505f, 2.0f}, {0.5938606f, 1.0f}, {1.7e-05f, 4.2e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

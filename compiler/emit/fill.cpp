@@ -75,6 +75,9 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
   if (takes_roots(info)) body.more_includes = code_file("root_includes");
   body.detail = code_files({"bits"}) + (takes_roots(info) ? code_files({"roots"}) : "") + "\n" +
                 form_code(converter) + code_files({"form_block", "form_rows", "strided"});
+  // What the models call specular; the widths are named by every header.
+  body.constants = "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
+                   "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular + "\";";
   body.text = fill_template(code_file("converter"), {{"id", data.id},
                                                      {"width_min", literal(info.roughness.min)},
                                                      {"width_max", literal(info.roughness.max)},
