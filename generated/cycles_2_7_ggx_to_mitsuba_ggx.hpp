@@ -236,6 +236,8 @@ struct cycles_2_7_ggx_to_mitsuba_ggx {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ggx";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

@@ -242,6 +242,8 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
   static constexpr const char* kSourceWidth = "roughness";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/as";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "color";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // perceptual roughness, square root of the microfacet width, (0, 1]

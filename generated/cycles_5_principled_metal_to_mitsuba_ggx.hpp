@@ -240,6 +240,8 @@ struct cycles_5_principled_metal_to_mitsuba_ggx {
   static constexpr const char* kSourceWidth = "roughness";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ggx";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "base_color";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // perceptual roughness, square root of the microfacet width, (0, 1]

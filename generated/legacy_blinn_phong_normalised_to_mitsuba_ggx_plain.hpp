@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // legacy/blinn-phong-normalised to mitsuba/ggx-plain: which parameters of the second give the same picture as those of the first.
-// Pictures of spheres differ by 9.3 % of white on average (root mean square of display values), by 14.3 %
+// Pictures of spheres differ by 9.4 % of white on average (root mean square of display values), by 14.3 %
 // where the numbers are copied: lights and materials that had no part in the fit.
 // Table legacy_blinn_phong_normalised_to_mitsuba_ggx_plain.csv, sha256 0cf6fd06f825403626a5c326e4a1bdb73e78a328eaf01f18c4b4552c24069a72;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 13 numbers, seed 1, 349 rows trained, 87 held out.
-// Error on the rows held out: alpha rms 0.0079, 99 % 0.049, max 0.049;
-// specular rms 0.004, 99 % 0.015, max 0.015.
-// The code is within 8.8e-06 of the fit in alpha and 4.6e-06 in specular (proven).
+// Error on the rows held out: alpha rms 0.018, 99 % 0.044, max 0.044;
+// specular rms 0.026, 99 % 0.057, max 0.057.
+// The code is within 3.1e-05 of the fit in alpha and 5e-06 in specular (proven).
 // Covers alpha 0.01415 to 0.8165, specular 0 to 1.
 #ifndef REMAP_GENERATED_LEGACY_BLINN_PHONG_NORMALISED_TO_MITSUBA_GGX_PLAIN_HPP
 #define REMAP_GENERATED_LEGACY_BLINN_PHONG_NORMALISED_TO_MITSUBA_GGX_PLAIN_HPP
@@ -73,17 +73,17 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.21749f, turn_by_alpha = -0.27495f, spread = 0.0f;
+  static constexpr float turn = -1.1636f, turn_by_alpha = 1.1787f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = (0.29206f * alpha + -0.20615f) * alpha + 0.83348f;
-    c[1] = -0.0083765f * alpha + -0.0040855f;
+    c[0] = (-0.029603f * alpha + 0.15206f) * alpha + 0.8166f;
+    c[1] = -0.55914f * alpha + -0.15137f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = (1.6258f * alpha + -0.21125f) * alpha + 0.48698f;
-    c[1] = -0.0015605f * alpha + 0.00019165f;
+    c[0] = (1.7245f * alpha + 0.022102f) * alpha + 0.49668f;
+    c[1] = -1.2759f * alpha + -0.11614f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -257,6 +257,8 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
   static constexpr const char* kSourceWidth = "exponent";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ggx-plain";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0
@@ -363,19 +365,19 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.99997485f, 1.0f}, {0.5566107f, 1.0f}, {9.6e-06f, 5.1e-06f}},
-        {{1249.236f, 0.9375f}, {0.032978322f, 0.4510851f}, {9.3e-06f, 4.8e-06f}},
-        {{2497.472f, 0.875f}, {0.023396574f, 0.42204022f}, {9.3e-06f, 4.8e-06f}},
-        {{3745.7078f, 0.8125f}, {0.01913118f, 0.39243245f}, {9.3e-06f, 4.8e-06f}},
-        {{4993.944f, 0.75f}, {0.016582742f, 0.3625721f}, {9.3e-06f, 4.8e-06f}},
-        {{6242.1797f, 0.6875f}, {0.014841218f, 0.332574f}, {9.3e-06f, 4.8e-06f}},
-        {{7490.4155f, 0.625f}, {0.013554481f, 0.30249062f}, {9.3e-06f, 4.8e-06f}},
-        {{8738.651f, 0.5625f}, {0.012553755f, 0.2723497f}, {9.3e-06f, 4.8e-06f}},
-        {{9986.888f, 0.5f}, {0.011746684f, 0.24216758f}, {9.3e-06f, 4.7e-06f}},
-        {{0.49998742f, 0.5f}, {0.70109016f, 0.69912493f}, {9.7e-06f, 5e-06f}},
-        {{14980.332f, 0.25f}, {0.009593987f, 0.121081576f}, {9.3e-06f, 4.7e-06f}},
-        {{4993.944f, 0.0f}, {0.016596178f, 0.0f}, {9.3e-06f, 4.6e-06f}},
-        {{4993.944f, 2.0f}, {0.016579159f, 0.9668724f}, {9.3e-06f, 9.7e-06f}},
+        {{0.99997485f, 1.0f}, {0.58164215f, 1.0f}, {3.2e-05f, 5.5e-06f}},
+        {{1249.236f, 0.9375f}, {0.031570252f, 0.43929622f}, {3.2e-05f, 5.2e-06f}},
+        {{2497.472f, 0.875f}, {0.02237154f, 0.41244125f}, {3.2e-05f, 5.2e-06f}},
+        {{3745.7078f, 0.8125f}, {0.018304372f, 0.38474035f}, {3.2e-05f, 5.2e-06f}},
+        {{4993.944f, 0.75f}, {0.015885718f, 0.3565829f}, {3.2e-05f, 5.2e-06f}},
+        {{6242.1797f, 0.6875f}, {0.014239533f, 0.3281059f}, {3.2e-05f, 5.2e-06f}},
+        {{7490.4155f, 0.625f}, {0.013027858f, 0.29936865f}, {3.2e-05f, 5.2e-06f}},
+        {{8738.651f, 0.5625f}, {0.012089056f, 0.27039984f}, {3.2e-05f, 5.2e-06f}},
+        {{9986.888f, 0.5f}, {0.011334825f, 0.24121378f}, {3.2e-05f, 5.1e-06f}},
+        {{0.49998742f, 0.5f}, {0.6968633f, 0.7678728f}, {3.2e-05f, 5.4e-06f}},
+        {{14980.332f, 0.25f}, {0.00935138f, 0.122361064f}, {3.2e-05f, 5.1e-06f}},
+        {{4993.944f, 0.0f}, {0.016399266f, 0.0f}, {3.2e-05f, 5e-06f}},
+        {{4993.944f, 2.0f}, {0.015748773f, 0.9389578f}, {3.2e-05f, 1.1e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

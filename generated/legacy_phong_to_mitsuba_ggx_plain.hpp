@@ -257,6 +257,8 @@ struct legacy_phong_to_mitsuba_ggx_plain {
   static constexpr const char* kSourceWidth = "exponent";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ggx-plain";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0

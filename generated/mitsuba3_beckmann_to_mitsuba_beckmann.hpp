@@ -239,6 +239,8 @@ struct mitsuba3_beckmann_to_mitsuba_beckmann {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/beckmann";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

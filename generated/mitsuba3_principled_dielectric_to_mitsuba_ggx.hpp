@@ -236,6 +236,8 @@ struct mitsuba3_principled_dielectric_to_mitsuba_ggx {
   static constexpr const char* kSourceWidth = "roughness";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ggx";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // perceptual roughness, square root of the microfacet width, (0, 1]

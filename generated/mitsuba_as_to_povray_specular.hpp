@@ -242,6 +242,8 @@ struct mitsuba_as_to_povray_specular {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "povray/specular";
   static constexpr const char* kTargetWidth = "exponent";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

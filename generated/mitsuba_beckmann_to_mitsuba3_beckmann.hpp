@@ -239,6 +239,8 @@ struct mitsuba_beckmann_to_mitsuba3_beckmann {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba3/beckmann";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

@@ -233,6 +233,8 @@ struct mitsuba_ggx_to_cycles_2_7_ggx {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "cycles-2.7/ggx";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

@@ -250,6 +250,8 @@ struct mitsuba_ggx_to_cycles_5_principled_dielectric {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "cycles-5/principled-dielectric";
   static constexpr const char* kTargetWidth = "roughness";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

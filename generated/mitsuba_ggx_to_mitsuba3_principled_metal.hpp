@@ -252,6 +252,8 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba3/principled-metal";
   static constexpr const char* kTargetWidth = "roughness";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "base_color";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

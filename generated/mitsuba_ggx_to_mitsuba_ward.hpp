@@ -7,9 +7,9 @@
 // Table mitsuba_ggx_to_mitsuba_ward.csv, sha256 de4314ded2f7f4642ed797c08a3b93f9db0159a093541fb5f9f8a778588be2ff;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 7 numbers, seed 1, 850 rows trained, 213 held out.
-// Error on the rows held out: alpha rms 0.086, 99 % 0.23, max 0.23;
-// specular rms 0.053, 99 % 0.19, max 0.21.
-// The code is within 1.7e-05 of the fit in alpha and 2.5e-05 in specular (proven).
+// Error on the rows held out: alpha rms 0.086, 99 % 0.23, max 0.24;
+// specular rms 0.05, 99 % 0.18, max 0.2.
+// The code is within 1.7e-05 of the fit in alpha and 2.6e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.35659f, turn_by_alpha = -0.16677f, spread = -0.69372f;
+  static constexpr float turn = -0.35228f, turn_by_alpha = -0.17715f, spread = -0.67968f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.44865f * alpha + 1.1845f;
+    c[0] = 0.47553f * alpha + 1.184f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 1.1741f * alpha + 1.3262f;
+    c[0] = 1.2163f * alpha + 1.3278f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -239,6 +239,8 @@ struct mitsuba_ggx_to_mitsuba_ward {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ward";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // microfacet width, (0, 1]
@@ -345,19 +347,19 @@ struct mitsuba_ggx_to_mitsuba_ward {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.010679165f, 1.0f}, {1.7e-05f, 2.6e-05f}},
-        {{0.13375f, 0.9375f}, {0.14666162f, 1.0f}, {1.7e-05f, 2.6e-05f}},
-        {{0.2575f, 0.875f}, {0.29103678f, 1.0f}, {1.7e-05f, 2.6e-05f}},
-        {{0.38125f, 0.8125f}, {0.44612134f, 1.0f}, {1.8e-05f, 2.6e-05f}},
-        {{0.505f, 0.75f}, {0.61478853f, 1.0f}, {1.8e-05f, 2.6e-05f}},
-        {{0.62875f, 0.6875f}, {0.8004684f, 1.0f}, {1.8e-05f, 2.6e-05f}},
+        {{0.01f, 1.0f}, {0.010683909f, 1.0f}, {1.8e-05f, 2.6e-05f}},
+        {{0.13375f, 0.9375f}, {0.1468867f, 1.0f}, {1.8e-05f, 2.6e-05f}},
+        {{0.2575f, 0.875f}, {0.29175186f, 1.0f}, {1.8e-05f, 2.6e-05f}},
+        {{0.38125f, 0.8125f}, {0.44759673f, 1.0f}, {1.8e-05f, 2.6e-05f}},
+        {{0.505f, 0.75f}, {0.6173512f, 1.0f}, {1.8e-05f, 2.6e-05f}},
+        {{0.62875f, 0.6875f}, {0.8045575f, 1.0f}, {1.8e-05f, 2.6e-05f}},
         {{0.7525f, 0.625f}, {1.0f, 1.0f}, {1.8e-05f, 2.6e-05f}},
-        {{0.87625f, 0.5625f}, {1.0f, 0.9732804f}, {1.8e-05f, 2.6e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.70104814f}, {1.8e-05f, 2.6e-05f}},
-        {{0.005f, 0.5f}, {0.0059449323f, 0.6689705f}, {1.7e-05f, 2.6e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.35052407f}, {1.8e-05f, 2.6e-05f}},
-        {{0.505f, 0.0f}, {0.71258944f, 0.0f}, {1.8e-05f, 2.5e-05f}},
-        {{0.505f, 2.0f}, {0.5079854f, 1.0f}, {1.8e-05f, 5.1e-05f}},
+        {{0.87625f, 0.5625f}, {1.0f, 0.9779665f}, {1.8e-05f, 2.6e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.70182896f}, {1.8e-05f, 2.6e-05f}},
+        {{0.005f, 0.5f}, {0.0059437766f, 0.66998154f}, {1.8e-05f, 2.6e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.35091448f}, {1.8e-05f, 2.6e-05f}},
+        {{0.505f, 0.0f}, {0.719192f, 0.0f}, {1.8e-05f, 2.6e-05f}},
+        {{0.505f, 2.0f}, {0.5090445f, 1.0f}, {1.8e-05f, 5.1e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

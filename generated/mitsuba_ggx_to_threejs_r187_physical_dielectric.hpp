@@ -252,6 +252,8 @@ struct mitsuba_ggx_to_threejs_r187_physical_dielectric {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "threejs-r187/physical-dielectric";
   static constexpr const char* kTargetWidth = "roughness";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "specularIntensity";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

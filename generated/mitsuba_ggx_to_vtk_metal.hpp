@@ -256,6 +256,8 @@ struct mitsuba_ggx_to_vtk_metal {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "vtk/metal";
   static constexpr const char* kTargetWidth = "roughness";
+  static constexpr const char* kSourceSpecular = "f0";
+  static constexpr const char* kTargetSpecular = "base_color";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

@@ -258,6 +258,8 @@ struct mitsuba_phong_to_povray_phong {
   static constexpr const char* kSourceWidth = "exponent";  // what Input::width is
   static constexpr const char* kTargetModel = "povray/phong";
   static constexpr const char* kTargetWidth = "exponent";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0

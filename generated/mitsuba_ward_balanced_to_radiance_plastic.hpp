@@ -237,6 +237,8 @@ struct mitsuba_ward_balanced_to_radiance_plastic {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "radiance/plastic";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "specularity";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

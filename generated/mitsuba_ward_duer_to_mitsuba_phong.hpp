@@ -242,6 +242,8 @@ struct mitsuba_ward_duer_to_mitsuba_phong {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/phong";
   static constexpr const char* kTargetWidth = "exponent";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

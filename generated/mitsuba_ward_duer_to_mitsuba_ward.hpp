@@ -7,9 +7,9 @@
 // Table mitsuba_ward_duer_to_mitsuba_ward.csv, sha256 cc028acfe3d6628885498b52f77b282bdd4436d7599798b92cb562a28bb10e16;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 14 numbers, seed 1, 829 rows trained, 207 held out.
-// Error on the rows held out: alpha rms 0.084, 99 % 0.22, max 0.23;
-// specular rms 0.049, 99 % 0.18, max 0.2.
-// The code is within 1.7e-05 of the fit in alpha and 6.4e-05 in specular (proven).
+// Error on the rows held out: alpha rms 0.084, 99 % 0.23, max 0.23;
+// specular rms 0.048, 99 % 0.17, max 0.2.
+// The code is within 1.7e-05 of the fit in alpha and 7.1e-05 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_WARD_HPP
@@ -54,22 +54,22 @@ struct Form {
   static constexpr float width_from = 0.0f, width_to = 1.0f;  // and where widths are clamped
   static constexpr float specular_min = 0.0f, specular_max = 1.0f;
   static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;
-  static constexpr float pole = 0.52871f;
+  static constexpr float pole = 4.0f;
   static constexpr bool is_limited = true;
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.13127f, turn_by_alpha = -0.25569f, spread = -1.1607f;
+  static constexpr float turn = -0.14184f, turn_by_alpha = -0.20047f, spread = -1.2131f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = (0.29996f * alpha + 0.064095f) * alpha + 1.0069f;
-    c[1] = 0.017482f * alpha + -0.0051766f;
+    c[0] = (0.29148f * alpha + 0.08259f) * alpha + 1.0033f;
+    c[1] = -0.085083f * alpha + 0.02359f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = (1.4415f * alpha + -0.57352f) * alpha + 1.4276f;
-    c[1] = 0.34501f * alpha + 0.078157f;
+    c[0] = (1.5404f * alpha + -0.62407f) * alpha + 1.4402f;
+    c[1] = 1.5392f * alpha + 0.21848f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -241,6 +241,8 @@ struct mitsuba_ward_duer_to_mitsuba_ward {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ward";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // microfacet width, (0, 1]
@@ -347,19 +349,19 @@ struct mitsuba_ward_duer_to_mitsuba_ward {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.009406787f, 1.0f}, {1.8e-05f, 6.5e-05f}},
-        {{0.13375f, 0.9375f}, {0.1282132f, 1.0f}, {1.8e-05f, 6.5e-05f}},
-        {{0.2575f, 0.875f}, {0.2535847f, 1.0f}, {1.8e-05f, 6.5e-05f}},
-        {{0.38125f, 0.8125f}, {0.38786137f, 1.0f}, {1.8e-05f, 6.5e-05f}},
-        {{0.505f, 0.75f}, {0.5329548f, 1.0f}, {1.8e-05f, 6.5e-05f}},
-        {{0.62875f, 0.6875f}, {0.69098026f, 1.0f}, {1.8e-05f, 6.5e-05f}},
-        {{0.7525f, 0.625f}, {0.86488277f, 1.0f}, {1.8e-05f, 6.5e-05f}},
-        {{0.87625f, 0.5625f}, {1.0f, 1.0f}, {1.8e-05f, 6.5e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.703467f}, {1.8e-05f, 6.5e-05f}},
-        {{0.005f, 0.5f}, {0.005025699f, 0.73083687f}, {1.8e-05f, 6.5e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.3433473f}, {1.8e-05f, 6.4e-05f}},
-        {{0.505f, 0.0f}, {0.5634614f, 0.0f}, {1.8e-05f, 6.4e-05f}},
-        {{0.505f, 2.0f}, {0.47647306f, 1.0f}, {1.8e-05f, 0.00013f}},
+        {{0.01f, 1.0f}, {0.009395297f, 1.0f}, {1.7e-05f, 7.2e-05f}},
+        {{0.13375f, 0.9375f}, {0.12825556f, 1.0f}, {1.7e-05f, 7.2e-05f}},
+        {{0.2575f, 0.875f}, {0.2536618f, 1.0f}, {1.7e-05f, 7.2e-05f}},
+        {{0.38125f, 0.8125f}, {0.38769138f, 1.0f}, {1.7e-05f, 7.2e-05f}},
+        {{0.505f, 0.75f}, {0.53225684f, 1.0f}, {1.7e-05f, 7.2e-05f}},
+        {{0.62875f, 0.6875f}, {0.689603f, 1.0f}, {1.7e-05f, 7.2e-05f}},
+        {{0.7525f, 0.625f}, {0.8628001f, 1.0f}, {1.8e-05f, 7.2e-05f}},
+        {{0.87625f, 0.5625f}, {1.0f, 1.0f}, {1.8e-05f, 7.2e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.702392f}, {1.8e-05f, 7.2e-05f}},
+        {{0.005f, 0.5f}, {0.005033408f, 0.73004955f}, {1.7e-05f, 7.2e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.33614883f}, {1.8e-05f, 7.1e-05f}},
+        {{0.505f, 0.0f}, {0.565268f, 0.0f}, {1.7e-05f, 7.1e-05f}},
+        {{0.505f, 2.0f}, {0.4752913f, 1.0f}, {1.7e-05f, 0.00015f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -235,6 +235,8 @@ struct mitsuba_ward_to_mitsuba_as {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/as";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // microfacet width, (0, 1]

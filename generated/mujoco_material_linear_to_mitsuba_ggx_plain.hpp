@@ -253,6 +253,8 @@ struct mujoco_material_linear_to_mitsuba_ggx_plain {
   static constexpr const char* kSourceWidth = "exponent";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ggx-plain";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "specular";
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0

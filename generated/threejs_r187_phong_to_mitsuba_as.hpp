@@ -253,6 +253,8 @@ struct threejs_r187_phong_to_mitsuba_as {
   static constexpr const char* kSourceWidth = "exponent";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/as";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "specular";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0

@@ -242,6 +242,8 @@ struct threejs_r187_standard_metal_to_mitsuba_ggx {
   static constexpr const char* kSourceWidth = "roughness";  // what Input::width is
   static constexpr const char* kTargetModel = "mitsuba/ggx";
   static constexpr const char* kTargetWidth = "alpha";
+  static constexpr const char* kSourceSpecular = "color";
+  static constexpr const char* kTargetSpecular = "f0";
 
   struct Input {
     float width;  // perceptual roughness, square root of the microfacet width, (0, 1]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -219,12 +220,14 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
     if (progress)
       progress(static_cast<double>(comparison.candidates.size()) / static_cast<double>(shapes.size()));
   };
+  std::optional<CompactForm> smaller;  // of the rows
   for (const FormShape& shape : shapes) {
     if (pictures != nullptr && shape.terms > kMostTerms) continue;
     enter(shape_name(shape), [&] {
-      CompactForm form = fit_form(samples, base.limits, base.domain, shape);
+      CompactForm form = fit_form(samples, base.limits, base.domain, shape, smaller ? &*smaller : nullptr);
       if (!is_sound(form, base.domain))
         throw numeric_error("not positive, or it falls where the source rises");
+      smaller = form;
       if (pictures != nullptr) form = refined(form, base.domain, *pictures, unit, samples);
       return within_limits(rounded_form(form), base.domain, base.limits);
     });

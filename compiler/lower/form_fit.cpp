@@ -79,6 +79,16 @@ std::vector<MappedTexel> targets_of(const CompactForm& form, const Domain& domai
   return targets;
 }
 
+// The same form with more terms, which are 0.
+CompactForm padded(CompactForm form, const FormShape& shape) {
+  for (FactorTerms* factor : {&form.alpha, &form.specular}) {
+    factor->resize(std::max(factor->size(), shape.powers));
+    for (std::size_t j = 0; j < factor->size(); ++j)
+      (*factor)[j].resize(std::max((*factor)[j].size(), shape.terms - j), 0.0f);
+  }
+  return form;
+}
+
 // A texel of the grid over the domain, denser where alpha is small.
 MappedTexel grid_texel(const Domain& domain, int i, int j) {
   const auto between = [](const Range& range, double share) {
@@ -183,7 +193,7 @@ CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers) {
 }
 
 CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
-                     const FormShape& shape) {
+                     const FormShape& shape, const CompactForm* smaller) {
   CompactForm best;
   double least = INFINITY;
   const auto is_free = [](const FormSample& sample) {
@@ -211,8 +221,9 @@ CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limit
     best.alpha_limit = static_cast<float>(limits.alpha);
   if (limits.specular && std::ranges::any_of(samples, &FormSample::specular_at_limit))
     best.specular_limit = static_cast<float>(*limits.specular);
-  if (!best.alpha_limit && !best.specular_limit) return best;
-  return refined_by_rows(best, domain, samples);
+  if (best.alpha_limit || best.specular_limit) best = refined_by_rows(best, domain, samples);
+  if (smaller == nullptr || is_sound(best, domain)) return best;
+  return refined_by_rows(padded(*smaller, shape), domain, samples);
 }
 
 CompactForm refined_form(const CompactForm& form, const Domain& domain,
@@ -264,8 +275,10 @@ bool is_sound(const CompactForm& form, const Domain& domain) {
       if (!(p > kLeastFactor && q > kLeastFactor && std::isfinite(p) && std::isfinite(q))) return false;
       const MappedTexel texel = form_texel(form, domain, source.alpha, source.specular);
       if (!(texel.alpha > kLeastFactor * source.alpha)) return false;
-      if (i > 0 && texel.alpha < sharper[static_cast<std::size_t>(j)].alpha) return false;
-      if (j > 0 && texel.specular < darker.specular) return false;
+      const bool is_free = texel.alpha < static_cast<double>(form.alpha_limit.value_or(INFINITY)) &&
+                           texel.specular < static_cast<double>(form.specular_limit.value_or(INFINITY));
+      if (is_free && i > 0 && texel.alpha < sharper[static_cast<std::size_t>(j)].alpha) return false;
+      if (is_free && j > 0 && texel.specular < darker.specular) return false;
       sharper[static_cast<std::size_t>(j)] = darker = texel;
     }
   }

@@ -33,8 +33,10 @@ CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers);
 
 // The form of least squares of relative errors (error_weight of table/regression.hpp) on the samples. Throws
 // kNumeric where the samples do not determine it. Limits are part of the form where samples are at one.
+// If that form is not sound, the result is the smaller form with more terms, changed as far as it stays
+// sound.
 CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
-                     const FormShape& shape);
+                     const FormShape& shape, const CompactForm* smaller = nullptr);
 
 // What a search minimises: for each texel, the gradient and the curvature (an approximation of it that has no
 // negative eigenvalue) of its error by target alpha and target specular.
@@ -50,8 +52,9 @@ using TexelErrors = std::function<std::vector<TexelError>(const std::vector<Mapp
 CompactForm refined_form(const CompactForm& form, const Domain& domain,
                          const std::vector<MappedTexel>& sources, const TexelErrors& errors, int iterations);
 
-// Whether P and Q are positive and finite over the domain, the hinge leaves a width, target alpha never falls
-// where source alpha rises, and target specular never where source specular does: on a dense grid.
+// Whether P and Q are positive and finite over the domain, the hinge leaves a width, and below the limits
+// target alpha never falls where source alpha rises, nor target specular where source specular does: on a
+// dense grid.
 bool is_sound(const CompactForm& form, const Domain& domain);
 
 // The form, held at those limits that it passes somewhere in the domain.
