@@ -126,7 +126,7 @@ class BlockEditor {
 
   // Channels that stay keep their text.
   void write_diffuse(const std::array<double, 3>& base) {
-    if (!surface_.diffuse) {
+    if (!surface_.diffuse_statement) {
       // Without Kd, a map counts as it is.
       const bool is_said = surface_.diffuse_map && std::ranges::all_of(base, [](double value) {
                              return std::fabs(value - 1.0) <= kSameColor;
@@ -134,7 +134,7 @@ class BlockEditor {
       if (!is_said) add("Kd " + color_text(base));
       return;
     }
-    const std::vector<TextSpan> words = document_.words(statement(surface_.diffuse_statement));
+    const std::vector<TextSpan> words = document_.words(statement(*surface_.diffuse_statement));
     std::array<std::optional<double>, 3> old;
     for (std::size_t c = 0; c < 3 && c < words.size(); ++c) old[c] = mtl_number(document_.raw(words[c]));
     const bool is_grey = !old[1];

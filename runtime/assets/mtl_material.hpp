@@ -52,10 +52,10 @@ struct MtlSurface {
   std::optional<double> roughness, metallic;               // Pr, Pm
   std::optional<double> specular_level;                    // 1 means F0 0.04; only of a maker that writes it
   std::optional<MtlMap> diffuse_map, specular_map, exponent_map, reflection_map, roughness_map, metallic_map;
-  bool has_pbr_bsdf = false;          // bsdf pbr
-  bool is_metal_rough = false;        // metallic and roughness are said, by Pr or Pm or by the maker
-  std::size_t diffuse_statement = 0;  // where there is one
-  std::size_t last_statement = 0;     // of the material
+  bool has_pbr_bsdf = false;    // bsdf pbr
+  bool is_metal_rough = false;  // metallic and roughness are said, by Pr or Pm or by the maker
+  std::optional<std::size_t> diffuse_statement;  // Kd; makers define the color of a material without it
+  std::size_t last_statement = 0;                // of the material
 
   bool is_empty() const {
     return !diffuse && !specular && !exponent && !diffuse_map && !specular_map && !exponent_map;

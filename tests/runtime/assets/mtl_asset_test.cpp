@@ -103,6 +103,15 @@ TEST_CASE("Blender's default material gains two lines, and Kd its base color", "
   CHECK_FALSE(converted_mtl(conversion.text).changed);
 }
 
+TEST_CASE("A material of Blender with a map and no Kd only gains lines", "[assets]") {
+  const std::string text =
+      "# Blender MTL File: 'None'\n# Material Count: 1\n\nnewmtl a\nNs 250\nKs 0.5 0.5 0.5\nmap_Kd "
+      "a.png\nillum 2\n";
+  const AssetConversion conversion = converted_mtl(text);
+  CHECK(conversion.text.starts_with(text + "Pr "));
+  CHECK(conversion.text.ends_with("Pm 0\n"));
+}
+
 TEST_CASE("A material without a highlight keeps Kd", "[assets]") {
   for (const std::string lines : {"Ks 0 0 0\nNs 50\n", "Ks .5 .5 .5\nNs 50\nillum 1\n", "Ns 50\n"}) {
     const std::string text = "newmtl a\nKd 0.80 .30 1\n" + lines;
