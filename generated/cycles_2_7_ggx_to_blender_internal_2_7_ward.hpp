@@ -3,11 +3,11 @@
 //
 // cycles-2.7/ggx to blender-internal-2.7/ward: which parameters of the second give the same picture as those of the first.
 // Composed of cycles_2_7_ggx_to_mitsuba_ggx, then mitsuba_ggx_to_mitsuba_ward, then mitsuba_ward_to_blender_internal_2_7_ward.
-// Fit: compact, 19 numbers.
-// Error of its steps together: alpha rms 0.065, 99 % 0.23, max 0.24;
-// specular rms 0.015, 99 % 0.11, max 0.12.
-// The code is within 4.7e-06 of the fit in alpha and 1.9e-06 in specular (proven).
-// Covers alpha 0.01227433850835 to 0.66316049047275, f0 0 to 0.487150271812964.
+// Fit: compact, 12 numbers.
+// Error of its steps together: alpha rms 0.049, 99 % 0.17, max 0.18;
+// specular rms 0.0091, 99 % 0.071, max 0.079.
+// The code is within 6.1e-06 of the fit in alpha and 1.1e-05 in specular (proven).
+// Covers alpha 0.00980886066 to 0.5867306771739, f0 0 to 0.41755737583968344.
 #ifndef REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 #define REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 
@@ -47,24 +47,20 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // The numbers of this converter. Target alpha is source alpha times a polynomial of alpha and t = s / (s + pole), s the
 // largest channel of specular; target specular is source specular times another, channel by channel.
 struct Form {
-  static constexpr float width_min = 0.012274339f, width_max = 0.6631605f;    // what was measured,
-  static constexpr float width_from = 0.0f, width_to = 0.6631605f;  // and where widths are clamped
-  static constexpr float specular_min = 0.0f, specular_max = 0.48715028f;
-  static constexpr float alpha_min = 0.012274339f, least_alpha = 0.0f;
+  static constexpr float width_min = 0.009808861f, width_max = 0.58673066f;    // what was measured,
+  static constexpr float width_from = 0.0f, width_to = 0.58673066f;  // and where widths are clamped
+  static constexpr float specular_min = 0.0f, specular_max = 0.4175574f;
+  static constexpr float alpha_min = 0.009808861f, least_alpha = 0.0f;
   static constexpr float pole = 1.0f;
   static constexpr bool is_limited = false;
 
   // The coefficients of powers of t.
-  static constexpr std::size_t kAlphaPowers = 3, kSpecularPowers = 3;
+  static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = ((0.8170281f * alpha + -1.3401375f) * alpha + 0.30401713f) * alpha + 1.2157542f;
-    c[1] = (6.017337e-05f * alpha + -2.3257684e-07f) * alpha + -3.274173e-05f;
-    c[2] = -0.00014810225f * alpha + 0.00010224221f;
+    c[0] = ((((6.0948696f * alpha + -4.121028f) * alpha + -1.9977298f) * alpha + 1.3256415f) * alpha + 0.03507373f) * alpha + 1.1974874f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = ((0.64478177f * alpha + -1.0258626f) * alpha + 0.18771088f) * alpha + 0.42126077f;
-    c[1] = (-0.030844137f * alpha + 0.025745155f) * alpha + -0.0039508385f;
-    c[2] = 0.017521689f * alpha + -0.009014035f;
+    c[0] = ((((-0.64938843f * alpha + 9.204624f) * alpha + -13.54392f) * alpha + 6.6792636f) * alpha + -1.2745547f) * alpha + 0.46999693f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -143,7 +139,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -284,8 +281,8 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
 
   // What was measured. Beyond, both parameters go on in proportion, but widths above it are clamped; specular below 0 counts as
   // 0. Such texels count as out of domain. NaN makes the outputs that depend on it NaN.
-  static constexpr Input kDomainMin{0.012274339f, 0.0f};
-  static constexpr Input kDomainMax{0.6631605f, 0.48715028f};
+  static constexpr Input kDomainMin{0.009808861f, 0.0f};
+  static constexpr Input kDomainMax{0.58673066f, 0.4175574f};
 
   // Rows of `count` texels with `Channels` channels (1: grey, 3: RGB). An output row may be exactly its own input row. Any split
   // into rows gives the same bits. Returns the number of texels out of domain.
@@ -344,19 +341,19 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.012274339f, 0.48715028f}, {0.014965923f, 0.20522428f}, {5.2e-06f, 2e-06f}},
-        {{0.09363511f, 0.4567034f}, {0.115465246f, 0.19596218f}, {5.2e-06f, 2e-06f}},
-        {{0.17499588f, 0.4262565f}, {0.21564606f, 0.18137273f}, {5.2e-06f, 1.9e-06f}},
-        {{0.25635666f, 0.3958096f}, {0.31259635f, 0.16332647f}, {5.3e-06f, 1.9e-06f}},
-        {{0.3377174f, 0.3653627f}, {0.40426332f, 0.14343886f}, {5.3e-06f, 1.9e-06f}},
-        {{0.4190782f, 0.33491582f}, {0.48945343f, 0.1230701f}, {5.4e-06f, 1.9e-06f}},
-        {{0.500439f, 0.30446893f}, {0.5678323f, 0.10332498f}, {5.4e-06f, 1.9e-06f}},
-        {{0.58179975f, 0.27402204f}, {0.6399247f, 0.08505262f}, {5.5e-06f, 1.9e-06f}},
-        {{0.6631605f, 0.24357514f}, {0.70711476f, 0.06884622f}, {5.5e-06f, 1.9e-06f}},
-        {{0.0061371694f, 0.24357514f}, {0.007482945f, 0.10287665f}, {5.1e-06f, 1.9e-06f}},
-        {{0.9947407f, 0.12178757f}, {0.70711505f, 0.03441938f}, {5.5e-06f, 1.9e-06f}},
-        {{0.3377174f, 0.0f}, {0.4042644f, 0.0f}, {5.3e-06f, 1.9e-06f}},
-        {{0.3377174f, 0.97430056f}, {0.4042634f, 0.38246757f}, {5.3e-06f, 3.9e-06f}},
+        {{0.009808861f, 0.4175574f}, {0.011750594f, 0.19129345f}, {6.6e-06f, 1.1e-05f}},
+        {{0.08192409f, 0.39146006f}, {0.09896399f, 0.1579047f}, {6.6e-06f, 1.1e-05f}},
+        {{0.15403931f, 0.3653627f}, {0.1887369f, 0.14167812f}, {6.7e-06f, 1.1e-05f}},
+        {{0.22615454f, 0.33926538f}, {0.2810962f, 0.13244948f}, {6.7e-06f, 1.1e-05f}},
+        {{0.29826975f, 0.31316805f}, {0.37422264f, 0.124008186f}, {6.8e-06f, 1.1e-05f}},
+        {{0.370385f, 0.2870707f}, {0.46511355f, 0.1133166f}, {6.8e-06f, 1.1e-05f}},
+        {{0.4425002f, 0.26097336f}, {0.5508625f, 0.099752866f}, {6.9e-06f, 1.1e-05f}},
+        {{0.5146154f, 0.23487604f}, {0.6305562f, 0.08437755f}, {6.9e-06f, 1.1e-05f}},
+        {{0.58673066f, 0.2087787f}, {0.7077893f, 0.069224164f}, {6.9e-06f, 1.1e-05f}},
+        {{0.0049044304f, 0.2087787f}, {0.005875297f, 0.095646724f}, {6.6e-06f, 1.1e-05f}},
+        {{0.88009596f, 0.10438935f}, {0.7077893f, 0.034612082f}, {6.9e-06f, 1.1e-05f}},
+        {{0.29826975f, 0.0f}, {0.37422264f, 0.0f}, {6.8e-06f, 1.1e-05f}},
+        {{0.29826975f, 0.8351148f}, {0.37422264f, 0.33068848f}, {6.8e-06f, 2.2e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

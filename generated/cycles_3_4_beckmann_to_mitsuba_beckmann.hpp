@@ -4,10 +4,10 @@
 // cycles-3.4/beckmann to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
 // Table cycles_3_4_beckmann_to_mitsuba_beckmann.csv, sha256 bdd7111a94eac11505ad1471bc20d8f0961c960f4b8e9d9baee7cd40cb0bb157;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Cycles of Blender 3.4.1; remapc 0.1.0.
-// Fit: compact, 10 numbers, seed 1, 767 rows trained, 192 held out.
+// Fit: compact, 11 numbers, seed 1, 767 rows trained, 192 held out.
 // Error on the rows held out: alpha rms 0.00043, 99 % 0.0032, max 0.0037;
 // f0 rms 0.00097, 99 % 0.0034, max 0.0035.
-// The code is within 1.1e-05 of the fit in alpha and 9.2e-06 in specular (proven).
+// The code is within 1.3e-05 of the fit in alpha and 1.1e-05 in specular (proven).
 // Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_3_4_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_CYCLES_3_4_BECKMANN_TO_MITSUBA_BECKMANN_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.33901f, turn_by_alpha = -0.47662f, spread = 0.68832f;
+  static constexpr float turn = 0.33901f, turn_by_alpha = -0.47662f, bend = 0.0020361f, spread = 0.68832f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -147,7 +147,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -348,19 +349,19 @@ struct cycles_3_4_beckmann_to_mitsuba_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.009993286f, 0.9983915f}, {1.2e-05f, 9.7e-06f}},
-        {{0.2125f, 0.9375f}, {0.04512845f, 0.935975f}, {1.2e-05f, 9.6e-06f}},
-        {{0.325f, 0.875f}, {0.1055688f, 0.8736453f}, {1.2e-05f, 9.6e-06f}},
-        {{0.4375f, 0.8125f}, {0.1913259f, 0.8113794f}, {1.2e-05f, 9.6e-06f}},
-        {{0.55f, 0.75f}, {0.30241594f, 0.74915415f}, {1.2e-05f, 9.6e-06f}},
-        {{0.6625f, 0.6875f}, {0.43886f, 0.6869467f}, {1.2e-05f, 9.5e-06f}},
-        {{0.775f, 0.625f}, {0.6006847f, 0.62473404f}, {1.2e-05f, 9.5e-06f}},
-        {{0.8875f, 0.5625f}, {0.78792346f, 0.56249344f}, {1.2e-05f, 9.5e-06f}},
-        {{1.0f, 0.5f}, {1.0f, 0.5004147f}, {1.2e-05f, 9.4e-06f}},
-        {{0.05f, 0.5f}, {0.0024991012f, 0.4977922f}, {1.2e-05f, 9.4e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.2489564f}, {1.2e-05f, 9.3e-06f}},
-        {{0.55f, 0.0f}, {0.31012255f, 0.0f}, {1.2e-05f, 9.2e-06f}},
-        {{0.55f, 2.0f}, {0.30238423f, 1.0f}, {1.2e-05f, 1.9e-05f}},
+        {{0.1f, 1.0f}, {0.009993286f, 0.9983915f}, {1.3e-05f, 1.1e-05f}},
+        {{0.2125f, 0.9375f}, {0.04512845f, 0.935975f}, {1.3e-05f, 1.1e-05f}},
+        {{0.325f, 0.875f}, {0.1055688f, 0.8736453f}, {1.3e-05f, 1.1e-05f}},
+        {{0.4375f, 0.8125f}, {0.1913259f, 0.8113794f}, {1.3e-05f, 1.1e-05f}},
+        {{0.55f, 0.75f}, {0.30241594f, 0.74915415f}, {1.3e-05f, 1.1e-05f}},
+        {{0.6625f, 0.6875f}, {0.43886f, 0.6869467f}, {1.3e-05f, 1.1e-05f}},
+        {{0.775f, 0.625f}, {0.6006847f, 0.62473404f}, {1.4e-05f, 1.1e-05f}},
+        {{0.8875f, 0.5625f}, {0.78792346f, 0.56249344f}, {1.4e-05f, 1.1e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.5004147f}, {1.4e-05f, 1.1e-05f}},
+        {{0.05f, 0.5f}, {0.0024991012f, 0.4977922f}, {1.3e-05f, 1.1e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.2489564f}, {1.4e-05f, 1.1e-05f}},
+        {{0.55f, 0.0f}, {0.31012255f, 0.0f}, {1.3e-05f, 1.1e-05f}},
+        {{0.55f, 2.0f}, {0.30238423f, 1.0f}, {1.3e-05f, 2.2e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 7 numbers, seed 1, 480 rows trained, 120 held out.
 // Error on the rows held out: alpha rms 0.0016, 99 % 0.0058, max 0.0059;
 // f0 rms 0.00029, 99 % 0.0011, max 0.0014.
-// The code is within 2.5e-06 of the fit in alpha and 3.1e-07 in specular (proven).
+// The code is within 2.9e-06 of the fit in alpha and 3.6e-07 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_3_4_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_3_4_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
@@ -143,7 +143,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -344,19 +345,19 @@ struct cycles_3_4_principled_dielectric_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.0100271925f, 0.09330675f}, {3e-06f, 3.5e-07f}},
-        {{0.2125f, 0.9375f}, {0.045217853f, 0.08765493f}, {3e-06f, 3.5e-07f}},
-        {{0.325f, 0.875f}, {0.10554562f, 0.081847146f}, {3e-06f, 3.5e-07f}},
-        {{0.4375f, 0.8125f}, {0.19071142f, 0.07591414f}, {3.1e-06f, 3.5e-07f}},
-        {{0.55f, 0.75f}, {0.30029958f, 0.069886245f}, {3.1e-06f, 3.4e-07f}},
-        {{0.6625f, 0.6875f}, {0.43377694f, 0.06379328f}, {3.2e-06f, 3.4e-07f}},
-        {{0.775f, 0.625f}, {0.5904918f, 0.05766443f}, {3.3e-06f, 3.4e-07f}},
-        {{0.8875f, 0.5625f}, {0.76967293f, 0.051528163f}, {3.4e-06f, 3.3e-07f}},
-        {{1.0f, 0.5f}, {0.9704277f, 0.04541203f}, {3.5e-06f, 3.3e-07f}},
-        {{0.05f, 0.5f}, {0.0024982973f, 0.04893871f}, {3e-06f, 3.3e-07f}},
-        {{1.5f, 0.25f}, {0.9677074f, 0.02362015f}, {3.5e-06f, 3.2e-07f}},
-        {{0.55f, 0.0f}, {0.29765463f, 0.0f}, {3.1e-06f, 3.1e-07f}},
-        {{0.55f, 2.0f}, {0.30074042f, 0.18244562f}, {3.1e-06f, 7e-07f}},
+        {{0.1f, 1.0f}, {0.0100271925f, 0.09330675f}, {3.4e-06f, 4e-07f}},
+        {{0.2125f, 0.9375f}, {0.045217853f, 0.08765493f}, {3.4e-06f, 4e-07f}},
+        {{0.325f, 0.875f}, {0.10554562f, 0.081847146f}, {3.4e-06f, 4e-07f}},
+        {{0.4375f, 0.8125f}, {0.19071142f, 0.07591414f}, {3.5e-06f, 3.9e-07f}},
+        {{0.55f, 0.75f}, {0.30029958f, 0.069886245f}, {3.5e-06f, 3.9e-07f}},
+        {{0.6625f, 0.6875f}, {0.43377694f, 0.06379328f}, {3.6e-06f, 3.9e-07f}},
+        {{0.775f, 0.625f}, {0.5904918f, 0.05766443f}, {3.6e-06f, 3.8e-07f}},
+        {{0.8875f, 0.5625f}, {0.76967293f, 0.051528163f}, {3.7e-06f, 3.8e-07f}},
+        {{1.0f, 0.5f}, {0.9704277f, 0.04541203f}, {3.8e-06f, 3.8e-07f}},
+        {{0.05f, 0.5f}, {0.0024982973f, 0.04893871f}, {3.4e-06f, 3.8e-07f}},
+        {{1.5f, 0.25f}, {0.9677074f, 0.02362015f}, {3.8e-06f, 3.7e-07f}},
+        {{0.55f, 0.0f}, {0.29765463f, 0.0f}, {3.5e-06f, 3.6e-07f}},
+        {{0.55f, 2.0f}, {0.30074042f, 0.18244562f}, {3.5e-06f, 7.9e-07f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 12 numbers, seed 1, 480 rows trained, 120 held out.
 // Error on the rows held out: alpha rms 0.0019, 99 % 0.0066, max 0.011;
 // f0 rms 0.00037, 99 % 0.00089, max 0.0013.
-// The code is within 3.4e-06 of the fit in alpha and 2.8e-06 in specular (proven).
+// The code is within 3.8e-06 of the fit in alpha and 3.1e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_5_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_5_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = std::numeric_limits<float>::infinity();
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 0.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = -1.0467f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = -1.0467f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -147,7 +147,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -348,19 +349,19 @@ struct cycles_5_principled_dielectric_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.010044201f, 0.09242811f}, {3.8e-06f, 2.8e-06f}},
-        {{0.2125f, 0.9375f}, {0.045235444f, 0.08683811f}, {3.9e-06f, 2.8e-06f}},
-        {{0.325f, 0.875f}, {0.10536812f, 0.08098282f}, {3.9e-06f, 2.8e-06f}},
-        {{0.4375f, 0.8125f}, {0.19002897f, 0.07508893f}, {3.9e-06f, 2.8e-06f}},
-        {{0.55f, 0.75f}, {0.29912063f, 0.0694008f}, {4e-06f, 2.8e-06f}},
-        {{0.6625f, 0.6875f}, {0.4333893f, 0.06415048f}, {4e-06f, 2.8e-06f}},
-        {{0.775f, 0.625f}, {0.5951128f, 0.059527945f}, {4.1e-06f, 2.8e-06f}},
-        {{0.8875f, 0.5625f}, {0.788949f, 0.05565121f}, {4.2e-06f, 2.8e-06f}},
-        {{1.0f, 0.5f}, {1.0f, 0.051275f}, {4.3e-06f, 2.8e-06f}},
-        {{0.05f, 0.5f}, {0.0025159046f, 0.04988295f}, {3.8e-06f, 2.8e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.026646864f}, {4.3e-06f, 2.8e-06f}},
-        {{0.55f, 0.0f}, {0.2985849f, 0.0f}, {4e-06f, 2.8e-06f}},
-        {{0.55f, 2.0f}, {0.29924697f, 0.17879327f}, {4e-06f, 5.6e-06f}},
+        {{0.1f, 1.0f}, {0.010044201f, 0.09242811f}, {4.3e-06f, 3.2e-06f}},
+        {{0.2125f, 0.9375f}, {0.045235444f, 0.08683811f}, {4.3e-06f, 3.2e-06f}},
+        {{0.325f, 0.875f}, {0.10536812f, 0.08098282f}, {4.3e-06f, 3.2e-06f}},
+        {{0.4375f, 0.8125f}, {0.19002897f, 0.07508893f}, {4.4e-06f, 3.2e-06f}},
+        {{0.55f, 0.75f}, {0.29912063f, 0.0694008f}, {4.4e-06f, 3.2e-06f}},
+        {{0.6625f, 0.6875f}, {0.4333893f, 0.06415048f}, {4.5e-06f, 3.2e-06f}},
+        {{0.775f, 0.625f}, {0.5951128f, 0.059527945f}, {4.6e-06f, 3.2e-06f}},
+        {{0.8875f, 0.5625f}, {0.788949f, 0.05565121f}, {4.7e-06f, 3.2e-06f}},
+        {{1.0f, 0.5f}, {1.0f, 0.051275f}, {4.8e-06f, 3.2e-06f}},
+        {{0.05f, 0.5f}, {0.0025159046f, 0.04988295f}, {4.3e-06f, 3.2e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.026646864f}, {4.8e-06f, 3.1e-06f}},
+        {{0.55f, 0.0f}, {0.2985849f, 0.0f}, {4.4e-06f, 3.1e-06f}},
+        {{0.55f, 2.0f}, {0.29924697f, 0.17879327f}, {4.4e-06f, 6.3e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -6,10 +6,10 @@
 // where the numbers are copied: lights and materials that had no part in the fit.
 // Table legacy_blinn_phong_normalised_to_mitsuba_ggx_plain.csv, sha256 0cf6fd06f825403626a5c326e4a1bdb73e78a328eaf01f18c4b4552c24069a72;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: compact, 13 numbers, seed 1, 349 rows trained, 87 held out.
+// Fit: compact, 14 numbers, seed 1, 349 rows trained, 87 held out.
 // Error on the rows held out: alpha rms 0.018, 99 % 0.044, max 0.044;
 // specular rms 0.026, 99 % 0.057, max 0.057.
-// The code is within 3.1e-05 of the fit in alpha and 5e-06 in specular (proven).
+// The code is within 1.3e-05 of the fit in alpha and 5.7e-06 in specular (proven).
 // Covers alpha 0.01415 to 0.8165, specular 0 to 1.
 #ifndef REMAP_GENERATED_LEGACY_BLINN_PHONG_NORMALISED_TO_MITSUBA_GGX_PLAIN_HPP
 #define REMAP_GENERATED_LEGACY_BLINN_PHONG_NORMALISED_TO_MITSUBA_GGX_PLAIN_HPP
@@ -73,17 +73,17 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -1.1636f, turn_by_alpha = 1.1787f, spread = 0.0f;
+  static constexpr float turn = 0.054923f, turn_by_alpha = -0.75755f, bend = 2.5997f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = (-0.029603f * alpha + 0.15206f) * alpha + 0.8166f;
-    c[1] = -0.55914f * alpha + -0.15137f;
+    c[0] = (-0.029452f * alpha + 0.15196f) * alpha + 0.8166f;
+    c[1] = -0.55913f * alpha + -0.15138f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = (1.7245f * alpha + 0.022102f) * alpha + 0.49668f;
-    c[1] = -1.2759f * alpha + -0.11614f;
+    c[0] = (1.7246f * alpha + 0.022062f) * alpha + 0.49668f;
+    c[1] = -1.2761f * alpha + -0.11613f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -164,7 +164,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -365,19 +366,19 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.99997485f, 1.0f}, {0.58164215f, 1.0f}, {3.2e-05f, 5.5e-06f}},
-        {{1249.236f, 0.9375f}, {0.031570252f, 0.43929622f}, {3.2e-05f, 5.2e-06f}},
-        {{2497.472f, 0.875f}, {0.02237154f, 0.41244125f}, {3.2e-05f, 5.2e-06f}},
-        {{3745.7078f, 0.8125f}, {0.018304372f, 0.38474035f}, {3.2e-05f, 5.2e-06f}},
-        {{4993.944f, 0.75f}, {0.015885718f, 0.3565829f}, {3.2e-05f, 5.2e-06f}},
-        {{6242.1797f, 0.6875f}, {0.014239533f, 0.3281059f}, {3.2e-05f, 5.2e-06f}},
-        {{7490.4155f, 0.625f}, {0.013027858f, 0.29936865f}, {3.2e-05f, 5.2e-06f}},
-        {{8738.651f, 0.5625f}, {0.012089056f, 0.27039984f}, {3.2e-05f, 5.2e-06f}},
-        {{9986.888f, 0.5f}, {0.011334825f, 0.24121378f}, {3.2e-05f, 5.1e-06f}},
-        {{0.49998742f, 0.5f}, {0.6968633f, 0.7678728f}, {3.2e-05f, 5.4e-06f}},
-        {{14980.332f, 0.25f}, {0.00935138f, 0.122361064f}, {3.2e-05f, 5.1e-06f}},
-        {{4993.944f, 0.0f}, {0.016399266f, 0.0f}, {3.2e-05f, 5e-06f}},
-        {{4993.944f, 2.0f}, {0.015748773f, 0.9389578f}, {3.2e-05f, 1.1e-05f}},
+        {{0.99997485f, 1.0f}, {0.5590344f, 1.0f}, {1.4e-05f, 6.2e-06f}},
+        {{1249.236f, 0.9375f}, {0.03157003f, 0.4392952f}, {1.4e-05f, 5.9e-06f}},
+        {{2497.472f, 0.875f}, {0.022371415f, 0.41244102f}, {1.4e-05f, 5.9e-06f}},
+        {{3745.7078f, 0.8125f}, {0.018304283f, 0.38474038f}, {1.4e-05f, 5.9e-06f}},
+        {{4993.944f, 0.75f}, {0.015885647f, 0.35658306f}, {1.4e-05f, 5.9e-06f}},
+        {{6242.1797f, 0.6875f}, {0.014239475f, 0.32810608f}, {1.4e-05f, 5.9e-06f}},
+        {{7490.4155f, 0.625f}, {0.01302781f, 0.29936883f}, {1.4e-05f, 5.8e-06f}},
+        {{8738.651f, 0.5625f}, {0.012089015f, 0.2704f}, {1.4e-05f, 5.8e-06f}},
+        {{9986.888f, 0.5f}, {0.011334791f, 0.24121392f}, {1.4e-05f, 5.8e-06f}},
+        {{0.49998742f, 0.5f}, {0.6968787f, 0.7678813f}, {1.4e-05f, 6.1e-06f}},
+        {{14980.332f, 0.25f}, {0.009351358f, 0.122361034f}, {1.4e-05f, 5.8e-06f}},
+        {{4993.944f, 0.0f}, {0.016399227f, 0.0f}, {1.4e-05f, 5.7e-06f}},
+        {{4993.944f, 2.0f}, {0.015748695f, 0.9389587f}, {1.4e-05f, 1.2e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

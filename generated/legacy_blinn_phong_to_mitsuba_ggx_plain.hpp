@@ -9,7 +9,7 @@
 // Fit: compact, 4 numbers, seed 1, 366 rows trained, 92 held out.
 // Error on the rows held out: alpha rms 0.12, 99 % 0.35, max 0.35;
 // specular rms 0.45, 99 % 0.9, max 0.9.
-// The code is within 1.6e-06 of the fit in alpha and 9.9e-07 in specular (proven).
+// The code is within 1.9e-06 of the fit in alpha and 1.2e-06 in specular (proven).
 // Covers alpha 0.01415 to 0.8165, specular 0 to 1.
 #ifndef REMAP_GENERATED_LEGACY_BLINN_PHONG_TO_MITSUBA_GGX_PLAIN_HPP
 #define REMAP_GENERATED_LEGACY_BLINN_PHONG_TO_MITSUBA_GGX_PLAIN_HPP
@@ -73,7 +73,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
@@ -162,7 +162,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -363,19 +364,19 @@ struct legacy_blinn_phong_to_mitsuba_ggx_plain {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.99997485f, 1.0f}, {0.63515276f, 0.44476455f}, {2.4e-06f, 1.2e-06f}},
-        {{1249.236f, 0.9375f}, {0.033313915f, 0.014331536f}, {2.1e-06f, 1e-06f}},
-        {{2497.472f, 0.875f}, {0.023594212f, 0.0077173407f}, {2.1e-06f, 9.9e-07f}},
-        {{3745.7078f, 0.8125f}, {0.01927699f, 0.0048355465f}, {2.1e-06f, 9.9e-07f}},
-        {{4993.944f, 0.75f}, {0.016700445f, 0.0031805926f}, {2.1e-06f, 9.9e-07f}},
-        {{6242.1797f, 0.6875f}, {0.014940923f, 0.0021127607f}, {2.1e-06f, 9.9e-07f}},
-        {{7490.4155f, 0.625f}, {0.013641496f, 0.0013818933f}, {2.1e-06f, 9.9e-07f}},
-        {{8738.651f, 0.5625f}, {0.012631239f, 0.0008667869f}, {2.1e-06f, 9.9e-07f}},
-        {{9986.888f, 0.5f}, {0.011816681f, 0.0005003912f}, {2.1e-06f, 9.9e-07f}},
-        {{0.49998742f, 0.5f}, {0.63515276f, 0.22238228f}, {2.4e-06f, 1.1e-06f}},
-        {{14980.332f, 0.25f}, {0.0096486015f, 0.0002501956f}, {2.1e-06f, 9.9e-07f}},
-        {{4993.944f, 0.0f}, {0.016700445f, 0.0f}, {2.1e-06f, 9.9e-07f}},
-        {{4993.944f, 2.0f}, {0.016700445f, 0.00848158f}, {2.1e-06f, 2e-06f}},
+        {{0.99997485f, 1.0f}, {0.63515276f, 0.44476455f}, {2.7e-06f, 1.4e-06f}},
+        {{1249.236f, 0.9375f}, {0.033313915f, 0.014331536f}, {2.4e-06f, 1.2e-06f}},
+        {{2497.472f, 0.875f}, {0.023594212f, 0.0077173407f}, {2.4e-06f, 1.2e-06f}},
+        {{3745.7078f, 0.8125f}, {0.01927699f, 0.0048355465f}, {2.4e-06f, 1.2e-06f}},
+        {{4993.944f, 0.75f}, {0.016700445f, 0.0031805926f}, {2.4e-06f, 1.2e-06f}},
+        {{6242.1797f, 0.6875f}, {0.014940923f, 0.0021127607f}, {2.4e-06f, 1.2e-06f}},
+        {{7490.4155f, 0.625f}, {0.013641496f, 0.0013818933f}, {2.4e-06f, 1.2e-06f}},
+        {{8738.651f, 0.5625f}, {0.012631239f, 0.0008667869f}, {2.4e-06f, 1.2e-06f}},
+        {{9986.888f, 0.5f}, {0.011816681f, 0.0005003912f}, {2.4e-06f, 1.2e-06f}},
+        {{0.49998742f, 0.5f}, {0.63515276f, 0.22238228f}, {2.7e-06f, 1.3e-06f}},
+        {{14980.332f, 0.25f}, {0.0096486015f, 0.0002501956f}, {2.4e-06f, 1.2e-06f}},
+        {{4993.944f, 0.0f}, {0.016700445f, 0.0f}, {2.4e-06f, 1.2e-06f}},
+        {{4993.944f, 2.0f}, {0.016700445f, 0.00848158f}, {2.4e-06f, 2.3e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

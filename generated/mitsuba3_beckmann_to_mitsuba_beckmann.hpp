@@ -4,10 +4,10 @@
 // mitsuba3/beckmann to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
 // Table mitsuba3_beckmann_to_mitsuba_beckmann.csv, sha256 90572b87aadc1cc66f722d88190432ab113ba8b68dd0bbaa66dab877804e8baf;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by Mitsuba 3.9.1 (scalar_rgb); remapc 0.1.0.
-// Fit: compact, 10 numbers, seed 1, 760 rows trained, 190 held out.
+// Fit: compact, 11 numbers, seed 1, 760 rows trained, 190 held out.
 // Error on the rows held out: alpha rms 0.00036, 99 % 0.002, max 0.0039;
 // f0 rms 0.00089, 99 % 0.003, max 0.003.
-// The code is within 1.1e-05 of the fit in alpha and 1.1e-05 in specular (proven).
+// The code is within 1.2e-05 of the fit in alpha and 1.2e-05 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA3_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA3_BECKMANN_TO_MITSUBA_BECKMANN_HPP
@@ -57,12 +57,12 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.31688f, turn_by_alpha = -0.43117f, spread = 0.79142f;
+  static constexpr float turn = 0.3169f, turn_by_alpha = -0.43118f, bend = 0.0020045f, spread = 0.7914f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.0009763f * alpha + 1.024f;
+    c[0] = 0.00097629f * alpha + 1.024f;
     c[1] = -0.024984f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
@@ -146,7 +146,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -347,19 +348,19 @@ struct mitsuba3_beckmann_to_mitsuba_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.009993343f, 0.99819475f}, {1.1e-05f, 1.1e-05f}},
-        {{0.13375f, 0.9375f}, {0.13367984f, 0.9362449f}, {1.1e-05f, 1.1e-05f}},
-        {{0.2575f, 0.875f}, {0.25740197f, 0.87421286f}, {1.1e-05f, 1.1e-05f}},
-        {{0.38125f, 0.8125f}, {0.3811611f, 0.8120988f}, {1.1e-05f, 1.1e-05f}},
-        {{0.505f, 0.75f}, {0.5049589f, 0.7499028f}, {1.1e-05f, 1.1e-05f}},
-        {{0.62875f, 0.6875f}, {0.6287978f, 0.687625f}, {1.1e-05f, 1.1e-05f}},
-        {{0.7525f, 0.625f}, {0.752681f, 0.62526554f}, {1.1e-05f, 1.1e-05f}},
-        {{0.87625f, 0.5625f}, {0.8766134f, 0.5628248f}, {1.1e-05f, 1.1e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.5005413f}, {1.1e-05f, 1.1e-05f}},
-        {{0.005f, 0.5f}, {0.004998176f, 0.49766397f}, {1.1e-05f, 1.1e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.24900202f}, {1.1e-05f, 1.1e-05f}},
-        {{0.505f, 0.0f}, {0.517369f, 0.0f}, {1.1e-05f, 1.1e-05f}},
-        {{0.505f, 2.0f}, {0.50494957f, 1.0f}, {1.1e-05f, 2.1e-05f}},
+        {{0.01f, 1.0f}, {0.009993343f, 0.99819475f}, {1.2e-05f, 1.3e-05f}},
+        {{0.13375f, 0.9375f}, {0.13367984f, 0.9362449f}, {1.3e-05f, 1.3e-05f}},
+        {{0.2575f, 0.875f}, {0.25740197f, 0.87421286f}, {1.3e-05f, 1.3e-05f}},
+        {{0.38125f, 0.8125f}, {0.3811611f, 0.8120988f}, {1.3e-05f, 1.3e-05f}},
+        {{0.505f, 0.75f}, {0.5049589f, 0.7499028f}, {1.3e-05f, 1.3e-05f}},
+        {{0.62875f, 0.6875f}, {0.6287978f, 0.687625f}, {1.3e-05f, 1.3e-05f}},
+        {{0.7525f, 0.625f}, {0.752681f, 0.62526554f}, {1.3e-05f, 1.2e-05f}},
+        {{0.87625f, 0.5625f}, {0.8766134f, 0.5628248f}, {1.3e-05f, 1.2e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.50054127f}, {1.3e-05f, 1.2e-05f}},
+        {{0.005f, 0.5f}, {0.004998176f, 0.49766397f}, {1.2e-05f, 1.2e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.24900201f}, {1.3e-05f, 1.2e-05f}},
+        {{0.505f, 0.0f}, {0.517369f, 0.0f}, {1.3e-05f, 1.2e-05f}},
+        {{0.505f, 2.0f}, {0.50494957f, 1.0f}, {1.3e-05f, 2.4e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 12 numbers, seed 1, 483 rows trained, 121 held out.
 // Error on the rows held out: alpha rms 0.00082, 99 % 0.0027, max 0.0029;
 // f0 rms 6.5e-05, 99 % 0.00023, max 0.00037.
-// The code is within 4.2e-06 of the fit in alpha and 3.8e-06 in specular (proven).
+// The code is within 4.8e-06 of the fit in alpha and 4.3e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA3_PLASTIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA3_PLASTIC_TO_MITSUBA_GGX_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = std::numeric_limits<float>::infinity();
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 0.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = -1.6105f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = -1.6105f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -146,7 +146,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -347,19 +348,19 @@ struct mitsuba3_plastic_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.009992909f, 0.05880134f}, {4.7e-06f, 3.8e-06f}},
-        {{0.13375f, 0.9375f}, {0.13297354f, 0.054348215f}, {4.8e-06f, 3.8e-06f}},
-        {{0.2575f, 0.875f}, {0.2548359f, 0.04999367f}, {4.8e-06f, 3.8e-06f}},
-        {{0.38125f, 0.8125f}, {0.3758139f, 0.045743033f}, {4.9e-06f, 3.8e-06f}},
-        {{0.505f, 0.75f}, {0.49618846f, 0.04160152f}, {4.9e-06f, 3.8e-06f}},
-        {{0.62875f, 0.6875f}, {0.616307f, 0.037574198f}, {5e-06f, 3.8e-06f}},
-        {{0.7525f, 0.625f}, {0.7366135f, 0.03366592f}, {5.1e-06f, 3.8e-06f}},
-        {{0.87625f, 0.5625f}, {0.85769683f, 0.02988123f}, {5.1e-06f, 3.8e-06f}},
-        {{1.0f, 0.5f}, {0.9803703f, 0.026224151f}, {5.2e-06f, 3.8e-06f}},
-        {{0.005f, 0.5f}, {0.0050088256f, 0.027722646f}, {4.7e-06f, 3.8e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.012641123f}, {5.2e-06f, 3.8e-06f}},
-        {{0.505f, 0.0f}, {0.58467233f, 0.0f}, {5e-06f, 3.8e-06f}},
-        {{0.505f, 2.0f}, {0.49437037f, 0.112296574f}, {4.9e-06f, 7.6e-06f}},
+        {{0.01f, 1.0f}, {0.009992909f, 0.05880134f}, {5.3e-06f, 4.3e-06f}},
+        {{0.13375f, 0.9375f}, {0.13297354f, 0.054348215f}, {5.3e-06f, 4.3e-06f}},
+        {{0.2575f, 0.875f}, {0.2548359f, 0.04999367f}, {5.4e-06f, 4.3e-06f}},
+        {{0.38125f, 0.8125f}, {0.3758139f, 0.045743033f}, {5.5e-06f, 4.3e-06f}},
+        {{0.505f, 0.75f}, {0.49618846f, 0.04160152f}, {5.5e-06f, 4.3e-06f}},
+        {{0.62875f, 0.6875f}, {0.616307f, 0.037574198f}, {5.6e-06f, 4.3e-06f}},
+        {{0.7525f, 0.625f}, {0.7366135f, 0.03366592f}, {5.6e-06f, 4.3e-06f}},
+        {{0.87625f, 0.5625f}, {0.85769683f, 0.02988123f}, {5.7e-06f, 4.3e-06f}},
+        {{1.0f, 0.5f}, {0.9803703f, 0.026224151f}, {5.7e-06f, 4.3e-06f}},
+        {{0.005f, 0.5f}, {0.0050088256f, 0.027722646f}, {5.3e-06f, 4.3e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.012641123f}, {5.8e-06f, 4.3e-06f}},
+        {{0.505f, 0.0f}, {0.58467233f, 0.0f}, {5.6e-06f, 4.3e-06f}},
+        {{0.505f, 2.0f}, {0.49437037f, 0.112296574f}, {5.5e-06f, 8.6e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

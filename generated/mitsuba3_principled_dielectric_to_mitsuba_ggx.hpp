@@ -7,7 +7,7 @@
 // Fit: compact, 7 numbers, seed 1, 480 rows trained, 120 held out.
 // Error on the rows held out: alpha rms 0.0022, 99 % 0.007, max 0.0094;
 // f0 rms 0.00034, 99 % 0.0014, max 0.0017.
-// The code is within 2.5e-06 of the fit in alpha and 3.4e-07 in specular (proven).
+// The code is within 2.9e-06 of the fit in alpha and 3.9e-07 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA3_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA3_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
@@ -143,7 +143,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -344,19 +345,19 @@ struct mitsuba3_principled_dielectric_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.010011024f, 0.09706949f}, {3e-06f, 3.9e-07f}},
-        {{0.2125f, 0.9375f}, {0.045147873f, 0.091248825f}, {3e-06f, 3.8e-07f}},
-        {{0.325f, 0.875f}, {0.10538199f, 0.08523779f}, {3e-06f, 3.8e-07f}},
-        {{0.4375f, 0.8125f}, {0.19040254f, 0.07907332f}, {3.1e-06f, 3.8e-07f}},
-        {{0.55f, 0.75f}, {0.29977253f, 0.072791755f}, {3.1e-06f, 3.8e-07f}},
-        {{0.6625f, 0.6875f}, {0.43292844f, 0.06642883f}, {3.2e-06f, 3.7e-07f}},
-        {{0.775f, 0.625f}, {0.5891797f, 0.06001947f}, {3.3e-06f, 3.7e-07f}},
-        {{0.8875f, 0.5625f}, {0.7677084f, 0.05359764f}, {3.4e-06f, 3.7e-07f}},
-        {{1.0f, 0.5f}, {0.9675681f, 0.047196183f}, {3.5e-06f, 3.6e-07f}},
-        {{0.05f, 0.5f}, {0.0024987934f, 0.05145383f}, {3e-06f, 3.7e-07f}},
-        {{1.5f, 0.25f}, {0.9663001f, 0.024765724f}, {3.5e-06f, 3.5e-07f}},
-        {{0.55f, 0.0f}, {0.2985396f, 0.0f}, {3.1e-06f, 3.4e-07f}},
-        {{0.55f, 2.0f}, {0.29997802f, 0.18910721f}, {3.1e-06f, 7.7e-07f}},
+        {{0.1f, 1.0f}, {0.010011024f, 0.09706949f}, {3.4e-06f, 4.4e-07f}},
+        {{0.2125f, 0.9375f}, {0.045147873f, 0.091248825f}, {3.4e-06f, 4.3e-07f}},
+        {{0.325f, 0.875f}, {0.10538199f, 0.08523779f}, {3.4e-06f, 4.3e-07f}},
+        {{0.4375f, 0.8125f}, {0.19040254f, 0.07907332f}, {3.5e-06f, 4.3e-07f}},
+        {{0.55f, 0.75f}, {0.29977253f, 0.072791755f}, {3.5e-06f, 4.3e-07f}},
+        {{0.6625f, 0.6875f}, {0.43292844f, 0.06642883f}, {3.6e-06f, 4.2e-07f}},
+        {{0.775f, 0.625f}, {0.5891797f, 0.06001947f}, {3.6e-06f, 4.2e-07f}},
+        {{0.8875f, 0.5625f}, {0.7677084f, 0.05359764f}, {3.7e-06f, 4.2e-07f}},
+        {{1.0f, 0.5f}, {0.9675681f, 0.047196183f}, {3.8e-06f, 4.1e-07f}},
+        {{0.05f, 0.5f}, {0.0024987934f, 0.05145383f}, {3.4e-06f, 4.2e-07f}},
+        {{1.5f, 0.25f}, {0.9663001f, 0.024765724f}, {3.8e-06f, 4e-07f}},
+        {{0.55f, 0.0f}, {0.2985396f, 0.0f}, {3.5e-06f, 3.9e-07f}},
+        {{0.55f, 2.0f}, {0.29997802f, 0.18910721f}, {3.5e-06f, 8.7e-07f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

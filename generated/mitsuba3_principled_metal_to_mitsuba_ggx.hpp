@@ -7,7 +7,7 @@
 // Fit: compact, 2 numbers, seed 1, 499 rows trained, 125 held out.
 // Error on the rows held out: alpha rms 6e-05, 99 % 0.00035, max 0.00035;
 // f0 rms 4.1e-05, 99 % 0.00011, max 0.00042.
-// The code is within 2e-06 of the fit in alpha and 2e-06 in specular (proven).
+// The code is within 2.3e-06 of the fit in alpha and 2.3e-06 in specular (proven).
 // Covers alpha 0.01 to 1, base_color 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA3_PRINCIPLED_METAL_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA3_PRINCIPLED_METAL_TO_MITSUBA_GGX_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
@@ -145,7 +145,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -346,19 +347,19 @@ struct mitsuba3_principled_metal_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.0099999f, 0.99998f}, {2.4e-06f, 2.4e-06f}},
-        {{0.2125f, 0.9375f}, {0.0451558f, 0.9374812f}, {2.5e-06f, 2.4e-06f}},
-        {{0.325f, 0.875f}, {0.10562394f, 0.8749825f}, {2.5e-06f, 2.4e-06f}},
-        {{0.4375f, 0.8125f}, {0.19140433f, 0.8124837f}, {2.5e-06f, 2.3e-06f}},
-        {{0.55f, 0.75f}, {0.30249697f, 0.749985f}, {2.6e-06f, 2.3e-06f}},
-        {{0.6625f, 0.6875f}, {0.4389019f, 0.68748623f}, {2.6e-06f, 2.3e-06f}},
-        {{0.775f, 0.625f}, {0.60061896f, 0.6249875f}, {2.7e-06f, 2.3e-06f}},
-        {{0.8875f, 0.5625f}, {0.7876483f, 0.56248873f}, {2.8e-06f, 2.2e-06f}},
-        {{1.0f, 0.5f}, {0.99999f, 0.49999f}, {2.9e-06f, 2.2e-06f}},
-        {{0.05f, 0.5f}, {0.002499975f, 0.49999f}, {2.4e-06f, 2.2e-06f}},
-        {{1.5f, 0.25f}, {0.99999f, 0.249995f}, {2.9e-06f, 2.1e-06f}},
-        {{0.55f, 0.0f}, {0.30249697f, 0.0f}, {2.6e-06f, 2e-06f}},
-        {{0.55f, 2.0f}, {0.30249697f, 1.0f}, {2.6e-06f, 4.3e-06f}},
+        {{0.1f, 1.0f}, {0.0099999f, 0.99998f}, {2.8e-06f, 2.8e-06f}},
+        {{0.2125f, 0.9375f}, {0.0451558f, 0.9374812f}, {2.8e-06f, 2.8e-06f}},
+        {{0.325f, 0.875f}, {0.10562394f, 0.8749825f}, {2.8e-06f, 2.7e-06f}},
+        {{0.4375f, 0.8125f}, {0.19140433f, 0.8124837f}, {2.9e-06f, 2.7e-06f}},
+        {{0.55f, 0.75f}, {0.30249697f, 0.749985f}, {2.9e-06f, 2.7e-06f}},
+        {{0.6625f, 0.6875f}, {0.4389019f, 0.68748623f}, {3e-06f, 2.6e-06f}},
+        {{0.775f, 0.625f}, {0.60061896f, 0.6249875f}, {3.1e-06f, 2.6e-06f}},
+        {{0.8875f, 0.5625f}, {0.7876483f, 0.56248873f}, {3.2e-06f, 2.6e-06f}},
+        {{1.0f, 0.5f}, {0.99999f, 0.49999f}, {3.3e-06f, 2.6e-06f}},
+        {{0.05f, 0.5f}, {0.002499975f, 0.49999f}, {2.8e-06f, 2.6e-06f}},
+        {{1.5f, 0.25f}, {0.99999f, 0.249995f}, {3.3e-06f, 2.4e-06f}},
+        {{0.55f, 0.0f}, {0.30249697f, 0.0f}, {2.9e-06f, 2.3e-06f}},
+        {{0.55f, 2.0f}, {0.30249697f, 1.0f}, {2.9e-06f, 5.1e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

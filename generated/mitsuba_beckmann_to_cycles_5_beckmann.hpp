@@ -7,7 +7,7 @@
 // Fit: compact, 7 numbers, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00097, 99 % 0.0035, max 0.0036;
 // color rms 0.0017, 99 % 0.0043, max 0.0047.
-// The code is within 2.5e-06 of the fit in alpha and 3.2e-06 in specular (proven).
+// The code is within 2.8e-06 of the fit in alpha and 3.7e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_CYCLES_5_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_CYCLES_5_BECKMANN_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -161,7 +161,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -362,19 +363,19 @@ struct mitsuba_beckmann_to_cycles_5_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.10010387f, 1.0f}, {1.3e-05f, 3.7e-06f}},
-        {{0.13375f, 0.9375f}, {0.36596847f, 0.9395458f}, {4e-06f, 3.7e-06f}},
-        {{0.2575f, 0.875f}, {0.5076104f, 0.8757999f}, {3.1e-06f, 3.6e-06f}},
-        {{0.38125f, 0.8125f}, {0.6174346f, 0.8122409f}, {2.8e-06f, 3.6e-06f}},
-        {{0.505f, 0.75f}, {0.71035385f, 0.7488687f}, {2.6e-06f, 3.6e-06f}},
-        {{0.62875f, 0.6875f}, {0.79233646f, 0.68568295f}, {2.4e-06f, 3.5e-06f}},
-        {{0.7525f, 0.625f}, {0.8664901f, 0.6226834f}, {2.3e-06f, 3.5e-06f}},
-        {{0.87625f, 0.5625f}, {0.9346775f, 0.5598696f}, {2.3e-06f, 3.5e-06f}},
-        {{1.0f, 0.5f}, {0.9981181f, 0.4972408f}, {2.2e-06f, 3.5e-06f}},
-        {{0.005f, 0.5f}, {0.07077238f, 0.50324416f}, {1.8e-05f, 3.5e-06f}},
-        {{1.5f, 0.25f}, {0.99780333f, 0.2500416f}, {2.2e-06f, 3.3e-06f}},
-        {{0.505f, 0.0f}, {0.70422f, 0.0f}, {2.6e-06f, 3.2e-06f}},
-        {{0.505f, 2.0f}, {0.7103938f, 1.0f}, {2.6e-06f, 6.9e-06f}},
+        {{0.01f, 1.0f}, {0.10010387f, 1.0f}, {1.5e-05f, 4.2e-06f}},
+        {{0.13375f, 0.9375f}, {0.36596847f, 0.9395458f}, {4.5e-06f, 4.1e-06f}},
+        {{0.2575f, 0.875f}, {0.5076104f, 0.8757999f}, {3.5e-06f, 4.1e-06f}},
+        {{0.38125f, 0.8125f}, {0.6174346f, 0.8122409f}, {3.1e-06f, 4.1e-06f}},
+        {{0.505f, 0.75f}, {0.71035385f, 0.7488687f}, {2.8e-06f, 4.1e-06f}},
+        {{0.62875f, 0.6875f}, {0.79233646f, 0.68568295f}, {2.7e-06f, 4e-06f}},
+        {{0.7525f, 0.625f}, {0.8664901f, 0.6226834f}, {2.5e-06f, 4e-06f}},
+        {{0.87625f, 0.5625f}, {0.9346775f, 0.5598696f}, {2.5e-06f, 4e-06f}},
+        {{1.0f, 0.5f}, {0.9981181f, 0.4972408f}, {2.4e-06f, 3.9e-06f}},
+        {{0.005f, 0.5f}, {0.07077238f, 0.50324416f}, {2.1e-05f, 3.9e-06f}},
+        {{1.5f, 0.25f}, {0.99780333f, 0.2500416f}, {2.4e-06f, 3.8e-06f}},
+        {{0.505f, 0.0f}, {0.70422f, 0.0f}, {2.8e-06f, 3.7e-06f}},
+        {{0.505f, 2.0f}, {0.7103938f, 1.0f}, {2.8e-06f, 7.8e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

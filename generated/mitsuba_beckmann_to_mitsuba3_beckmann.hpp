@@ -4,10 +4,10 @@
 // mitsuba/beckmann to mitsuba3/beckmann: which parameters of the second give the same picture as those of the first.
 // Table mitsuba_beckmann_to_mitsuba3_beckmann.csv, sha256 54d0fed482666c8792ce803cb44371721b1903ddebf655c1c2e51a0cfe8cd19d;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Mitsuba 3.9.1 (scalar_rgb).
-// Fit: compact, 9 numbers, seed 1, 734 rows trained, 184 held out.
+// Fit: compact, 10 numbers, seed 1, 734 rows trained, 184 held out.
 // Error on the rows held out: alpha rms 0.00026, 99 % 0.00085, max 0.0025;
 // specular rms 0.00081, 99 % 0.0024, max 0.0027.
-// The code is within 1.3e-05 of the fit in alpha and 3.7e-06 in specular (proven).
+// The code is within 1.5e-05 of the fit in alpha and 4.3e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA3_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA3_BECKMANN_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.44026f, turn_by_alpha = -0.41381f, spread = 0.0f;
+  static constexpr float turn = -0.44026f, turn_by_alpha = -0.41382f, bend = 0.0010532f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -146,7 +146,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -347,19 +348,19 @@ struct mitsuba_beckmann_to_mitsuba3_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.009999283f, 1.0f}, {1.4e-05f, 4.2e-06f}},
-        {{0.13375f, 0.9375f}, {0.13383302f, 0.93893373f}, {1.4e-05f, 4.2e-06f}},
-        {{0.2575f, 0.875f}, {0.25761235f, 0.8759779f}, {1.4e-05f, 4.1e-06f}},
-        {{0.38125f, 0.8125f}, {0.38134477f, 0.8130985f}, {1.4e-05f, 4.1e-06f}},
-        {{0.505f, 0.75f}, {0.5050284f, 0.7502956f}, {1.4e-05f, 4.1e-06f}},
-        {{0.62875f, 0.6875f}, {0.62866104f, 0.687569f}, {1.4e-05f, 4e-06f}},
-        {{0.7525f, 0.625f}, {0.75223917f, 0.62491864f}, {1.4e-05f, 4e-06f}},
-        {{0.87625f, 0.5625f}, {0.8757582f, 0.5623442f}, {1.4e-05f, 4e-06f}},
-        {{1.0f, 0.5f}, {0.9992107f, 0.49984545f}, {1.4e-05f, 3.9e-06f}},
-        {{0.005f, 0.5f}, {0.005002491f, 0.502304f}, {1.4e-05f, 4e-06f}},
-        {{1.5f, 0.25f}, {0.99862105f, 0.25120476f}, {1.4e-05f, 3.8e-06f}},
-        {{0.505f, 0.0f}, {0.48975062f, 0.0f}, {1.4e-05f, 3.7e-06f}},
-        {{0.505f, 2.0f}, {0.5050799f, 1.0f}, {1.4e-05f, 7.8e-06f}},
+        {{0.01f, 1.0f}, {0.009999283f, 1.0f}, {1.6e-05f, 4.7e-06f}},
+        {{0.13375f, 0.9375f}, {0.13383302f, 0.93893373f}, {1.6e-05f, 4.7e-06f}},
+        {{0.2575f, 0.875f}, {0.25761235f, 0.8759779f}, {1.6e-05f, 4.7e-06f}},
+        {{0.38125f, 0.8125f}, {0.38134477f, 0.8130985f}, {1.6e-05f, 4.6e-06f}},
+        {{0.505f, 0.75f}, {0.5050284f, 0.7502956f}, {1.6e-05f, 4.6e-06f}},
+        {{0.62875f, 0.6875f}, {0.62866104f, 0.687569f}, {1.6e-05f, 4.6e-06f}},
+        {{0.7525f, 0.625f}, {0.75223917f, 0.62491864f}, {1.6e-05f, 4.6e-06f}},
+        {{0.87625f, 0.5625f}, {0.8757582f, 0.5623442f}, {1.6e-05f, 4.5e-06f}},
+        {{1.0f, 0.5f}, {0.9992107f, 0.49984545f}, {1.6e-05f, 4.5e-06f}},
+        {{0.005f, 0.5f}, {0.005002491f, 0.502304f}, {1.6e-05f, 4.5e-06f}},
+        {{1.5f, 0.25f}, {0.99862105f, 0.25120476f}, {1.6e-05f, 4.4e-06f}},
+        {{0.505f, 0.0f}, {0.48975062f, 0.0f}, {1.6e-05f, 4.3e-06f}},
+        {{0.505f, 2.0f}, {0.5050799f, 1.0f}, {1.6e-05f, 8.9e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Pictures of spheres differ by 9.6 % of white on average (root mean square of display values), by 14.0 %
+// Pictures of spheres differ by 9.8 % of white on average (root mean square of display values), by 14.0 %
 // where the numbers are copied: lights and materials that had no part in the fit.
 // Table mitsuba_beckmann_to_mitsuba_ward.csv, sha256 94d8a7c3984b665533b5303fbf8c11e1c2e8de6a41fd009f7dfc5bbff6ec5ba0;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: compact, 14 numbers, seed 1, 846 rows trained, 211 held out.
-// Error on the rows held out: alpha rms 0.11, 99 % 0.3, max 0.32;
-// specular rms 0.036, 99 % 0.13, max 0.14.
-// The code is within 3.2e-05 of the fit in alpha and 0.00014 in specular (proven).
+// Fit: compact, 15 numbers, seed 1, 846 rows trained, 211 held out.
+// Error on the rows held out: alpha rms 0.095, 99 % 0.21, max 0.21;
+// specular rms 0.054, 99 % 0.22, max 0.4.
+// The code is within 2e-04 of the fit in alpha and 2e-04 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_HPP
@@ -54,22 +54,22 @@ struct Form {
   static constexpr float width_from = 0.0f, width_to = 1.0f;  // and where widths are clamped
   static constexpr float specular_min = 0.0f, specular_max = 1.0f;
   static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;
-  static constexpr float pole = 0.76971f;
+  static constexpr float pole = 0.01f;
   static constexpr bool is_limited = true;
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.20985f, turn_by_alpha = 0.02226f, spread = -0.84637f;
+  static constexpr float turn = -0.1347f, turn_by_alpha = -0.91175f, bend = 0.62669f, spread = -0.72161f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = (0.038231f * alpha + 0.88495f) * alpha + 0.95453f;
-    c[1] = -0.88469f * alpha + 0.069207f;
+    c[0] = (0.57294f * alpha + 0.66839f) * alpha + 1.0367f;
+    c[1] = -0.17136f * alpha + -0.060157f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = (5.0834f * alpha + -0.14945f) * alpha + 1.4713f;
-    c[1] = -1.3047f * alpha + 0.031722f;
+    c[0] = (6.1016f * alpha + 1.2318f) * alpha + 1.5135f;
+    c[1] = -2.1292f * alpha + -0.025847f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -148,7 +148,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -349,19 +350,19 @@ struct mitsuba_beckmann_to_mitsuba_ward {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.008966879f, 1.0f}, {3.2e-05f, 0.00014f}},
-        {{0.13375f, 0.9375f}, {0.12968037f, 1.0f}, {3.2e-05f, 0.00014f}},
-        {{0.2575f, 0.875f}, {0.26200184f, 1.0f}, {3.2e-05f, 0.00014f}},
-        {{0.38125f, 0.8125f}, {0.39955658f, 1.0f}, {3.2e-05f, 0.00014f}},
-        {{0.505f, 0.75f}, {0.5396103f, 1.0f}, {3.2e-05f, 0.00014f}},
-        {{0.62875f, 0.6875f}, {0.68293285f, 1.0f}, {3.3e-05f, 0.00014f}},
-        {{0.7525f, 0.625f}, {0.83367753f, 1.0f}, {3.3e-05f, 0.00014f}},
-        {{0.87625f, 0.5625f}, {0.99928385f, 1.0f}, {3.3e-05f, 0.00014f}},
-        {{1.0f, 0.5f}, {1.0f, 1.0f}, {3.3e-05f, 0.00014f}},
-        {{0.005f, 0.5f}, {0.004935763f, 0.73883396f}, {3.2e-05f, 0.00014f}},
-        {{1.5f, 0.25f}, {1.0f, 0.64944917f}, {3.3e-05f, 0.00014f}},
-        {{0.505f, 0.0f}, {0.7126457f, 0.0f}, {3.3e-05f, 0.00014f}},
-        {{0.505f, 2.0f}, {0.47072378f, 1.0f}, {3.2e-05f, 0.00027f}},
+        {{0.01f, 1.0f}, {0.009291352f, 1.0f}, {2e-04f, 2e-04f}},
+        {{0.13375f, 0.9375f}, {0.1302885f, 1.0f}, {2e-04f, 2e-04f}},
+        {{0.2575f, 0.875f}, {0.26057753f, 1.0f}, {2e-04f, 2e-04f}},
+        {{0.38125f, 0.8125f}, {0.39106882f, 1.0f}, {2e-04f, 2e-04f}},
+        {{0.505f, 0.75f}, {0.51526153f, 1.0f}, {2e-04f, 2e-04f}},
+        {{0.62875f, 0.6875f}, {0.6346402f, 1.0f}, {2e-04f, 2e-04f}},
+        {{0.7525f, 0.625f}, {0.75673807f, 1.0f}, {2e-04f, 2e-04f}},
+        {{0.87625f, 0.5625f}, {0.8922353f, 1.0f}, {2e-04f, 2e-04f}},
+        {{1.0f, 0.5f}, {1.0f, 0.81331193f}, {2e-04f, 2e-04f}},
+        {{0.005f, 0.5f}, {0.0049139187f, 0.7401067f}, {2e-04f, 2e-04f}},
+        {{1.5f, 0.25f}, {1.0f, 0.4037748f}, {2e-04f, 2e-04f}},
+        {{0.505f, 0.0f}, {0.7677772f, 0.0f}, {2e-04f, 2e-04f}},
+        {{0.505f, 2.0f}, {0.45421392f, 1.0f}, {2e-04f, 4e-04f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -4,10 +4,10 @@
 // mitsuba/ggx to cycles-3.4/ggx: which parameters of the second give the same picture as those of the first.
 // Table mitsuba_ggx_to_cycles_3_4_ggx.csv, sha256 a0a160a2687caca1d2a6ef0266109d9504101f61ee3e45637b6e61665de4e2af;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 3.4.1.
-// Fit: compact, 9 numbers, seed 1, 733 rows trained, 183 held out.
+// Fit: compact, 10 numbers, seed 1, 733 rows trained, 183 held out.
 // Error on the rows held out: alpha rms 0.00054, 99 % 0.0023, max 0.0047;
 // color rms 0.001, 99 % 0.0035, max 0.0037.
-// The code is within 1.8e-05 of the fit in alpha and 3.3e-06 in specular (proven).
+// The code is within 2.1e-05 of the fit in alpha and 3.8e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_GGX_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.42384f, turn_by_alpha = -0.92771f, spread = 0.0f;
+  static constexpr float turn = -0.42384f, turn_by_alpha = -0.92772f, bend = 0.0032883f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -161,7 +161,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -362,19 +363,19 @@ struct mitsuba_ggx_to_cycles_3_4_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.10000833f, 1.0f}, {9e-05f, 3.8e-06f}},
-        {{0.13375f, 0.9375f}, {0.36594337f, 0.93993026f}, {2.5e-05f, 3.8e-06f}},
-        {{0.2575f, 0.875f}, {0.5076547f, 0.8766064f}, {1.9e-05f, 3.7e-06f}},
-        {{0.38125f, 0.8125f}, {0.61758363f, 0.8133963f}, {1.6e-05f, 3.7e-06f}},
-        {{0.505f, 0.75f}, {0.71063286f, 0.7502998f}, {1.4e-05f, 3.7e-06f}},
-        {{0.62875f, 0.6875f}, {0.79276514f, 0.68731695f}, {1.3e-05f, 3.6e-06f}},
-        {{0.7525f, 0.625f}, {0.8670837f, 0.6244475f}, {1.2e-05f, 3.6e-06f}},
-        {{0.87625f, 0.5625f}, {0.9354469f, 0.56169134f}, {1.1e-05f, 3.6e-06f}},
-        {{1.0f, 0.5f}, {0.9990698f, 0.4990481f}, {9.9e-06f, 3.5e-06f}},
-        {{0.005f, 0.5f}, {0.07074331f, 0.50269616f}, {0.00013f, 3.5e-06f}},
-        {{1.5f, 0.25f}, {0.9983902f, 0.25050253f}, {9.9e-06f, 3.4e-06f}},
-        {{0.505f, 0.0f}, {0.6884387f, 0.0f}, {1.4e-05f, 3.3e-06f}},
-        {{0.505f, 2.0f}, {0.71071666f, 1.0f}, {1.4e-05f, 7e-06f}},
+        {{0.01f, 1.0f}, {0.10000834f, 1.0f}, {0.00011f, 4.3e-06f}},
+        {{0.13375f, 0.9375f}, {0.36594337f, 0.93993026f}, {2.9e-05f, 4.2e-06f}},
+        {{0.2575f, 0.875f}, {0.5076547f, 0.8766064f}, {2.1e-05f, 4.2e-06f}},
+        {{0.38125f, 0.8125f}, {0.61758363f, 0.8133963f}, {1.8e-05f, 4.2e-06f}},
+        {{0.505f, 0.75f}, {0.71063286f, 0.7502998f}, {1.6e-05f, 4.2e-06f}},
+        {{0.62875f, 0.6875f}, {0.79276514f, 0.68731695f}, {1.4e-05f, 4.1e-06f}},
+        {{0.7525f, 0.625f}, {0.8670837f, 0.6244475f}, {1.3e-05f, 4.1e-06f}},
+        {{0.87625f, 0.5625f}, {0.9354469f, 0.56169134f}, {1.2e-05f, 4.1e-06f}},
+        {{1.0f, 0.5f}, {0.9990698f, 0.4990481f}, {1.2e-05f, 4e-06f}},
+        {{0.005f, 0.5f}, {0.07074331f, 0.50269616f}, {0.00015f, 4e-06f}},
+        {{1.5f, 0.25f}, {0.9983902f, 0.25050253f}, {1.2e-05f, 3.9e-06f}},
+        {{0.505f, 0.0f}, {0.6884387f, 0.0f}, {1.6e-05f, 3.8e-06f}},
+        {{0.505f, 2.0f}, {0.71071666f, 1.0f}, {1.6e-05f, 8e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 8 numbers, seed 1, 486 rows trained, 121 held out.
 // Error on the rows held out: alpha rms 0.0015, 99 % 0.0047, max 0.0055;
 // specular rms 0.002, 99 % 0.0079, max 0.008.
-// The code is within 2.5e-06 of the fit in alpha and 1.5e-05 in specular (proven).
+// The code is within 2.9e-06 of the fit in alpha and 1.8e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 0.08.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_PRINCIPLED_DIELECTRIC_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_PRINCIPLED_DIELECTRIC_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = std::numeric_limits<float>::infinity();
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 0.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = -1.4034f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = -1.4034f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -161,7 +161,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -362,19 +363,19 @@ struct mitsuba_ggx_to_cycles_3_4_principled_dielectric {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 0.08f}, {0.09984009f, 0.85058355f}, {1.4e-05f, 1.6e-05f}},
-        {{0.13375f, 0.074999996f}, {0.36595172f, 0.8011439f}, {4.1e-06f, 1.6e-05f}},
-        {{0.2575f, 0.07f}, {0.50890356f, 0.7510904f}, {3.2e-06f, 1.6e-05f}},
-        {{0.38125f, 0.065f}, {0.62061185f, 0.700444f}, {2.8e-06f, 1.6e-05f}},
-        {{0.505f, 0.06f}, {0.7158588f, 0.6492268f}, {2.6e-06f, 1.6e-05f}},
-        {{0.62875f, 0.055f}, {0.80054486f, 0.5974621f}, {2.5e-06f, 1.6e-05f}},
-        {{0.7525f, 0.049999997f}, {0.877735f, 0.5451744f}, {2.4e-06f, 1.6e-05f}},
-        {{0.87625f, 0.044999998f}, {0.94926256f, 0.49238962f}, {2.3e-06f, 1.6e-05f}},
-        {{1.0f, 0.04f}, {1.0f, 0.4188472f}, {2.3e-06f, 1.6e-05f}},
-        {{0.005f, 0.04f}, {0.07073657f, 0.4019651f}, {1.9e-05f, 1.6e-05f}},
-        {{1.5f, 0.02f}, {1.0f, 0.2022083f}, {2.3e-06f, 1.5e-05f}},
-        {{0.505f, 0.0f}, {0.71830904f, 0.0f}, {2.6e-06f, 1.5e-05f}},
-        {{0.505f, 0.16f}, {0.7152016f, 1.7755066f}, {2.6e-06f, 3.1e-05f}},
+        {{0.01f, 0.08f}, {0.09984009f, 0.85058355f}, {1.5e-05f, 1.8e-05f}},
+        {{0.13375f, 0.074999996f}, {0.36595172f, 0.8011439f}, {4.6e-06f, 1.8e-05f}},
+        {{0.2575f, 0.07f}, {0.50890356f, 0.7510904f}, {3.6e-06f, 1.8e-05f}},
+        {{0.38125f, 0.065f}, {0.62061185f, 0.700444f}, {3.1e-06f, 1.8e-05f}},
+        {{0.505f, 0.06f}, {0.7158588f, 0.6492268f}, {2.9e-06f, 1.8e-05f}},
+        {{0.62875f, 0.055f}, {0.80054486f, 0.5974621f}, {2.7e-06f, 1.8e-05f}},
+        {{0.7525f, 0.049999997f}, {0.877735f, 0.5451744f}, {2.6e-06f, 1.8e-05f}},
+        {{0.87625f, 0.044999998f}, {0.94926256f, 0.49238962f}, {2.5e-06f, 1.8e-05f}},
+        {{1.0f, 0.04f}, {1.0f, 0.4188472f}, {2.4e-06f, 1.8e-05f}},
+        {{0.005f, 0.04f}, {0.07073657f, 0.4019651f}, {2.1e-05f, 1.8e-05f}},
+        {{1.5f, 0.02f}, {1.0f, 0.2022083f}, {2.4e-06f, 1.8e-05f}},
+        {{0.505f, 0.0f}, {0.71830904f, 0.0f}, {2.9e-06f, 1.8e-05f}},
+        {{0.505f, 0.16f}, {0.7152016f, 1.7755066f}, {2.9e-06f, 3.6e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -4,10 +4,10 @@
 // mitsuba/ggx to cycles-3.4/principled-metal: which parameters of the second give the same picture as those of the first.
 // Table mitsuba_ggx_to_cycles_3_4_principled_metal.csv, sha256 d16dd5995303b6dbfd47e4eeb982516f4b8e5a74970cd5488eb280ea518f5a07;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Cycles of Blender 3.4.1.
-// Fit: compact, 10 numbers, seed 1, 494 rows trained, 124 held out.
+// Fit: compact, 11 numbers, seed 1, 494 rows trained, 124 held out.
 // Error on the rows held out: alpha rms 8e-04, 99 % 0.0026, max 0.0033;
-// base_color rms 0.0026, 99 % 0.0072, max 0.0077.
-// The code is within 8e-06 of the fit in alpha and 1.7e-05 in specular (proven).
+// base_color rms 0.0026, 99 % 0.0072, max 0.0076.
+// The code is within 9.2e-06 of the fit in alpha and 1.9e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_PRINCIPLED_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_3_4_PRINCIPLED_METAL_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.032135f, turn_by_alpha = -0.39755f, spread = -1.2902f;
+  static constexpr float turn = 0.032255f, turn_by_alpha = -0.39778f, bend = 0.033744f, spread = -1.2902f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -80,8 +80,8 @@ struct Form {
     c[1] = -0.10903f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.015646f * alpha + 0.070454f;
-    c[1] = 0.93257f;
+    c[0] = 0.015646f * alpha + 0.070475f;
+    c[1] = 0.93254f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -161,7 +161,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -362,19 +363,19 @@ struct mitsuba_ggx_to_cycles_3_4_principled_metal {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.09986025f, 0.9939471f}, {4.1e-05f, 1.7e-05f}},
-        {{0.13375f, 0.9375f}, {0.36535054f, 0.9330696f}, {1.2e-05f, 1.7e-05f}},
-        {{0.2575f, 0.875f}, {0.50713515f, 0.8719509f}, {8.6e-06f, 1.7e-05f}},
-        {{0.38125f, 0.8125f}, {0.6173264f, 0.8105913f}, {7.2e-06f, 1.7e-05f}},
-        {{0.505f, 0.75f}, {0.7107774f, 0.7489909f}, {6.4e-06f, 1.7e-05f}},
-        {{0.62875f, 0.6875f}, {0.79343075f, 0.68715024f}, {5.9e-06f, 1.7e-05f}},
-        {{0.7525f, 0.625f}, {0.86838174f, 0.6250697f}, {5.5e-06f, 1.7e-05f}},
-        {{0.87625f, 0.5625f}, {0.9374886f, 0.5627499f}, {5.2e-06f, 1.7e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.49764234f}, {5e-06f, 1.7e-05f}},
-        {{0.005f, 0.5f}, {0.07064932f, 0.49244738f}, {5.7e-05f, 1.7e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.24379633f}, {5e-06f, 1.7e-05f}},
-        {{0.505f, 0.0f}, {0.74802417f, 0.0f}, {6.2e-06f, 1.7e-05f}},
-        {{0.505f, 2.0f}, {0.71054983f, 1.0f}, {6.4e-06f, 3.3e-05f}},
+        {{0.01f, 1.0f}, {0.09986025f, 0.9939384f}, {4.7e-05f, 2e-05f}},
+        {{0.13375f, 0.9375f}, {0.36535054f, 0.9330614f}, {1.4e-05f, 2e-05f}},
+        {{0.2575f, 0.875f}, {0.50713515f, 0.87194335f}, {9.8e-06f, 2e-05f}},
+        {{0.38125f, 0.8125f}, {0.6173264f, 0.81058425f}, {8.2e-06f, 2e-05f}},
+        {{0.505f, 0.75f}, {0.7107774f, 0.74898446f}, {7.3e-06f, 1.9e-05f}},
+        {{0.62875f, 0.6875f}, {0.79343075f, 0.68714434f}, {6.7e-06f, 1.9e-05f}},
+        {{0.7525f, 0.625f}, {0.86838174f, 0.6250643f}, {6.2e-06f, 1.9e-05f}},
+        {{0.87625f, 0.5625f}, {0.9374886f, 0.5627452f}, {5.8e-06f, 1.9e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.49763814f}, {5.6e-06f, 1.9e-05f}},
+        {{0.005f, 0.5f}, {0.07064932f, 0.49244317f}, {6.6e-05f, 1.9e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.2437944f}, {5.6e-06f, 1.9e-05f}},
+        {{0.505f, 0.0f}, {0.74802417f, 0.0f}, {7e-06f, 1.9e-05f}},
+        {{0.505f, 2.0f}, {0.71055037f, 1.0f}, {7.3e-06f, 3.8e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 11 numbers, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00052, 99 % 0.0013, max 0.0014;
 // color rms 0.0021, 99 % 0.006, max 0.0081.
-// The code is within 3.1e-06 of the fit in alpha and 5e-06 in specular (proven).
+// The code is within 3.5e-06 of the fit in alpha and 5.7e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_5_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_5_GGX_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -161,7 +161,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -362,19 +363,19 @@ struct mitsuba_ggx_to_cycles_5_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.099841714f, 0.9898278f}, {1.6e-05f, 5.5e-06f}},
-        {{0.13375f, 0.9375f}, {0.36587265f, 0.93814254f}, {4.8e-06f, 5.5e-06f}},
-        {{0.2575f, 0.875f}, {0.5078623f, 0.8782762f}, {3.8e-06f, 5.4e-06f}},
-        {{0.38125f, 0.8125f}, {0.61722106f, 0.811687f}, {3.3e-06f, 5.4e-06f}},
-        {{0.505f, 0.75f}, {0.70836574f, 0.73983306f}, {3e-06f, 5.4e-06f}},
-        {{0.62875f, 0.6875f}, {0.78688425f, 0.66417277f}, {2.8e-06f, 5.3e-06f}},
-        {{0.7525f, 0.625f}, {0.8555533f, 0.5861644f}, {2.7e-06f, 5.3e-06f}},
-        {{0.87625f, 0.5625f}, {0.9159269f, 0.50726646f}, {2.6e-06f, 5.2e-06f}},
-        {{1.0f, 0.5f}, {0.96892095f, 0.42893746f}, {2.6e-06f, 5.2e-06f}},
-        {{0.005f, 0.5f}, {0.07059214f, 0.49698505f}, {2.2e-05f, 5.2e-06f}},
-        {{1.5f, 0.25f}, {0.967805f, 0.21492289f}, {2.6e-06f, 5.1e-06f}},
-        {{0.505f, 0.0f}, {0.69600433f, 0.0f}, {3e-06f, 5e-06f}},
-        {{0.505f, 2.0f}, {0.70844585f, 1.0f}, {3e-06f, 1.1e-05f}},
+        {{0.01f, 1.0f}, {0.099841714f, 0.9898278f}, {1.8e-05f, 6.2e-06f}},
+        {{0.13375f, 0.9375f}, {0.36587265f, 0.93814254f}, {5.4e-06f, 6.1e-06f}},
+        {{0.2575f, 0.875f}, {0.5078623f, 0.8782762f}, {4.2e-06f, 6.1e-06f}},
+        {{0.38125f, 0.8125f}, {0.61722106f, 0.811687f}, {3.6e-06f, 6.1e-06f}},
+        {{0.505f, 0.75f}, {0.70836574f, 0.73983306f}, {3.3e-06f, 6e-06f}},
+        {{0.62875f, 0.6875f}, {0.78688425f, 0.66417277f}, {3.1e-06f, 6e-06f}},
+        {{0.7525f, 0.625f}, {0.8555533f, 0.5861644f}, {2.9e-06f, 6e-06f}},
+        {{0.87625f, 0.5625f}, {0.9159269f, 0.50726646f}, {2.8e-06f, 5.9e-06f}},
+        {{1.0f, 0.5f}, {0.96892095f, 0.42893746f}, {2.8e-06f, 5.9e-06f}},
+        {{0.005f, 0.5f}, {0.07059214f, 0.49698505f}, {2.5e-05f, 5.9e-06f}},
+        {{1.5f, 0.25f}, {0.967805f, 0.21492289f}, {2.8e-06f, 5.8e-06f}},
+        {{0.505f, 0.0f}, {0.69600433f, 0.0f}, {3.3e-06f, 5.7e-06f}},
+        {{0.505f, 2.0f}, {0.70844585f, 1.0f}, {3.3e-06f, 1.2e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 19 numbers, seed 1, 480 rows trained, 120 held out.
 // Error on the rows held out: alpha rms 0.0018, 99 % 0.0066, max 0.0072;
 // color rms 0.0023, 99 % 0.0076, max 0.0081.
-// The code is within 4.3e-06 of the fit in alpha and 9.5e-06 in specular (proven).
+// The code is within 4.8e-06 of the fit in alpha and 1.1e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_5_MULTISCATTER_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_5_MULTISCATTER_GGX_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 3, kSpecularPowers = 3;
@@ -163,7 +163,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -364,19 +365,19 @@ struct mitsuba_ggx_to_cycles_5_multiscatter_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.099939436f, 1.0f}, {2.2e-05f, 9.9e-06f}},
-        {{0.13375f, 0.9375f}, {0.36599785f, 0.89665556f}, {6.5e-06f, 9.9e-06f}},
-        {{0.2575f, 0.875f}, {0.50783503f, 0.7867139f}, {5e-06f, 9.8e-06f}},
-        {{0.38125f, 0.8125f}, {0.6171639f, 0.69020665f}, {4.3e-06f, 9.8e-06f}},
-        {{0.505f, 0.75f}, {0.70860815f, 0.60561085f}, {3.9e-06f, 9.7e-06f}},
-        {{0.62875f, 0.6875f}, {0.78796023f, 0.5313004f}, {3.6e-06f, 9.7e-06f}},
-        {{0.7525f, 0.625f}, {0.85820675f, 0.46557856f}, {3.4e-06f, 9.7e-06f}},
-        {{0.87625f, 0.5625f}, {0.9211134f, 0.40671897f}, {3.3e-06f, 9.6e-06f}},
-        {{1.0f, 0.5f}, {0.97780454f, 0.3530202f}, {3.2e-06f, 9.6e-06f}},
-        {{0.005f, 0.5f}, {0.070581675f, 0.5052481f}, {3.1e-05f, 9.7e-06f}},
-        {{1.5f, 0.25f}, {0.9754346f, 0.19628917f}, {3.2e-06f, 9.5e-06f}},
-        {{0.505f, 0.0f}, {0.70379424f, 0.0f}, {3.9e-06f, 9.5e-06f}},
-        {{0.505f, 2.0f}, {0.7078344f, 1.0f}, {3.9e-06f, 2e-05f}},
+        {{0.01f, 1.0f}, {0.099939436f, 1.0f}, {2.5e-05f, 1.1e-05f}},
+        {{0.13375f, 0.9375f}, {0.36599785f, 0.89665556f}, {7.2e-06f, 1.1e-05f}},
+        {{0.2575f, 0.875f}, {0.50783503f, 0.7867139f}, {5.5e-06f, 1.1e-05f}},
+        {{0.38125f, 0.8125f}, {0.6171639f, 0.69020665f}, {4.7e-06f, 1.1e-05f}},
+        {{0.505f, 0.75f}, {0.70860815f, 0.60561085f}, {4.2e-06f, 1.1e-05f}},
+        {{0.62875f, 0.6875f}, {0.78796023f, 0.5313004f}, {3.9e-06f, 1.1e-05f}},
+        {{0.7525f, 0.625f}, {0.85820675f, 0.46557856f}, {3.7e-06f, 1.1e-05f}},
+        {{0.87625f, 0.5625f}, {0.9211134f, 0.40671897f}, {3.6e-06f, 1.1e-05f}},
+        {{1.0f, 0.5f}, {0.97780454f, 0.3530202f}, {3.4e-06f, 1.1e-05f}},
+        {{0.005f, 0.5f}, {0.070581675f, 0.5052481f}, {3.5e-05f, 1.1e-05f}},
+        {{1.5f, 0.25f}, {0.9754346f, 0.19628917f}, {3.4e-06f, 1.1e-05f}},
+        {{0.505f, 0.0f}, {0.70379424f, 0.0f}, {4.2e-06f, 1.1e-05f}},
+        {{0.505f, 2.0f}, {0.7078344f, 1.0f}, {4.2e-06f, 2.2e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

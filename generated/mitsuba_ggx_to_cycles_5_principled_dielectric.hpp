@@ -7,7 +7,7 @@
 // Fit: compact, 11 numbers, seed 1, 480 rows trained, 120 held out.
 // Error on the rows held out: alpha rms 0.0019, 99 % 0.0056, max 0.0098;
 // specular rms 0.0034, 99 % 0.0068, max 0.0096.
-// The code is within 3.3e-06 of the fit in alpha and 3.5e-06 in specular (proven).
+// The code is within 3.7e-06 of the fit in alpha and 3.9e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 0.08.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_5_PRINCIPLED_DIELECTRIC_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_CYCLES_5_PRINCIPLED_DIELECTRIC_HPP
@@ -157,7 +157,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -358,19 +359,19 @@ struct mitsuba_ggx_to_cycles_5_principled_dielectric {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 0.08f}, {0.09970806f, 0.84719294f}, {1.7e-05f, 3.9e-06f}},
-        {{0.13375f, 0.074999996f}, {0.3665083f, 0.8039602f}, {5.1e-06f, 3.9e-06f}},
-        {{0.2575f, 0.07f}, {0.5101543f, 0.7533402f}, {4e-06f, 3.8e-06f}},
-        {{0.38125f, 0.065f}, {0.62155473f, 0.6966413f}, {3.4e-06f, 3.8e-06f}},
-        {{0.505f, 0.06f}, {0.714947f, 0.6351715f}, {3.2e-06f, 3.8e-06f}},
-        {{0.62875f, 0.055f}, {0.7958124f, 0.57023734f}, {3e-06f, 3.7e-06f}},
-        {{0.7525f, 0.049999997f}, {0.86685604f, 0.5031447f}, {2.8e-06f, 3.7e-06f}},
-        {{0.87625f, 0.044999998f}, {0.9295808f, 0.4351982f}, {2.7e-06f, 3.7e-06f}},
-        {{1.0f, 0.04f}, {0.9848692f, 0.36770156f}, {2.7e-06f, 3.6e-06f}},
-        {{0.005f, 0.04f}, {0.07046783f, 0.39450935f}, {2.4e-05f, 3.7e-06f}},
-        {{1.5f, 0.02f}, {0.98585486f, 0.17767589f}, {2.7e-06f, 3.6e-06f}},
-        {{0.505f, 0.0f}, {0.7156883f, 0.0f}, {3.1e-06f, 3.5e-06f}},
-        {{0.505f, 0.16f}, {0.71471804f, 1.7452161f}, {3.2e-06f, 7.7e-06f}},
+        {{0.01f, 0.08f}, {0.09970806f, 0.84719294f}, {2e-05f, 4.3e-06f}},
+        {{0.13375f, 0.074999996f}, {0.3665083f, 0.8039602f}, {5.8e-06f, 4.3e-06f}},
+        {{0.2575f, 0.07f}, {0.5101543f, 0.7533402f}, {4.4e-06f, 4.3e-06f}},
+        {{0.38125f, 0.065f}, {0.62155473f, 0.6966413f}, {3.8e-06f, 4.3e-06f}},
+        {{0.505f, 0.06f}, {0.714947f, 0.6351715f}, {3.5e-06f, 4.2e-06f}},
+        {{0.62875f, 0.055f}, {0.7958124f, 0.57023734f}, {3.2e-06f, 4.2e-06f}},
+        {{0.7525f, 0.049999997f}, {0.86685604f, 0.5031447f}, {3.1e-06f, 4.2e-06f}},
+        {{0.87625f, 0.044999998f}, {0.9295808f, 0.4351982f}, {3e-06f, 4.1e-06f}},
+        {{1.0f, 0.04f}, {0.9848692f, 0.36770156f}, {2.9e-06f, 4.1e-06f}},
+        {{0.005f, 0.04f}, {0.07046783f, 0.39450935f}, {2.7e-05f, 4.1e-06f}},
+        {{1.5f, 0.02f}, {0.98585486f, 0.17767589f}, {2.9e-06f, 4e-06f}},
+        {{0.505f, 0.0f}, {0.7156883f, 0.0f}, {3.5e-06f, 3.9e-06f}},
+        {{0.505f, 0.16f}, {0.71471804f, 1.7452161f}, {3.5e-06f, 8.7e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

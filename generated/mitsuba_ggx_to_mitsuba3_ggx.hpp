@@ -4,10 +4,10 @@
 // mitsuba/ggx to mitsuba3/ggx: which parameters of the second give the same picture as those of the first.
 // Table mitsuba_ggx_to_mitsuba3_ggx.csv, sha256 9d2814ec5047d7e3ceb06d2990372db86250086587ea9a993da1b2baf4ec4a0a;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; Mitsuba 3.9.1 (scalar_rgb).
-// Fit: compact, 9 numbers, seed 1, 750 rows trained, 187 held out.
+// Fit: compact, 10 numbers, seed 1, 750 rows trained, 187 held out.
 // Error on the rows held out: alpha rms 0.00074, 99 % 0.0026, max 0.0073;
 // specular rms 0.0012, 99 % 0.0034, max 0.0035.
-// The code is within 2e-05 of the fit in alpha and 3.3e-06 in specular (proven).
+// The code is within 2.3e-05 of the fit in alpha and 3.8e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_GGX_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.43886f, turn_by_alpha = -1.0441f, spread = 0.0f;
+  static constexpr float turn = -0.43888f, turn_by_alpha = -1.0441f, bend = 0.013011f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -146,7 +146,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -347,19 +348,19 @@ struct mitsuba_ggx_to_mitsuba3_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.010000332f, 1.0f}, {2e-05f, 3.8e-06f}},
-        {{0.13375f, 0.9375f}, {0.13390727f, 0.9399303f}, {2e-05f, 3.8e-06f}},
-        {{0.2575f, 0.875f}, {0.2577065f, 0.87661386f}, {2e-05f, 3.7e-06f}},
-        {{0.38125f, 0.8125f}, {0.38141015f, 0.81341094f}, {2e-05f, 3.7e-06f}},
-        {{0.505f, 0.75f}, {0.5050142f, 0.75032145f}, {2e-05f, 3.7e-06f}},
-        {{0.62875f, 0.6875f}, {0.6285133f, 0.68734527f}, {2e-05f, 3.6e-06f}},
-        {{0.7525f, 0.625f}, {0.7518998f, 0.6244823f}, {2.1e-05f, 3.6e-06f}},
-        {{0.87625f, 0.5625f}, {0.87516296f, 0.56173223f}, {2.1e-05f, 3.6e-06f}},
-        {{1.0f, 0.5f}, {0.99828655f, 0.49909487f}, {2.1e-05f, 3.5e-06f}},
-        {{0.005f, 0.5f}, {0.005004259f, 0.5027363f}, {2e-05f, 3.5e-06f}},
-        {{1.5f, 0.25f}, {0.99695235f, 0.25056675f}, {2.1e-05f, 3.4e-06f}},
-        {{0.505f, 0.0f}, {0.47582182f, 0.0f}, {2e-05f, 3.3e-06f}},
-        {{0.505f, 2.0f}, {0.5051315f, 1.0f}, {2e-05f, 7e-06f}},
+        {{0.01f, 1.0f}, {0.010000332f, 1.0f}, {2.3e-05f, 4.3e-06f}},
+        {{0.13375f, 0.9375f}, {0.13390727f, 0.9399303f}, {2.3e-05f, 4.2e-06f}},
+        {{0.2575f, 0.875f}, {0.2577065f, 0.87661386f}, {2.3e-05f, 4.2e-06f}},
+        {{0.38125f, 0.8125f}, {0.38141015f, 0.81341094f}, {2.3e-05f, 4.2e-06f}},
+        {{0.505f, 0.75f}, {0.5050142f, 0.75032145f}, {2.3e-05f, 4.2e-06f}},
+        {{0.62875f, 0.6875f}, {0.6285133f, 0.68734527f}, {2.3e-05f, 4.1e-06f}},
+        {{0.7525f, 0.625f}, {0.7518998f, 0.6244823f}, {2.3e-05f, 4.1e-06f}},
+        {{0.87625f, 0.5625f}, {0.87516296f, 0.56173223f}, {2.3e-05f, 4.1e-06f}},
+        {{1.0f, 0.5f}, {0.99828655f, 0.49909487f}, {2.4e-05f, 4e-06f}},
+        {{0.005f, 0.5f}, {0.005004259f, 0.5027363f}, {2.3e-05f, 4e-06f}},
+        {{1.5f, 0.25f}, {0.99695235f, 0.25056675f}, {2.4e-05f, 3.9e-06f}},
+        {{0.505f, 0.0f}, {0.47582182f, 0.0f}, {2.3e-05f, 3.8e-06f}},
+        {{0.505f, 2.0f}, {0.5051315f, 1.0f}, {2.3e-05f, 8e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

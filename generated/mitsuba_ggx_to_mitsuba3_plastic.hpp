@@ -7,7 +7,7 @@
 // Fit: compact, 20 numbers, seed 1, 483 rows trained, 121 held out.
 // Error on the rows held out: alpha rms 0.00079, 99 % 0.0028, max 0.0038;
 // specular rms 0.0014, 99 % 0.0033, max 0.0033.
-// The code is within 7.5e-06 of the fit in alpha and 0.00024 in specular (proven).
+// The code is within 8.4e-06 of the fit in alpha and 0.00026 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 0.04.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PLASTIC_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PLASTIC_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = std::numeric_limits<float>::infinity();
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 0.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = -1.6153f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = -1.6153f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 3, kSpecularPowers = 3;
@@ -148,7 +148,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -349,19 +350,19 @@ struct mitsuba_ggx_to_mitsuba3_plastic {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 0.04f}, {0.009980475f, 0.71908706f}, {8e-06f, 0.00024f}},
-        {{0.13375f, 0.037499998f}, {0.1341325f, 0.68062145f}, {8.1e-06f, 0.00024f}},
-        {{0.2575f, 0.035f}, {0.25932294f, 0.6420124f}, {8.1e-06f, 0.00024f}},
-        {{0.38125f, 0.0325f}, {0.38527432f, 0.60302216f}, {8.2e-06f, 0.00024f}},
-        {{0.505f, 0.03f}, {0.51163185f, 0.5634012f}, {8.3e-06f, 0.00024f}},
-        {{0.62875f, 0.0275f}, {0.6379571f, 0.5228896f}, {8.3e-06f, 0.00024f}},
-        {{0.7525f, 0.024999999f}, {0.7637151f, 0.48121962f}, {8.4e-06f, 0.00024f}},
-        {{0.87625f, 0.022499999f}, {0.88825005f, 0.43812087f}, {8.4e-06f, 0.00024f}},
-        {{1.0f, 0.02f}, {1.0f, 0.38650596f}, {8.5e-06f, 0.00024f}},
-        {{0.005f, 0.02f}, {0.004998604f, 0.38309422f}, {8e-06f, 0.00024f}},
-        {{1.5f, 0.01f}, {0.9728907f, 0.20228052f}, {8.5e-06f, 0.00024f}},
-        {{0.505f, 0.0f}, {0.43697324f, 0.0f}, {8.2e-06f, 0.00024f}},
-        {{0.505f, 0.08f}, {0.513956f, 1.4864688f}, {8.3e-06f, 0.00047f}},
+        {{0.01f, 0.04f}, {0.009980475f, 0.71908706f}, {8.9e-06f, 0.00026f}},
+        {{0.13375f, 0.037499998f}, {0.1341325f, 0.68062145f}, {8.9e-06f, 0.00026f}},
+        {{0.2575f, 0.035f}, {0.25932294f, 0.6420124f}, {9e-06f, 0.00026f}},
+        {{0.38125f, 0.0325f}, {0.38527432f, 0.60302216f}, {9.1e-06f, 0.00026f}},
+        {{0.505f, 0.03f}, {0.51163185f, 0.5634012f}, {9.1e-06f, 0.00026f}},
+        {{0.62875f, 0.0275f}, {0.6379571f, 0.5228896f}, {9.2e-06f, 0.00026f}},
+        {{0.7525f, 0.024999999f}, {0.7637151f, 0.48121962f}, {9.2e-06f, 0.00026f}},
+        {{0.87625f, 0.022499999f}, {0.88825005f, 0.43812087f}, {9.3e-06f, 0.00026f}},
+        {{1.0f, 0.02f}, {1.0f, 0.38650596f}, {9.4e-06f, 0.00026f}},
+        {{0.005f, 0.02f}, {0.004998604f, 0.38309422f}, {8.9e-06f, 0.00026f}},
+        {{1.5f, 0.01f}, {0.9728907f, 0.20228052f}, {9.3e-06f, 0.00026f}},
+        {{0.505f, 0.0f}, {0.43697324f, 0.0f}, {9.1e-06f, 0.00026f}},
+        {{0.505f, 0.08f}, {0.513956f, 1.4864688f}, {9.1e-06f, 0.00052f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 8 numbers, seed 1, 486 rows trained, 122 held out.
 // Error on the rows held out: alpha rms 0.0022, 99 % 0.0068, max 0.011;
 // specular rms 0.0019, 99 % 0.0039, max 0.0048.
-// The code is within 2.5e-06 of the fit in alpha and 1.5e-05 in specular (proven).
+// The code is within 2.9e-06 of the fit in alpha and 1.7e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 0.08.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PRINCIPLED_DIELECTRIC_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PRINCIPLED_DIELECTRIC_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = std::numeric_limits<float>::infinity();
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 0.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = -1.4402f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = -1.4402f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -161,7 +161,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -362,19 +363,19 @@ struct mitsuba_ggx_to_mitsuba3_principled_dielectric {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 0.08f}, {0.099945225f, 0.8136429f}, {1.3e-05f, 1.6e-05f}},
-        {{0.13375f, 0.074999996f}, {0.3663629f, 0.76591647f}, {4.1e-06f, 1.6e-05f}},
-        {{0.2575f, 0.07f}, {0.5095082f, 0.7177588f}, {3.2e-06f, 1.6e-05f}},
-        {{0.38125f, 0.065f}, {0.6213854f, 0.6691728f}, {2.8e-06f, 1.5e-05f}},
-        {{0.505f, 0.06f}, {0.7167883f, 0.62016165f}, {2.6e-06f, 1.5e-05f}},
-        {{0.62875f, 0.055f}, {0.8016207f, 0.5707284f}, {2.5e-06f, 1.5e-05f}},
-        {{0.7525f, 0.049999997f}, {0.8789487f, 0.52087617f}, {2.4e-06f, 1.5e-05f}},
-        {{0.87625f, 0.044999998f}, {0.95060545f, 0.470608f}, {2.3e-06f, 1.5e-05f}},
-        {{1.0f, 0.04f}, {1.0f, 0.39821807f}, {2.2e-06f, 1.5e-05f}},
-        {{0.005f, 0.04f}, {0.07072017f, 0.3797212f}, {1.9e-05f, 1.5e-05f}},
-        {{1.5f, 0.02f}, {1.0f, 0.19238573f}, {2.2e-06f, 1.5e-05f}},
-        {{0.505f, 0.0f}, {0.7175194f, 0.0f}, {2.6e-06f, 1.5e-05f}},
-        {{0.505f, 0.16f}, {0.7165492f, 1.7076975f}, {2.6e-06f, 3.1e-05f}},
+        {{0.01f, 0.08f}, {0.099945225f, 0.8136429f}, {1.5e-05f, 1.8e-05f}},
+        {{0.13375f, 0.074999996f}, {0.3663629f, 0.76591647f}, {4.6e-06f, 1.8e-05f}},
+        {{0.2575f, 0.07f}, {0.5095082f, 0.7177588f}, {3.6e-06f, 1.8e-05f}},
+        {{0.38125f, 0.065f}, {0.6213854f, 0.6691728f}, {3.1e-06f, 1.8e-05f}},
+        {{0.505f, 0.06f}, {0.7167883f, 0.62016165f}, {2.9e-06f, 1.8e-05f}},
+        {{0.62875f, 0.055f}, {0.8016207f, 0.5707284f}, {2.7e-06f, 1.8e-05f}},
+        {{0.7525f, 0.049999997f}, {0.8789487f, 0.52087617f}, {2.6e-06f, 1.8e-05f}},
+        {{0.87625f, 0.044999998f}, {0.95060545f, 0.470608f}, {2.5e-06f, 1.8e-05f}},
+        {{1.0f, 0.04f}, {1.0f, 0.39821807f}, {2.4e-06f, 1.8e-05f}},
+        {{0.005f, 0.04f}, {0.07072017f, 0.3797212f}, {2.1e-05f, 1.8e-05f}},
+        {{1.5f, 0.02f}, {1.0f, 0.19238573f}, {2.4e-06f, 1.7e-05f}},
+        {{0.505f, 0.0f}, {0.7175194f, 0.0f}, {2.9e-06f, 1.7e-05f}},
+        {{0.505f, 0.16f}, {0.7165492f, 1.7076975f}, {2.9e-06f, 3.5e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 2 numbers, seed 1, 502 rows trained, 126 held out.
 // Error on the rows held out: alpha rms 0.00019, 99 % 0.0012, max 0.0012;
 // base_color rms 2e-04, 99 % 0.0014, max 0.0015.
-// The code is within 2e-06 of the fit in alpha and 2e-06 in specular (proven).
+// The code is within 2.3e-06 of the fit in alpha and 2.3e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PRINCIPLED_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA3_PRINCIPLED_METAL_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
@@ -159,7 +159,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -360,19 +361,19 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.099998f, 0.99994f}, {1.1e-05f, 2.4e-06f}},
-        {{0.13375f, 0.9375f}, {0.36571115f, 0.93744373f}, {3.3e-06f, 2.4e-06f}},
-        {{0.2575f, 0.875f}, {0.5074344f, 0.8749475f}, {2.7e-06f, 2.4e-06f}},
-        {{0.38125f, 0.8125f}, {0.6174421f, 0.81245124f}, {2.4e-06f, 2.3e-06f}},
-        {{0.505f, 0.75f}, {0.71061933f, 0.749955f}, {2.2e-06f, 2.3e-06f}},
-        {{0.62875f, 0.6875f}, {0.7929217f, 0.68745875f}, {2.1e-06f, 2.3e-06f}},
-        {{0.7525f, 0.625f}, {0.86745024f, 0.6249625f}, {2e-06f, 2.3e-06f}},
-        {{0.87625f, 0.5625f}, {0.9360635f, 0.56246626f}, {2e-06f, 2.2e-06f}},
-        {{1.0f, 0.5f}, {0.99998f, 0.49997f}, {2e-06f, 2.2e-06f}},
-        {{0.005f, 0.5f}, {0.070709266f, 0.49997f}, {1.5e-05f, 2.2e-06f}},
-        {{1.5f, 0.25f}, {0.99998f, 0.249985f}, {2e-06f, 2.1e-06f}},
-        {{0.505f, 0.0f}, {0.71061933f, 0.0f}, {2.2e-06f, 2e-06f}},
-        {{0.505f, 2.0f}, {0.71061933f, 1.0f}, {2.2e-06f, 4.3e-06f}},
+        {{0.01f, 1.0f}, {0.099998f, 0.99994f}, {1.2e-05f, 2.8e-06f}},
+        {{0.13375f, 0.9375f}, {0.36571115f, 0.93744373f}, {3.8e-06f, 2.8e-06f}},
+        {{0.2575f, 0.875f}, {0.5074344f, 0.8749475f}, {3e-06f, 2.7e-06f}},
+        {{0.38125f, 0.8125f}, {0.6174421f, 0.81245124f}, {2.7e-06f, 2.7e-06f}},
+        {{0.505f, 0.75f}, {0.71061933f, 0.749955f}, {2.5e-06f, 2.7e-06f}},
+        {{0.62875f, 0.6875f}, {0.7929217f, 0.68745875f}, {2.3e-06f, 2.6e-06f}},
+        {{0.7525f, 0.625f}, {0.86745024f, 0.6249625f}, {2.3e-06f, 2.6e-06f}},
+        {{0.87625f, 0.5625f}, {0.9360635f, 0.56246626f}, {2.2e-06f, 2.6e-06f}},
+        {{1.0f, 0.5f}, {0.99998f, 0.49997f}, {2.1e-06f, 2.6e-06f}},
+        {{0.005f, 0.5f}, {0.070709266f, 0.49997f}, {1.7e-05f, 2.6e-06f}},
+        {{1.5f, 0.25f}, {0.99998f, 0.249985f}, {2.1e-06f, 2.4e-06f}},
+        {{0.505f, 0.0f}, {0.71061933f, 0.0f}, {2.5e-06f, 2.3e-06f}},
+        {{0.505f, 2.0f}, {0.71061933f, 1.0f}, {2.5e-06f, 5.1e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -8,8 +8,8 @@
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 7 numbers, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.021, 99 % 0.046, max 0.047;
-// f0 rms 0.041, 99 % 0.087, max 0.091.
-// The code is within 3.9e-06 of the fit in alpha and 3.7e-06 in specular (proven).
+// f0 rms 0.041, 99 % 0.087, max 0.092.
+// The code is within 4.4e-06 of the fit in alpha and 4.2e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_AS_HPP
@@ -54,22 +54,22 @@ struct Form {
   static constexpr float width_from = 0.0f, width_to = 1.0f;  // and where widths are clamped
   static constexpr float specular_min = 0.0f, specular_max = 1.0f;
   static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;
-  static constexpr float pole = 0.64325f;
+  static constexpr float pole = 0.74559f;
   static constexpr bool is_limited = true;
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = -0.34022f * alpha + 1.1917f;
-    c[1] = 0.11211f;
+    c[0] = -0.34103f * alpha + 1.1952f;
+    c[1] = 0.11377f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = -0.4604f * alpha + 0.97771f;
-    c[1] = 0.12912f;
+    c[0] = -0.46064f * alpha + 0.98048f;
+    c[1] = 0.13302f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -148,7 +148,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -349,19 +350,19 @@ struct mitsuba_ggx_to_mitsuba_as {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.0125652235f, 1.0f}, {4.4e-06f, 4.1e-06f}},
-        {{0.13375f, 0.9375f}, {0.16219662f, 0.9306648f}, {4.4e-06f, 4.1e-06f}},
-        {{0.2575f, 0.875f}, {0.30094147f, 0.81687516f}, {4.5e-06f, 4.1e-06f}},
-        {{0.38125f, 0.8125f}, {0.42873973f, 0.71032685f}, {4.6e-06f, 4e-06f}},
-        {{0.505f, 0.75f}, {0.5455206f, 0.61103594f}, {4.6e-06f, 4e-06f}},
-        {{0.62875f, 0.6875f}, {0.65119994f, 0.51902145f}, {4.7e-06f, 3.9e-06f}},
-        {{0.7525f, 0.625f}, {0.74567693f, 0.43430626f}, {4.7e-06f, 3.9e-06f}},
-        {{0.87625f, 0.5625f}, {0.8288301f, 0.356918f}, {4.7e-06f, 3.8e-06f}},
-        {{1.0f, 0.5f}, {0.90051126f, 0.2868903f}, {4.8e-06f, 3.8e-06f}},
-        {{0.005f, 0.5f}, {0.006186645f, 0.5147883f}, {4.3e-06f, 3.9e-06f}},
-        {{1.5f, 0.25f}, {0.88285697f, 0.13836193f}, {4.8e-06f, 3.7e-06f}},
-        {{0.505f, 0.0f}, {0.51504385f, 0.0f}, {4.6e-06f, 3.7e-06f}},
-        {{0.505f, 2.0f}, {0.5494973f, 1.0f}, {4.6e-06f, 7.8e-06f}},
+        {{0.01f, 1.0f}, {0.012569653f, 1.0f}, {4.9e-06f, 4.7e-06f}},
+        {{0.13375f, 0.9375f}, {0.16223319f, 0.93090284f}, {5e-06f, 4.7e-06f}},
+        {{0.2575f, 0.875f}, {0.30096912f, 0.8169755f}, {5.1e-06f, 4.6e-06f}},
+        {{0.38125f, 0.8125f}, {0.4287195f, 0.71030957f}, {5.1e-06f, 4.6e-06f}},
+        {{0.505f, 0.75f}, {0.5454164f, 0.6109222f}, {5.2e-06f, 4.5e-06f}},
+        {{0.62875f, 0.6875f}, {0.6509804f, 0.5188333f}, {5.2e-06f, 4.5e-06f}},
+        {{0.7525f, 0.625f}, {0.74531734f, 0.43406662f}, {5.3e-06f, 4.4e-06f}},
+        {{0.87625f, 0.5625f}, {0.8283151f, 0.3566503f}, {5.3e-06f, 4.4e-06f}},
+        {{1.0f, 0.5f}, {0.8998391f, 0.2866182f}, {5.4e-06f, 4.3e-06f}},
+        {{0.005f, 0.5f}, {0.0061872937f, 0.514635f}, {4.9e-06f, 4.5e-06f}},
+        {{1.5f, 0.25f}, {0.8827385f, 0.13831058f}, {5.3e-06f, 4.3e-06f}},
+        {{0.505f, 0.0f}, {0.5166048f, 0.0f}, {5.2e-06f, 4.2e-06f}},
+        {{0.505f, 2.0f}, {0.5495185f, 1.0f}, {5.2e-06f, 8.9e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

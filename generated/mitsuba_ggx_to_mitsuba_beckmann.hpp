@@ -9,7 +9,7 @@
 // Fit: compact, 7 numbers, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.057, 99 % 0.13, max 0.13;
 // f0 rms 0.055, 99 % 0.13, max 0.13.
-// The code is within 3.4e-06 of the fit in alpha and 3.6e-06 in specular (proven).
+// The code is within 3.9e-06 of the fit in alpha and 4.2e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_BECKMANN_HPP
@@ -54,22 +54,22 @@ struct Form {
   static constexpr float width_from = 0.0f, width_to = 1.0f;  // and where widths are clamped
   static constexpr float specular_min = 0.0f, specular_max = 1.0f;
   static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;
-  static constexpr float pole = 0.57709f;
+  static constexpr float pole = 0.86315f;
   static constexpr bool is_limited = true;
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = -0.1753f * alpha + 1.1375f;
-    c[1] = 0.16395f;
+    c[0] = -0.17453f * alpha + 1.152f;
+    c[1] = 0.16936f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = -0.45467f * alpha + 0.94843f;
-    c[1] = 0.16624f;
+    c[0] = -0.45455f * alpha + 0.95777f;
+    c[1] = 0.18206f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -148,7 +148,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -349,19 +350,19 @@ struct mitsuba_ggx_to_mitsuba_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.012397043f, 1.0f}, {3.9e-06f, 4.1e-06f}},
-        {{0.13375f, 0.9375f}, {0.16257785f, 0.9286097f}, {4e-06f, 4.1e-06f}},
-        {{0.2575f, 0.875f}, {0.30672196f, 0.8150847f}, {4.1e-06f, 4e-06f}},
-        {{0.38125f, 0.8125f}, {0.44473928f, 0.70873433f}, {4.1e-06f, 4e-06f}},
-        {{0.505f, 0.75f}, {0.57652277f, 0.60957867f}, {4.2e-06f, 3.9e-06f}},
-        {{0.62875f, 0.6875f}, {0.7019443f, 0.51764166f}, {4.2e-06f, 3.9e-06f}},
-        {{0.7525f, 0.625f}, {0.82084876f, 0.43295226f}, {4.3e-06f, 3.9e-06f}},
-        {{0.87625f, 0.5625f}, {0.9330476f, 0.3555457f}, {4.4e-06f, 3.8e-06f}},
-        {{1.0f, 0.5f}, {1.0f, 0.28546545f}, {4.4e-06f, 3.8e-06f}},
-        {{0.005f, 0.5f}, {0.0060592745f, 0.5105271f}, {3.9e-06f, 3.9e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.13600211f}, {4.4e-06f, 3.7e-06f}},
-        {{0.505f, 0.0f}, {0.52973163f, 0.0f}, {4.2e-06f, 3.6e-06f}},
-        {{0.505f, 2.0f}, {0.5822301f, 1.0f}, {4.2e-06f, 7.7e-06f}},
+        {{0.01f, 1.0f}, {0.012411544f, 1.0f}, {4.4e-06f, 4.7e-06f}},
+        {{0.13375f, 0.9375f}, {0.16275142f, 0.92977744f}, {4.5e-06f, 4.6e-06f}},
+        {{0.2575f, 0.875f}, {0.30702132f, 0.81582725f}, {4.6e-06f, 4.6e-06f}},
+        {{0.38125f, 0.8125f}, {0.44514015f, 0.7091104f}, {4.6e-06f, 4.5e-06f}},
+        {{0.505f, 0.75f}, {0.5770143f, 0.6096504f}, {4.7e-06f, 4.5e-06f}},
+        {{0.62875f, 0.6875f}, {0.70253515f, 0.51747453f}, {4.8e-06f, 4.4e-06f}},
+        {{0.7525f, 0.625f}, {0.8215755f, 0.43261468f}, {4.8e-06f, 4.4e-06f}},
+        {{0.87625f, 0.5625f}, {0.9339863f, 0.35510826f}, {4.9e-06f, 4.4e-06f}},
+        {{1.0f, 0.5f}, {1.0f, 0.28499958f}, {4.9e-06f, 4.3e-06f}},
+        {{0.005f, 0.5f}, {0.006061877f, 0.51000184f}, {4.4e-06f, 4.4e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.13602711f}, {4.9e-06f, 4.3e-06f}},
+        {{0.505f, 0.0f}, {0.53725046f, 0.0f}, {4.7e-06f, 4.2e-06f}},
+        {{0.505f, 2.0f}, {0.58315486f, 1.0f}, {4.7e-06f, 8.8e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -6,10 +6,10 @@
 // where the numbers are copied: lights and materials that had no part in the fit.
 // Table mitsuba_ggx_to_mitsuba_ward_balanced.csv, sha256 23ec858dac53b0a7aed25c079fd5144f157e4929d8506d6394ba377b1e3ea7df;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: compact, 7 numbers, seed 1, 756 rows trained, 189 held out.
+// Fit: compact, 8 numbers, seed 1, 756 rows trained, 189 held out.
 // Error on the rows held out: alpha rms 0.025, 99 % 0.092, max 0.092;
-// specular rms 0.044, 99 % 0.15, max 0.17.
-// The code is within 1.2e-05 of the fit in alpha and 1.7e-05 in specular (proven).
+// specular rms 0.043, 99 % 0.15, max 0.17.
+// The code is within 2.3e-05 of the fit in alpha and 2e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_BALANCED_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.3075f, turn_by_alpha = -0.31236f, spread = -1.092f;
+  static constexpr float turn = -0.20808f, turn_by_alpha = -0.95891f, bend = 4.0f, spread = -1.0931f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.24929f * alpha + 1.1651f;
+    c[0] = 0.24842f * alpha + 1.1652f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.26862f * alpha + 0.97747f;
+    c[0] = 0.26765f * alpha + 0.97763f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -146,7 +146,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -347,19 +348,19 @@ struct mitsuba_ggx_to_mitsuba_ward_balanced {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.011675929f, 0.9801562f}, {1.2e-05f, 1.8e-05f}},
-        {{0.13375f, 0.9375f}, {0.1602917f, 0.95006055f}, {1.3e-05f, 1.8e-05f}},
-        {{0.2575f, 0.875f}, {0.3165427f, 0.9158097f}, {1.3e-05f, 1.8e-05f}},
-        {{0.38125f, 0.8125f}, {0.48042905f, 0.8774036f}, {1.3e-05f, 1.8e-05f}},
-        {{0.505f, 0.75f}, {0.65195066f, 0.8348423f}, {1.3e-05f, 1.8e-05f}},
-        {{0.62875f, 0.6875f}, {0.8311076f, 0.7881258f}, {1.3e-05f, 1.8e-05f}},
-        {{0.7525f, 0.625f}, {1.0f, 0.72284335f}, {1.3e-05f, 1.8e-05f}},
-        {{0.87625f, 0.5625f}, {1.0f, 0.52404505f}, {1.3e-05f, 1.8e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.3411085f}, {1.3e-05f, 1.7e-05f}},
-        {{0.005f, 0.5f}, {0.0058379644f, 0.4900781f}, {1.2e-05f, 1.8e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.17055425f}, {1.3e-05f, 1.7e-05f}},
-        {{0.505f, 0.0f}, {0.65195066f, 0.0f}, {1.3e-05f, 1.7e-05f}},
-        {{0.505f, 2.0f}, {0.6253727f, 1.0f}, {1.3e-05f, 3.5e-05f}},
+        {{0.01f, 1.0f}, {0.011676841f, 0.9803065f}, {2.3e-05f, 2.1e-05f}},
+        {{0.13375f, 0.9375f}, {0.16028951f, 0.9500889f}, {2.3e-05f, 2.1e-05f}},
+        {{0.2575f, 0.875f}, {0.3165108f, 0.91573113f}, {2.3e-05f, 2.1e-05f}},
+        {{0.38125f, 0.8125f}, {0.48034072f, 0.87723315f}, {2.3e-05f, 2e-05f}},
+        {{0.505f, 0.75f}, {0.6517793f, 0.83459496f}, {2.3e-05f, 2e-05f}},
+        {{0.62875f, 0.6875f}, {0.8308266f, 0.7878165f}, {2.3e-05f, 2e-05f}},
+        {{0.7525f, 0.625f}, {1.0f, 0.7228158f}, {2.4e-05f, 2e-05f}},
+        {{0.87625f, 0.5625f}, {1.0f, 0.52402025f}, {2.4e-05f, 2e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.34112704f}, {2.4e-05f, 2e-05f}},
+        {{0.005f, 0.5f}, {0.0058384207f, 0.49015325f}, {2.3e-05f, 2e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.17056352f}, {2.4e-05f, 2e-05f}},
+        {{0.505f, 0.0f}, {0.6517793f, 0.0f}, {2.3e-05f, 2e-05f}},
+        {{0.505f, 2.0f}, {0.6246044f, 1.0f}, {2.3e-05f, 4e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -6,10 +6,10 @@
 // where the numbers are copied: lights and materials that had no part in the fit.
 // Table mitsuba_ggx_to_mitsuba_ward_duer.csv, sha256 36b11fa5988652b1fea3ef9e176950de365bdc83af3031a85f52d3dfcd8a6848;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: compact, 7 numbers, seed 1, 766 rows trained, 192 held out.
-// Error on the rows held out: alpha rms 0.085, 99 % 0.23, max 0.23;
+// Fit: compact, 8 numbers, seed 1, 766 rows trained, 192 held out.
+// Error on the rows held out: alpha rms 0.082, 99 % 0.23, max 0.23;
 // specular rms 0.095, 99 % 0.26, max 0.3.
-// The code is within 1.7e-05 of the fit in alpha and 2.1e-05 in specular (proven).
+// The code is within 5.9e-05 of the fit in alpha and 2.5e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_DUER_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.52138f, turn_by_alpha = -0.16335f, spread = -0.89712f;
+  static constexpr float turn = -0.25325f, turn_by_alpha = -2.2729f, bend = 4.0f, spread = -0.8949f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.42272f * alpha + 1.1654f;
+    c[0] = 0.42308f * alpha + 1.1641f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.76166f * alpha + 0.95138f;
+    c[0] = 0.75953f * alpha + 0.95153f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -146,7 +146,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -347,19 +348,19 @@ struct mitsuba_ggx_to_mitsuba_ward_duer {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.011696272f, 0.9589966f}, {1.7e-05f, 2.2e-05f}},
-        {{0.13375f, 0.9375f}, {0.16343433f, 0.9874238f}, {1.7e-05f, 2.2e-05f}},
-        {{0.2575f, 0.875f}, {0.3275291f, 1.0f}, {1.7e-05f, 2.2e-05f}},
-        {{0.38125f, 0.8125f}, {0.50376415f, 1.0f}, {1.7e-05f, 2.2e-05f}},
-        {{0.505f, 0.75f}, {0.6957171f, 1.0f}, {1.7e-05f, 2.2e-05f}},
-        {{0.62875f, 0.6875f}, {0.89985776f, 0.9833132f}, {1.7e-05f, 2.2e-05f}},
-        {{0.7525f, 0.625f}, {1.0f, 0.8533903f}, {1.8e-05f, 2.2e-05f}},
-        {{0.87625f, 0.5625f}, {1.0f, 0.6281258f}, {1.8e-05f, 2.2e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.40460786f}, {1.8e-05f, 2.1e-05f}},
-        {{0.005f, 0.5f}, {0.005848136f, 0.4794983f}, {1.7e-05f, 2.1e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.20230393f}, {1.8e-05f, 2.1e-05f}},
-        {{0.505f, 0.0f}, {0.69633114f, 0.0f}, {1.7e-05f, 2.1e-05f}},
-        {{0.505f, 2.0f}, {0.5938606f, 1.0f}, {1.7e-05f, 4.2e-05f}},
+        {{0.01f, 1.0f}, {0.0116833085f, 0.9591253f}, {5.9e-05f, 2.5e-05f}},
+        {{0.13375f, 0.9375f}, {0.1632669f, 0.9872973f}, {5.9e-05f, 2.5e-05f}},
+        {{0.2575f, 0.875f}, {0.3270171f, 1.0f}, {6e-05f, 2.5e-05f}},
+        {{0.38125f, 0.8125f}, {0.5018411f, 1.0f}, {6e-05f, 2.5e-05f}},
+        {{0.505f, 0.75f}, {0.6948378f, 1.0f}, {6e-05f, 2.5e-05f}},
+        {{0.62875f, 0.6875f}, {0.89918274f, 0.9824956f}, {6e-05f, 2.5e-05f}},
+        {{0.7525f, 0.625f}, {1.0f, 0.85348254f}, {6e-05f, 2.5e-05f}},
+        {{0.87625f, 0.5625f}, {1.0f, 0.6288602f}, {6e-05f, 2.5e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.40597683f}, {6e-05f, 2.5e-05f}},
+        {{0.005f, 0.5f}, {0.0058416543f, 0.47956264f}, {5.9e-05f, 2.5e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.20298842f}, {6e-05f, 2.5e-05f}},
+        {{0.505f, 0.0f}, {0.6957665f, 0.0f}, {6e-05f, 2.5e-05f}},
+        {{0.505f, 2.0f}, {0.59446174f, 1.0f}, {6e-05f, 4.9e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 19 numbers, seed 1, 480 rows trained, 120 held out.
 // Error on the rows held out: alpha rms 0.00089, 99 % 0.0022, max 0.0025;
 // specularIntensity rms 0.0036, 99 % 0.012, max 0.013.
-// The code is within 6.7e-06 of the fit in alpha and 2.3e-05 in specular (proven).
+// The code is within 7.5e-06 of the fit in alpha and 2.6e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 0.04.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_PHYSICAL_DIELECTRIC_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_PHYSICAL_DIELECTRIC_HPP
@@ -159,7 +159,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -360,19 +361,19 @@ struct mitsuba_ggx_to_threejs_r187_physical_dielectric {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 0.04f}, {0.09982793f, 0.9478328f}, {3.4e-05f, 2.3e-05f}},
-        {{0.13375f, 0.037499998f}, {0.36576095f, 0.8913752f}, {9.8e-06f, 2.3e-05f}},
-        {{0.2575f, 0.035f}, {0.50776845f, 0.8310839f}, {7.4e-06f, 2.3e-05f}},
-        {{0.38125f, 0.0325f}, {0.6172587f, 0.7671238f}, {6.2e-06f, 2.3e-05f}},
-        {{0.505f, 0.03f}, {0.70856255f, 0.6998139f}, {5.6e-06f, 2.3e-05f}},
-        {{0.62875f, 0.0275f}, {0.78713083f, 0.6296236f}, {5.2e-06f, 2.3e-05f}},
-        {{0.7525f, 0.024999999f}, {0.8555633f, 0.5571709f}, {4.8e-06f, 2.3e-05f}},
-        {{0.87625f, 0.022499999f}, {0.9151981f, 0.48322225f}, {4.6e-06f, 2.3e-05f}},
-        {{1.0f, 0.02f}, {0.966691f, 0.408696f}, {4.4e-06f, 2.3e-05f}},
-        {{0.005f, 0.02f}, {0.070746385f, 0.49779955f}, {4.8e-05f, 2.3e-05f}},
-        {{1.5f, 0.01f}, {0.94997406f, 0.21694432f}, {4.5e-06f, 2.3e-05f}},
-        {{0.505f, 0.0f}, {0.6680229f, 0.0f}, {5.9e-06f, 2.3e-05f}},
-        {{0.505f, 0.08f}, {0.709875f, 1.856136f}, {5.6e-06f, 4.6e-05f}},
+        {{0.01f, 0.04f}, {0.09982793f, 0.9478328f}, {3.8e-05f, 2.6e-05f}},
+        {{0.13375f, 0.037499998f}, {0.36576095f, 0.8913752f}, {1.1e-05f, 2.6e-05f}},
+        {{0.2575f, 0.035f}, {0.50776845f, 0.8310839f}, {8.1e-06f, 2.6e-05f}},
+        {{0.38125f, 0.0325f}, {0.6172587f, 0.7671238f}, {6.9e-06f, 2.6e-05f}},
+        {{0.505f, 0.03f}, {0.70856255f, 0.6998139f}, {6.1e-06f, 2.6e-05f}},
+        {{0.62875f, 0.0275f}, {0.78713083f, 0.6296236f}, {5.6e-06f, 2.6e-05f}},
+        {{0.7525f, 0.024999999f}, {0.8555633f, 0.5571709f}, {5.3e-06f, 2.6e-05f}},
+        {{0.87625f, 0.022499999f}, {0.9151981f, 0.48322225f}, {5e-06f, 2.6e-05f}},
+        {{1.0f, 0.02f}, {0.966691f, 0.408696f}, {4.8e-06f, 2.6e-05f}},
+        {{0.005f, 0.02f}, {0.070746385f, 0.49779955f}, {5.4e-05f, 2.6e-05f}},
+        {{1.5f, 0.01f}, {0.94997406f, 0.21694432f}, {4.9e-06f, 2.6e-05f}},
+        {{0.505f, 0.0f}, {0.6680229f, 0.0f}, {6.4e-06f, 2.6e-05f}},
+        {{0.505f, 0.08f}, {0.709875f, 1.856136f}, {6.1e-06f, 5.1e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

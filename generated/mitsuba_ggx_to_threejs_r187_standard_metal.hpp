@@ -7,7 +7,7 @@
 // Fit: compact, 19 numbers, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.0053, 99 % 0.033, max 0.034;
 // color rms 0.0035, 99 % 0.017, max 0.018.
-// The code is within 5e-06 of the fit in alpha and 1.3e-05 in specular (proven).
+// The code is within 5.5e-06 of the fit in alpha and 1.5e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_STANDARD_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_STANDARD_METAL_HPP
@@ -71,7 +71,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 3, kSpecularPowers = 3;
@@ -163,7 +163,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -364,19 +365,19 @@ struct mitsuba_ggx_to_threejs_r187_standard_metal {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.09982581f, 1.0f}, {2.6e-05f, 1.4e-05f}},
-        {{0.13375f, 0.9375f}, {0.36619076f, 0.8929243f}, {7.4e-06f, 1.4e-05f}},
-        {{0.2575f, 0.875f}, {0.50823075f, 0.7841587f}, {5.6e-06f, 1.4e-05f}},
-        {{0.38125f, 0.8125f}, {0.6172459f, 0.68210584f}, {4.8e-06f, 1.4e-05f}},
-        {{0.505f, 0.75f}, {0.70796704f, 0.5886472f}, {4.3e-06f, 1.3e-05f}},
-        {{0.62875f, 0.6875f}, {0.7865312f, 0.5050089f}, {4e-06f, 1.3e-05f}},
-        {{0.7525f, 0.625f}, {0.85645074f, 0.4317644f}, {3.8e-06f, 1.3e-05f}},
-        {{0.87625f, 0.5625f}, {0.9201785f, 0.36883864f}, {3.6e-06f, 1.3e-05f}},
-        {{1.0f, 0.5f}, {0.97967833f, 0.31551695f}, {3.5e-06f, 1.3e-05f}},
-        {{0.005f, 0.5f}, {0.070488766f, 0.50549245f}, {3.6e-05f, 1.3e-05f}},
-        {{1.5f, 0.25f}, {0.98172474f, 0.1799735f}, {3.5e-06f, 1.3e-05f}},
-        {{0.505f, 0.0f}, {0.71009976f, 0.0f}, {4.3e-06f, 1.3e-05f}},
-        {{0.505f, 2.0f}, {0.7076339f, 1.0f}, {4.3e-06f, 2.6e-05f}},
+        {{0.01f, 1.0f}, {0.09982581f, 1.0f}, {2.9e-05f, 1.5e-05f}},
+        {{0.13375f, 0.9375f}, {0.36619076f, 0.8929243f}, {8.2e-06f, 1.5e-05f}},
+        {{0.2575f, 0.875f}, {0.50823075f, 0.7841587f}, {6.2e-06f, 1.5e-05f}},
+        {{0.38125f, 0.8125f}, {0.6172459f, 0.68210584f}, {5.3e-06f, 1.5e-05f}},
+        {{0.505f, 0.75f}, {0.70796704f, 0.5886472f}, {4.7e-06f, 1.5e-05f}},
+        {{0.62875f, 0.6875f}, {0.7865312f, 0.5050089f}, {4.4e-06f, 1.5e-05f}},
+        {{0.7525f, 0.625f}, {0.85645074f, 0.4317644f}, {4.1e-06f, 1.5e-05f}},
+        {{0.87625f, 0.5625f}, {0.9201785f, 0.36883864f}, {4e-06f, 1.5e-05f}},
+        {{1.0f, 0.5f}, {0.97967833f, 0.31551695f}, {3.8e-06f, 1.5e-05f}},
+        {{0.005f, 0.5f}, {0.070488766f, 0.50549245f}, {4e-05f, 1.5e-05f}},
+        {{1.5f, 0.25f}, {0.98172474f, 0.1799735f}, {3.8e-06f, 1.5e-05f}},
+        {{0.505f, 0.0f}, {0.71009976f, 0.0f}, {4.7e-06f, 1.5e-05f}},
+        {{0.505f, 2.0f}, {0.7076339f, 1.0f}, {4.7e-06f, 2.9e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -9,7 +9,7 @@
 // Fit: compact, 2 numbers, seed 1, 736 rows trained, 184 held out.
 // Error on the rows held out: alpha rms 0.021, 99 % 0.035, max 0.035;
 // f0 rms 0.034, 99 % 0.12, max 0.14.
-// The code is within 1.6e-06 of the fit in alpha and 1.8e-06 in specular (proven).
+// The code is within 1.9e-06 of the fit in alpha and 2.1e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_GGX_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.80891f;
+    c[0] = 0.80895f;
   }
   static void specular_factor(float, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.92404f;
+    c[0] = 0.92408f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -146,7 +146,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -347,19 +348,19 @@ struct mitsuba_ward_balanced_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.0080891f, 0.92404f}, {2.1e-06f, 2.3e-06f}},
-        {{0.13375f, 0.9375f}, {0.10819172f, 0.8662875f}, {2.1e-06f, 2.2e-06f}},
-        {{0.2575f, 0.875f}, {0.20829432f, 0.80853504f}, {2.2e-06f, 2.2e-06f}},
-        {{0.38125f, 0.8125f}, {0.30839694f, 0.7507825f}, {2.2e-06f, 2.2e-06f}},
-        {{0.505f, 0.75f}, {0.40849954f, 0.69303f}, {2.3e-06f, 2.1e-06f}},
-        {{0.62875f, 0.6875f}, {0.5086022f, 0.6352775f}, {2.3e-06f, 2.1e-06f}},
-        {{0.7525f, 0.625f}, {0.6087048f, 0.577525f}, {2.4e-06f, 2.1e-06f}},
-        {{0.87625f, 0.5625f}, {0.7088074f, 0.5197725f}, {2.4e-06f, 2.1e-06f}},
-        {{1.0f, 0.5f}, {0.80891f, 0.46202f}, {2.5e-06f, 2e-06f}},
-        {{0.005f, 0.5f}, {0.00404455f, 0.46202f}, {2.1e-06f, 2e-06f}},
-        {{1.5f, 0.25f}, {0.80891f, 0.23101f}, {2.5e-06f, 1.9e-06f}},
-        {{0.505f, 0.0f}, {0.40849954f, 0.0f}, {2.3e-06f, 1.8e-06f}},
-        {{0.505f, 2.0f}, {0.40849954f, 1.0f}, {2.3e-06f, 4.1e-06f}},
+        {{0.01f, 1.0f}, {0.0080895f, 0.92408f}, {2.4e-06f, 2.6e-06f}},
+        {{0.13375f, 0.9375f}, {0.10819707f, 0.866325f}, {2.4e-06f, 2.6e-06f}},
+        {{0.2575f, 0.875f}, {0.20830461f, 0.80857f}, {2.5e-06f, 2.5e-06f}},
+        {{0.38125f, 0.8125f}, {0.3084122f, 0.75081503f}, {2.5e-06f, 2.5e-06f}},
+        {{0.505f, 0.75f}, {0.40851974f, 0.69306004f}, {2.6e-06f, 2.5e-06f}},
+        {{0.62875f, 0.6875f}, {0.50862736f, 0.635305f}, {2.6e-06f, 2.4e-06f}},
+        {{0.7525f, 0.625f}, {0.6087349f, 0.57755f}, {2.7e-06f, 2.4e-06f}},
+        {{0.87625f, 0.5625f}, {0.70884246f, 0.519795f}, {2.7e-06f, 2.4e-06f}},
+        {{1.0f, 0.5f}, {0.80895f, 0.46204f}, {2.8e-06f, 2.4e-06f}},
+        {{0.005f, 0.5f}, {0.00404475f, 0.46204f}, {2.4e-06f, 2.4e-06f}},
+        {{1.5f, 0.25f}, {0.80895f, 0.23102f}, {2.8e-06f, 2.3e-06f}},
+        {{0.505f, 0.0f}, {0.40851974f, 0.0f}, {2.6e-06f, 2.1e-06f}},
+        {{0.505f, 2.0f}, {0.40851974f, 1.0f}, {2.6e-06f, 4.7e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

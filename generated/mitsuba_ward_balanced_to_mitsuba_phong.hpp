@@ -6,10 +6,10 @@
 // where the numbers are copied: lights and materials that had no part in the fit.
 // Table mitsuba_ward_balanced_to_mitsuba_phong.csv, sha256 910c425efe29f495eba4a3da06d935e829012f32cec8b7df12e667120ed2ce69;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: compact, 6 numbers, seed 1, 771 rows trained, 193 held out.
+// Fit: compact, 7 numbers, seed 1, 771 rows trained, 193 held out.
 // Error on the rows held out: alpha rms 0.05, 99 % 0.11, max 0.11;
 // specular rms 0.064, 99 % 0.14, max 0.14.
-// The code is within 0.00018 of the fit in alpha and 5.2e-06 in specular (proven).
+// The code is within 3e-04 of the fit in alpha and 6.1e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_PHONG_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.069178f, turn_by_alpha = 4.8501f, spread = 0.0f;
+  static constexpr float turn = 0.24648f, turn_by_alpha = 6.9987f, bend = 4.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = -0.57176f * alpha + 1.7389f;
+    c[0] = -0.57271f * alpha + 1.7385f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = -0.96751f * alpha + 1.4336f;
+    c[0] = -0.96661f * alpha + 1.4335f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -147,7 +147,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -348,19 +349,19 @@ struct mitsuba_ward_balanced_to_mitsuba_phong {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {6723.824f, 1.0f}, {140.0f, 5.7e-06f}},
-        {{0.13375f, 0.9375f}, {32.835323f, 1.0f}, {0.05f, 5.7e-06f}},
-        {{0.2575f, 0.875f}, {9.288608f, 1.0f}, {0.0092f, 5.7e-06f}},
-        {{0.38125f, 0.8125f}, {3.9483922f, 0.86509866f}, {0.0036f, 5.6e-06f}},
-        {{0.505f, 0.75f}, {1.7291918f, 0.70875555f}, {0.0018f, 5.5e-06f}},
-        {{0.62875f, 0.6875f}, {0.6588256f, 0.56737864f}, {0.0011f, 5.5e-06f}},
-        {{0.7525f, 0.625f}, {0.06238436f, 0.44096792f}, {0.00072f, 5.4e-06f}},
-        {{0.87625f, 0.5625f}, {0.0f, 0.32952335f}, {0.00069f, 5.4e-06f}},
-        {{1.0f, 0.5f}, {0.0f, 0.23304498f}, {0.00069f, 5.3e-06f}},
-        {{0.005f, 0.5f}, {26629.86f, 0.7119624f}, {1100.0f, 5.5e-06f}},
-        {{1.5f, 0.25f}, {0.0f, 0.11652249f}, {0.00069f, 5.3e-06f}},
-        {{0.505f, 0.0f}, {1.7291918f, 0.0f}, {0.0018f, 5.2e-06f}},
-        {{0.505f, 2.0f}, {1.7291918f, 1.0f}, {0.0018f, 1.1e-05f}},
+        {{0.01f, 1.0f}, {6292.3833f, 1.0f}, {220.0f, 6.5e-06f}},
+        {{0.13375f, 0.9375f}, {32.460896f, 1.0f}, {0.084f, 6.5e-06f}},
+        {{0.2575f, 0.875f}, {8.994891f, 1.0f}, {0.016f, 6.5e-06f}},
+        {{0.38125f, 0.8125f}, {3.954358f, 0.86529624f}, {0.006f, 6.5e-06f}},
+        {{0.505f, 0.75f}, {1.7337202f, 0.7090215f}, {0.003f, 6.4e-06f}},
+        {{0.62875f, 0.6875f}, {0.6626742f, 0.567699f}, {0.0018f, 6.3e-06f}},
+        {{0.7525f, 0.625f}, {0.06590264f, 0.44132876f}, {0.0013f, 6.3e-06f}},
+        {{0.87625f, 0.5625f}, {0.0f, 0.32991076f}, {0.0012f, 6.2e-06f}},
+        {{1.0f, 0.5f}, {0.0f, 0.23344502f}, {0.0012f, 6.2e-06f}},
+        {{0.005f, 0.5f}, {26642.447f, 0.711917f}, {1900.0f, 6.4e-06f}},
+        {{1.5f, 0.25f}, {0.0f, 0.11672251f}, {0.0012f, 6.1e-06f}},
+        {{0.505f, 0.0f}, {1.7337202f, 0.0f}, {0.003f, 6.1e-06f}},
+        {{0.505f, 2.0f}, {1.7337202f, 1.0f}, {0.003f, 1.3e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -6,10 +6,10 @@
 // where the numbers are copied: lights and materials that had no part in the fit.
 // Table mitsuba_ward_balanced_to_mitsuba_ward_duer.csv, sha256 d5521f5b7bc76adf00c61789d51e680ccc13217c1046596e3daa0561e3afd19c;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: compact, 6 numbers, seed 1, 807 rows trained, 202 held out.
-// Error on the rows held out: alpha rms 0.051, 99 % 0.12, max 0.12;
+// Fit: compact, 7 numbers, seed 1, 807 rows trained, 202 held out.
+// Error on the rows held out: alpha rms 0.05, 99 % 0.12, max 0.12;
 // specular rms 0.04, 99 % 0.12, max 0.13.
-// The code is within 8.7e-06 of the fit in alpha and 2.7e-06 in specular (proven).
+// The code is within 1.7e-05 of the fit in alpha and 3.2e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_DUER_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.32073f, turn_by_alpha = -0.2709f, spread = 0.0f;
+  static constexpr float turn = -0.24331f, turn_by_alpha = -0.87242f, bend = 4.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.10968f * alpha + 0.99182f;
+    c[0] = 0.10968f * alpha + 0.99181f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.27756f * alpha + 0.9778f;
+    c[0] = 0.27741f * alpha + 0.97782f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -146,7 +146,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -347,19 +348,19 @@ struct mitsuba_ward_balanced_to_mitsuba_ward_duer {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.009929167f, 0.9805756f}, {9.2e-06f, 3.2e-06f}},
-        {{0.13375f, 0.9375f}, {0.134618f, 0.95149094f}, {9.3e-06f, 3.2e-06f}},
-        {{0.2575f, 0.875f}, {0.2626661f, 0.91811275f}, {9.3e-06f, 3.2e-06f}},
-        {{0.38125f, 0.8125f}, {0.39407352f, 0.88044107f}, {9.4e-06f, 3.2e-06f}},
-        {{0.505f, 0.75f}, {0.52884024f, 0.8384759f}, {9.5e-06f, 3.1e-06f}},
-        {{0.62875f, 0.6875f}, {0.66696626f, 0.79221714f}, {9.5e-06f, 3.1e-06f}},
-        {{0.7525f, 0.625f}, {0.80845153f, 0.74166495f}, {9.6e-06f, 3.1e-06f}},
-        {{0.87625f, 0.5625f}, {0.9532961f, 0.68681926f}, {9.7e-06f, 3.1e-06f}},
-        {{1.0f, 0.5f}, {1.0f, 0.62768f}, {9.7e-06f, 3e-06f}},
-        {{0.005f, 0.5f}, {0.0049645836f, 0.4902878f}, {9.2e-06f, 3e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.31384f}, {9.7e-06f, 2.9e-06f}},
-        {{0.505f, 0.0f}, {0.52884024f, 0.0f}, {9.5e-06f, 2.7e-06f}},
-        {{0.505f, 2.0f}, {0.50158316f, 1.0f}, {9.4e-06f, 5.9e-06f}},
+        {{0.01f, 1.0f}, {0.009929068f, 0.9805941f}, {1.8e-05f, 3.7e-06f}},
+        {{0.13375f, 0.9375f}, {0.13461667f, 0.9514908f}, {1.8e-05f, 3.6e-06f}},
+        {{0.2575f, 0.875f}, {0.26266354f, 0.9180964f}, {1.8e-05f, 3.6e-06f}},
+        {{0.38125f, 0.8125f}, {0.39406973f, 0.8804108f}, {1.8e-05f, 3.6e-06f}},
+        {{0.505f, 0.75f}, {0.5288352f, 0.83843404f}, {1.8e-05f, 3.6e-06f}},
+        {{0.62875f, 0.6875f}, {0.66696f, 0.79216605f}, {1.8e-05f, 3.6e-06f}},
+        {{0.7525f, 0.625f}, {0.808444f, 0.7416069f}, {1.8e-05f, 3.5e-06f}},
+        {{0.87625f, 0.5625f}, {0.9532874f, 0.68675655f}, {1.8e-05f, 3.5e-06f}},
+        {{1.0f, 0.5f}, {1.0f, 0.627615f}, {1.8e-05f, 3.5e-06f}},
+        {{0.005f, 0.5f}, {0.004964534f, 0.49029705f}, {1.8e-05f, 3.4e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.3138075f}, {1.8e-05f, 3.3e-06f}},
+        {{0.505f, 0.0f}, {0.5288352f, 0.0f}, {1.8e-05f, 3.2e-06f}},
+        {{0.505f, 2.0f}, {0.5011641f, 1.0f}, {1.8e-05f, 6.8e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

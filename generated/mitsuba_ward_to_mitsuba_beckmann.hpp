@@ -7,9 +7,9 @@
 // Table mitsuba_ward_to_mitsuba_beckmann.csv, sha256 5e3e112b609ed3bea1a2f9d6243e365c84828bcafcd10d73a166ce96c6162679;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 4 numbers, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 0.0053, 99 % 0.019, max 0.021;
+// Error on the rows held out: alpha rms 0.0052, 99 % 0.019, max 0.021;
 // f0 rms 0.013, 99 % 0.032, max 0.034.
-// The code is within 3.1e-06 of the fit in alpha and 2.6e-06 in specular (proven).
+// The code is within 3.6e-06 of the fit in alpha and 3e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_BECKMANN_HPP
@@ -60,10 +60,10 @@ struct Form {
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = -0.39797f * alpha + 1.0231f;
+    c[0] = -0.39778f * alpha + 1.023f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = -0.47761f * alpha + 0.71032f;
+    c[0] = -0.47795f * alpha + 0.7105f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -142,7 +142,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -343,19 +344,19 @@ struct mitsuba_ward_to_mitsuba_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.010191203f, 0.7055439f}, {3.6e-06f, 2.9e-06f}},
-        {{0.13375f, 0.9375f}, {0.12972033f, 0.6060372f}, {3.6e-06f, 2.9e-06f}},
-        {{0.2575f, 0.875f}, {0.23706035f, 0.5139185f}, {3.7e-06f, 2.8e-06f}},
-        {{0.38125f, 0.8125f}, {0.33221132f, 0.42918783f}, {3.7e-06f, 2.8e-06f}},
-        {{0.505f, 0.75f}, {0.4151732f, 0.3518452f}, {3.8e-06f, 2.8e-06f}},
-        {{0.62875f, 0.6875f}, {0.48594603f, 0.2818906f}, {3.8e-06f, 2.7e-06f}},
-        {{0.7525f, 0.625f}, {0.5445298f, 0.21932405f}, {3.8e-06f, 2.7e-06f}},
-        {{0.87625f, 0.5625f}, {0.59092444f, 0.1641455f}, {3.9e-06f, 2.7e-06f}},
-        {{1.0f, 0.5f}, {0.62513006f, 0.116355f}, {3.9e-06f, 2.7e-06f}},
-        {{0.005f, 0.5f}, {0.0050956015f, 0.35277194f}, {3.6e-06f, 2.8e-06f}},
-        {{1.5f, 0.25f}, {0.62513006f, 0.0581775f}, {3.9e-06f, 2.6e-06f}},
-        {{0.505f, 0.0f}, {0.4151732f, 0.0f}, {3.8e-06f, 2.6e-06f}},
-        {{0.505f, 2.0f}, {0.4151732f, 0.9382539f}, {3.8e-06f, 5.6e-06f}},
+        {{0.01f, 1.0f}, {0.0101902215f, 0.7057205f}, {4.1e-06f, 3.4e-06f}},
+        {{0.13375f, 0.9375f}, {0.12971035f, 0.6061633f}, {4.1e-06f, 3.3e-06f}},
+        {{0.2575f, 0.875f}, {0.2370472f, 0.5139994f}, {4.2e-06f, 3.3e-06f}},
+        {{0.38125f, 0.8125f}, {0.3322008f, 0.42922878f}, {4.2e-06f, 3.2e-06f}},
+        {{0.505f, 0.75f}, {0.41517115f, 0.35185143f}, {4.3e-06f, 3.2e-06f}},
+        {{0.62875f, 0.6875f}, {0.48595828f, 0.28186738f}, {4.3e-06f, 3.2e-06f}},
+        {{0.7525f, 0.625f}, {0.5445621f, 0.21927664f}, {4.3e-06f, 3.1e-06f}},
+        {{0.87625f, 0.5625f}, {0.5909827f, 0.16407916f}, {4.4e-06f, 3.1e-06f}},
+        {{1.0f, 0.5f}, {0.62522f, 0.116275f}, {4.4e-06f, 3.1e-06f}},
+        {{0.005f, 0.5f}, {0.0050951107f, 0.35286024f}, {4.1e-06f, 3.2e-06f}},
+        {{1.5f, 0.25f}, {0.62522f, 0.0581375f}, {4.4e-06f, 3.1e-06f}},
+        {{0.505f, 0.0f}, {0.41517115f, 0.0f}, {4.3e-06f, 3e-06f}},
+        {{0.505f, 2.0f}, {0.41517115f, 0.9382705f}, {4.3e-06f, 6.5e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

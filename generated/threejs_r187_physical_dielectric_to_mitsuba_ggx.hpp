@@ -7,7 +7,7 @@
 // Fit: compact, 12 numbers, seed 1, 483 rows trained, 121 held out.
 // Error on the rows held out: alpha rms 0.0013, 99 % 0.0043, max 0.005;
 // f0 rms 0.00016, 99 % 6e-04, max 6e-04.
-// The code is within 4.5e-06 of the fit in alpha and 2.6e-06 in specular (proven).
+// The code is within 5.1e-06 of the fit in alpha and 3e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specularIntensity 0 to 1.
 #ifndef REMAP_GENERATED_THREEJS_R187_PHYSICAL_DIELECTRIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_THREEJS_R187_PHYSICAL_DIELECTRIC_TO_MITSUBA_GGX_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = std::numeric_limits<float>::infinity();
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 0.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, spread = -1.4365f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = -1.4365f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
@@ -66,7 +66,7 @@ struct Form {
     c[1] = -0.33965f * alpha + -0.022603f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = (0.013292f * alpha + 0.024306f) * alpha + 0.00077451f;
+    c[0] = (0.013292f * alpha + 0.024306f) * alpha + 0.00077432f;
     c[1] = -0.033353f * alpha + 0.04673f;
   }
 
@@ -147,7 +147,8 @@ inline void convert_block(const Form& form, float (&width)[Size], float (&specul
     form.alpha_factor(inside, c);
     const float free = alpha * sum_of_powers(c, top[i]);
     if constexpr (Form::is_limited) {
-      const float over = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
       const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
       more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
       width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
@@ -348,19 +349,19 @@ struct threejs_r187_physical_dielectric_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.010001399f, 0.043365005f}, {5e-06f, 2.6e-06f}},
-        {{0.2125f, 0.9375f}, {0.045124017f, 0.040252738f}, {5e-06f, 2.6e-06f}},
-        {{0.325f, 0.875f}, {0.10544776f, 0.03713459f}, {5e-06f, 2.6e-06f}},
-        {{0.4375f, 0.8125f}, {0.19103831f, 0.0341335f}, {5.1e-06f, 2.6e-06f}},
-        {{0.55f, 0.75f}, {0.30241084f, 0.031379823f}, {5.1e-06f, 2.6e-06f}},
-        {{0.6625f, 0.6875f}, {0.44097057f, 0.028995218f}, {5.2e-06f, 2.6e-06f}},
-        {{0.775f, 0.625f}, {0.6096068f, 0.027076444f}, {5.3e-06f, 2.6e-06f}},
-        {{0.8875f, 0.5625f}, {0.81347775f, 0.025679033f}, {5.4e-06f, 2.6e-06f}},
-        {{1.0f, 0.5f}, {1.0f, 0.022625687f}, {5.5e-06f, 2.6e-06f}},
-        {{0.05f, 0.5f}, {0.002505113f, 0.019982524f}, {5e-06f, 2.6e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.010232513f}, {5.5e-06f, 2.6e-06f}},
-        {{0.55f, 0.0f}, {0.3360396f, 0.0f}, {5.1e-06f, 2.6e-06f}},
-        {{0.55f, 2.0f}, {0.30143225f, 0.0855708f}, {5.1e-06f, 5.2e-06f}},
+        {{0.1f, 1.0f}, {0.010001399f, 0.043364815f}, {5.6e-06f, 3e-06f}},
+        {{0.2125f, 0.9375f}, {0.045124017f, 0.04025256f}, {5.6e-06f, 3e-06f}},
+        {{0.325f, 0.875f}, {0.10544776f, 0.037134424f}, {5.6e-06f, 3e-06f}},
+        {{0.4375f, 0.8125f}, {0.19103831f, 0.034133345f}, {5.7e-06f, 3e-06f}},
+        {{0.55f, 0.75f}, {0.30241084f, 0.03137968f}, {5.7e-06f, 3e-06f}},
+        {{0.6625f, 0.6875f}, {0.44097057f, 0.028995087f}, {5.8e-06f, 3e-06f}},
+        {{0.775f, 0.625f}, {0.6096068f, 0.027076326f}, {5.9e-06f, 3e-06f}},
+        {{0.8875f, 0.5625f}, {0.81347775f, 0.025678927f}, {6e-06f, 3e-06f}},
+        {{1.0f, 0.5f}, {1.0f, 0.022625599f}, {6.1e-06f, 3e-06f}},
+        {{0.05f, 0.5f}, {0.002505113f, 0.01998243f}, {5.6e-06f, 3e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.010232472f}, {6.1e-06f, 3e-06f}},
+        {{0.55f, 0.0f}, {0.3360396f, 0.0f}, {5.7e-06f, 3e-06f}},
+        {{0.55f, 2.0f}, {0.30143225f, 0.08557042f}, {5.7e-06f, 5.9e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

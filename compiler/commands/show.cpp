@@ -95,11 +95,13 @@ struct PrintMapping {
   }
   void operator()(const CompactForm& form) const {
     std::cout << "  t = specular1 / (specular1 + " << decimal_text(form.pole) << ")\n  alpha2 = alpha1 ("
-              << factor_text(form.alpha) << ")\n  specular2 = specular1 (" << factor_text(form.specular) << ")\n";
+              << factor_text(form.alpha) << ")\n  specular2 = specular1 (" << factor_text(form.specular)
+              << ")\n";
     if (form.specular_limit)
       std::cout << "  above specular2 " << decimal_text(*form.specular_limit)
                 << ", alpha2 changes by alpha1 (" << decimal_text(form.hinge.turn) << " + "
-                << decimal_text(form.hinge.turn_by_alpha) << " alpha1) times the share that is cut off\n";
+                << decimal_text(form.hinge.turn_by_alpha) << " alpha1) x / (1 + "
+                << decimal_text(form.hinge.bend) << " x), x the share that is cut off\n";
     if (form.alpha_limit)
       std::cout << "  above alpha2 " << decimal_text(*form.alpha_limit) << ", specular2 changes by "
                 << decimal_text(form.hinge.spread) << " times the share that is cut off\n";
@@ -120,8 +122,12 @@ struct PrintMapping {
     std::string text;
     for (std::size_t j = 0; j < factor.size(); ++j)
       for (std::size_t i = 0; i < factor[j].size(); ++i) {
-        const std::string power = (j == 0 ? "" : j == 1 ? " t" : " t^" + std::to_string(j)) +
-                                  (i == 0 ? "" : i == 1 ? " alpha1" : " alpha1^" + std::to_string(i));
+        const std::string power = (j == 0   ? ""
+                                   : j == 1 ? " t"
+                                            : " t^" + std::to_string(j)) +
+                                  (i == 0   ? ""
+                                   : i == 1 ? " alpha1"
+                                            : " alpha1^" + std::to_string(i));
         text += (text.empty() ? "" : " + ") + decimal_text(factor[j][i]) + power;
       }
     return text;

@@ -76,6 +76,7 @@ std::string form_code(const ConverterData& converter) {
                                               {"inverse_specular_limit", inverse_text(form.specular_limit)},
                                               {"turn", float_text(form.hinge.turn)},
                                               {"turn_by_alpha", float_text(form.hinge.turn_by_alpha)},
+                                              {"bend", float_text(form.hinge.bend)},
                                               {"spread", float_text(form.hinge.spread)}})
                              : ""},
        {"alpha_powers", std::to_string(form.alpha.size())},

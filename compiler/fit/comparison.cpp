@@ -13,7 +13,7 @@ namespace remap {
 namespace {
 
 constexpr int kIterations = 12;
-constexpr std::size_t kMostTerms = 3;  // of forms fitted to pictures: more follow the lights that choose
+constexpr std::size_t kMostTerms = 5;  // of a factor fitted to pictures: more follow the lights that choose
 constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
 constexpr double kNear = 1.01;         // of the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range
@@ -49,9 +49,11 @@ std::vector<FormSample> narrow_samples(const std::vector<FormSample>& samples) {
   return some;
 }
 
-// By the pictures, and by rows where pictures show nothing. `unit`: what the rows leave of both errors.
-CompactForm refined(const CompactForm& form, const Domain& domain, const PairPictures& pictures,
-                    const PictureErrors& unit, const std::vector<FormSample>& samples) {
+// The best of the `starts`, refined by the pictures, and by rows where pictures show nothing. `unit`: what
+// the rows leave of both errors.
+CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain,
+                    const PairPictures& pictures, const PictureErrors& unit,
+                    const std::vector<FormSample>& samples) {
   const std::vector<FormSample> narrow = narrow_samples(samples);
   std::vector<MappedTexel> sources = pictures.sources();
   const std::size_t shown = sources.size();
@@ -73,7 +75,7 @@ CompactForm refined(const CompactForm& form, const Domain& domain, const PairPic
     }
     return all;
   };
-  return refined_form(form, domain, sources, errors, kIterations);
+  return refined_form(starts, domain, sources, errors, kIterations);
 }
 
 // Five digits are far below what pictures show, and make headers that a person can read.
@@ -84,7 +86,8 @@ CompactForm rounded_form(CompactForm form) {
   round(form.pole);
   for (FactorTerms* factor : {&form.alpha, &form.specular})
     for (std::vector<float>& row : *factor) std::ranges::for_each(row, round);
-  for (float* number : {&form.hinge.turn, &form.hinge.turn_by_alpha, &form.hinge.spread}) round(*number);
+  for (float* number : {&form.hinge.turn, &form.hinge.turn_by_alpha, &form.hinge.bend, &form.hinge.spread})
+    round(*number);
   return form;
 }
 
@@ -220,15 +223,22 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
     if (progress)
       progress(static_cast<double>(comparison.candidates.size()) / static_cast<double>(shapes.size()));
   };
-  std::optional<CompactForm> smaller;  // of the rows
+  std::vector<CompactForm> sound, by_pictures;
   for (const FormShape& shape : shapes) {
-    if (pictures != nullptr && shape.terms > kMostTerms) continue;
+    if (pictures != nullptr && term_count(shape) > kMostTerms) continue;
     enter(shape_name(shape), [&] {
-      CompactForm form = fit_form(samples, base.limits, base.domain, shape, smaller ? &*smaller : nullptr);
+      CompactForm form = fit_form(samples, base.limits, base.domain, shape, sound);
       if (!is_sound(form, base.domain))
         throw numeric_error("not positive, or it falls where the source rises");
-      smaller = form;
-      if (pictures != nullptr) form = refined(form, base.domain, *pictures, unit, samples);
+      sound.push_back(form);
+      if (pictures != nullptr) {
+        std::vector<CompactForm> starts = {form};
+        for (const CompactForm& smaller : by_pictures)
+          if (is_within(smaller, shape)) starts.push_back(padded(smaller, shape));
+        if (starts.size() > 2) starts = {form, starts.back()};
+        form = refined(starts, base.domain, *pictures, unit, samples);
+        by_pictures.push_back(form);
+      }
       return within_limits(rounded_form(form), base.domain, base.limits);
     });
   }

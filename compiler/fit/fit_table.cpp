@@ -87,8 +87,11 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
   fit.limits = table.limits;
+  // An inverse has to lead back, not to look alike.
+  const bool is_inverse = fit.table.comments.contains("inverse_of");
   const std::unique_ptr<PairPictures> pictures =
-      pair_pictures(fit.source.model, fit.target.model, fit.domain, options.regression.jobs);
+      is_inverse ? nullptr
+                 : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.regression.jobs);
   if (!options.kind.empty()) {
     const Regression regression =
         fit_kind(options.kind).fit(inside_rows(split.training), fit.domain, options.regression, progress);

@@ -63,6 +63,7 @@ Json to_json(const CompactForm& form) {
           {"specular_limit", limit(form.specular_limit)},
           {"turn", finite(decimal_value(form.hinge.turn))},
           {"turn_by_alpha", finite(decimal_value(form.hinge.turn_by_alpha))},
+          {"bend", finite(decimal_value(form.hinge.bend))},
           {"spread", finite(decimal_value(form.hinge.spread))}};
 }
 
@@ -178,7 +179,9 @@ CompactForm read_compact(const Field& field) {
   };
   form.alpha_limit = limit("alpha_limit");
   form.specular_limit = limit("specular_limit");
-  form.hinge = {read_float(field["turn"]), read_float(field["turn_by_alpha"]), read_float(field["spread"])};
+  form.hinge = {read_float(field["turn"]), read_float(field["turn_by_alpha"]), read_float(field["bend"]),
+                read_float(field["spread"])};
+  field["bend"].require(form.hinge.bend >= 0.0f, "at least 0");
   return form;
 }
 

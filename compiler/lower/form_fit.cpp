@@ -15,6 +15,7 @@ namespace remap {
 namespace {
 
 constexpr std::array kPoles = {0.02, 0.035, 0.06, 0.1, 0.17, 0.3, 0.5, 1.0};
+constexpr float kMostBend = 4.0f;  // above, a hinge is a step
 constexpr int kRowIterations = 30;
 constexpr int kGrid = 40;               // steps over the domain, in each direction
 constexpr double kLeastFactor = 1e-3;   // of a sound form
@@ -79,16 +80,6 @@ std::vector<MappedTexel> targets_of(const CompactForm& form, const Domain& domai
   return targets;
 }
 
-// The same form with more terms, which are 0.
-CompactForm padded(CompactForm form, const FormShape& shape) {
-  for (FactorTerms* factor : {&form.alpha, &form.specular}) {
-    factor->resize(std::max(factor->size(), shape.powers));
-    for (std::size_t j = 0; j < factor->size(); ++j)
-      (*factor)[j].resize(std::max((*factor)[j].size(), shape.terms - j), 0.0f);
-  }
-  return form;
-}
-
 // A texel of the grid over the domain, denser where alpha is small.
 MappedTexel grid_texel(const Domain& domain, int i, int j) {
   const auto between = [](const Range& range, double share) {
@@ -139,32 +130,118 @@ NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
   return equations;
 }
 
-CompactForm refined_by_rows(const CompactForm& form, const Domain& domain,
-                            const std::vector<FormSample>& samples) {
+// The form, and the sum of its errors.
+std::pair<CompactForm, double> refined_from(const CompactForm& start, const Domain& domain,
+                                            const std::vector<MappedTexel>& sources,
+                                            const TexelErrors& errors, int iterations) {
+  CompactForm best = start;
+  std::vector<MappedTexel> targets = targets_of(best, domain, sources);
+  std::vector<TexelError> here = errors(targets);
+  double least = sum_of(here), damping = 1e-3;
+  for (int i = 0; i < iterations; ++i) {
+    const NormalEquations equations = normal_equations(best, domain, sources, targets, here);
+    const std::vector<double> numbers = numbers_of(best);
+    bool is_better = false;
+    for (int attempt = 0; attempt < 6 && !is_better; ++attempt, damping *= 6.0) {
+      Eigen::MatrixXd curvature = equations.curvature;
+      const double ridge = kRidge * curvature.trace();
+      for (Eigen::Index k = 0; k < curvature.rows(); ++k)
+        curvature(k, k) += damping * curvature(k, k) + ridge;
+      const Eigen::VectorXd step = curvature.ldlt().solve(equations.gradient);
+      std::vector<double> moved = numbers;
+      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] -= step[static_cast<Eigen::Index>(k)];
+      const CompactForm tried = with_numbers(best, moved);
+      if (!step.allFinite() || !is_sound(tried, domain)) continue;
+      const std::vector<MappedTexel> there = targets_of(tried, domain, sources);
+      const std::vector<TexelError> found = errors(there);
+      const double sum = sum_of(found);
+      if (!(sum < least)) continue;
+      is_better = true;
+      best = tried;
+      targets = there;
+      here = found;
+      const bool is_done = sum > least * (1.0 - kSmallestGain);
+      least = sum;
+      if (is_done) return {best, least};
+    }
+    if (!is_better) return {best, least};
+    damping *= 1.0 / 60.0;
+  }
+  return {best, least};
+}
+
+std::vector<TexelError> row_errors(const std::vector<FormSample>& samples,
+                                   const std::vector<MappedTexel>& targets) {
+  std::vector<TexelError> errors(targets.size());
+  for (std::size_t r = 0; r < targets.size(); ++r) {
+    const MappedTexel& wanted = samples[r].target;
+    const double a = weight_of(wanted.alpha), s = weight_of(wanted.specular);
+    const double off_alpha = targets[r].alpha - wanted.alpha,
+                 off_specular = targets[r].specular - wanted.specular;
+    errors[r] = {a * a * off_alpha * off_alpha + s * s * off_specular * off_specular,
+                 2.0 * a * a * off_alpha,
+                 2.0 * s * s * off_specular,
+                 2.0 * a * a,
+                 0.0,
+                 2.0 * s * s};
+  }
+  return errors;
+}
+
+std::vector<MappedTexel> sources_of(const std::vector<FormSample>& samples) {
   std::vector<MappedTexel> sources;
   for (const FormSample& sample : samples) sources.push_back(sample.source);
-  const TexelErrors squares = [&](const std::vector<MappedTexel>& targets) {
-    std::vector<TexelError> errors(targets.size());
-    for (std::size_t r = 0; r < targets.size(); ++r) {
-      const MappedTexel& wanted = samples[r].target;
-      const double a = weight_of(wanted.alpha), s = weight_of(wanted.specular);
-      const double off_alpha = targets[r].alpha - wanted.alpha,
-                   off_specular = targets[r].specular - wanted.specular;
-      errors[r] = {a * a * off_alpha * off_alpha + s * s * off_specular * off_specular,
-                   2.0 * a * a * off_alpha,
-                   2.0 * s * s * off_specular,
-                   2.0 * a * a,
-                   0.0,
-                   2.0 * s * s};
+  return sources;
+}
+
+CompactForm refined_by_rows(const std::vector<CompactForm>& starts, const Domain& domain,
+                            const std::vector<FormSample>& samples) {
+  const auto errors = [&](const std::vector<MappedTexel>& targets) { return row_errors(samples, targets); };
+  return refined_form(starts, domain, sources_of(samples), errors, kRowIterations);
+}
+
+// The form within the shape that follows the samples best; null if there is none.
+const CompactForm* best_within(const std::vector<CompactForm>& forms, const FormShape& shape,
+                               const Domain& domain, const std::vector<FormSample>& samples) {
+  const CompactForm* best = nullptr;
+  double least = INFINITY;
+  for (const CompactForm& form : forms) {
+    if (!is_within(form, shape)) continue;
+    const double error = sum_of(row_errors(samples, targets_of(form, domain, sources_of(samples))));
+    if (error < least) {
+      least = error;
+      best = &form;
     }
-    return errors;
-  };
-  return refined_form(form, domain, sources, squares, kRowIterations);
+  }
+  return best;
 }
 
 }  // namespace
 
-std::vector<FormShape> form_shapes() { return {{1, 1}, {1, 2}, {2, 2}, {2, 3}, {3, 4}}; }
+std::vector<FormShape> form_shapes() {
+  return {{1, 1}, {1, 2}, {2, 2}, {1, 4}, {2, 3}, {1, 6}, {3, 4}, {2, 5}};
+}
+
+bool is_within(const CompactForm& form, const FormShape& shape) {
+  const auto fits = [&](const FactorTerms& factor) {
+    if (factor.size() > shape.powers) return false;
+    for (std::size_t j = 0; j < factor.size(); ++j)
+      if (factor[j].size() + j > shape.terms) return false;
+    return true;
+  };
+  return fits(form.alpha) && fits(form.specular);
+}
+
+CompactForm padded(CompactForm form, const FormShape& shape) {
+  for (FactorTerms* factor : {&form.alpha, &form.specular}) {
+    factor->resize(std::max(factor->size(), shape.powers));
+    for (std::size_t j = 0; j < factor->size(); ++j)
+      (*factor)[j].resize(std::max((*factor)[j].size(), shape.terms - j), 0.0f);
+  }
+  return form;
+}
+
+std::size_t term_count(const FormShape& shape) { return products(shape).size(); }
 
 std::string shape_name(const FormShape& shape) {
   return std::to_string(shape.powers) + " x " + std::to_string(shape.terms);
@@ -175,7 +252,7 @@ std::vector<double> numbers_of(const CompactForm& form) {
   for (const FactorTerms* factor : {&form.alpha, &form.specular})
     for (const std::vector<float>& row : *factor) numbers.insert(numbers.end(), row.begin(), row.end());
   if (form.alpha_limit || form.specular_limit)
-    for (const float number : {form.hinge.turn, form.hinge.turn_by_alpha, form.hinge.spread})
+    for (const float number : {form.hinge.turn, form.hinge.turn_by_alpha, form.hinge.bend, form.hinge.spread})
       numbers.push_back(static_cast<double>(number));
   return numbers;
 }
@@ -187,13 +264,14 @@ CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers) {
     for (std::vector<float>& row : *factor)
       for (float& term : row) term = static_cast<float>(*next++);
   if (form.alpha_limit || form.specular_limit)
-    for (float* number : {&form.hinge.turn, &form.hinge.turn_by_alpha, &form.hinge.spread})
+    for (float* number : {&form.hinge.turn, &form.hinge.turn_by_alpha, &form.hinge.bend, &form.hinge.spread})
       *number = static_cast<float>(*next++);
+  form.hinge.bend = std::clamp(form.hinge.bend, 0.0f, kMostBend);
   return form;
 }
 
 CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
-                     const FormShape& shape, const CompactForm* smaller) {
+                     const FormShape& shape, const std::vector<CompactForm>& sound) {
   CompactForm best;
   double least = INFINITY;
   const auto is_free = [](const FormSample& sample) {
@@ -221,44 +299,27 @@ CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limit
     best.alpha_limit = static_cast<float>(limits.alpha);
   if (limits.specular && std::ranges::any_of(samples, &FormSample::specular_at_limit))
     best.specular_limit = static_cast<float>(*limits.specular);
-  if (best.alpha_limit || best.specular_limit) best = refined_by_rows(best, domain, samples);
-  if (smaller == nullptr || is_sound(best, domain)) return best;
-  return refined_by_rows(padded(*smaller, shape), domain, samples);
+  // Below the limits nothing is nearer.
+  const bool is_limited = best.alpha_limit || best.specular_limit;
+  if (!is_limited && is_sound(best, domain)) return best;
+  std::vector<CompactForm> starts = {best};
+  if (const CompactForm* smaller = best_within(sound, shape, domain, samples))
+    starts.push_back(padded(*smaller, shape));
+  return refined_by_rows(starts, domain, samples);
 }
 
-CompactForm refined_form(const CompactForm& form, const Domain& domain,
+CompactForm refined_form(const std::vector<CompactForm>& starts, const Domain& domain,
                          const std::vector<MappedTexel>& sources, const TexelErrors& errors, int iterations) {
-  CompactForm best = form;
-  std::vector<MappedTexel> targets = targets_of(best, domain, sources);
-  std::vector<TexelError> here = errors(targets);
-  double least = sum_of(here), damping = 1e-3;
-  for (int i = 0; i < iterations; ++i) {
-    const NormalEquations equations = normal_equations(best, domain, sources, targets, here);
-    const std::vector<double> numbers = numbers_of(best);
-    bool is_better = false;
-    for (int attempt = 0; attempt < 6 && !is_better; ++attempt, damping *= 6.0) {
-      Eigen::MatrixXd curvature = equations.curvature;
-      const double ridge = kRidge * curvature.trace();
-      for (Eigen::Index k = 0; k < curvature.rows(); ++k)
-        curvature(k, k) += damping * curvature(k, k) + ridge;
-      const Eigen::VectorXd step = curvature.ldlt().solve(equations.gradient);
-      std::vector<double> moved = numbers;
-      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] -= step[static_cast<Eigen::Index>(k)];
-      const CompactForm tried = with_numbers(best, moved);
-      if (!step.allFinite() || !is_sound(tried, domain)) continue;
-      const std::vector<MappedTexel> there = targets_of(tried, domain, sources);
-      const std::vector<TexelError> found = errors(there);
-      const double sum = sum_of(found);
-      if (!(sum < least)) continue;
-      is_better = true;
-      best = tried;
-      targets = there;
-      here = found;
-      if (sum > least * (1.0 - kSmallestGain)) return best;
-      least = sum;
-    }
-    if (!is_better) return best;
-    damping *= 1.0 / 60.0;
+  CompactForm best;
+  double least = INFINITY;
+  bool is_best_sound = false;
+  for (const CompactForm& start : starts) {
+    const auto [form, sum] = refined_from(start, domain, sources, errors, iterations);
+    const bool sound = is_sound(form, domain);
+    if (sound < is_best_sound || (sound == is_best_sound && !(sum < least))) continue;
+    best = form;
+    least = sum;
+    is_best_sound = sound;
   }
   return best;
 }

@@ -22,9 +22,12 @@ struct FormShape {
   bool operator==(const FormShape&) const = default;
 };
 
-// From the fewest numbers on.
+// From few numbers on. Factors of alpha alone serve lobes without Fresnel, whose scale is a power of alpha.
 std::vector<FormShape> form_shapes();
+std::size_t term_count(const FormShape& shape);  // of each factor
 std::string shape_name(const FormShape& shape);
+bool is_within(const CompactForm& form, const FormShape& shape);
+CompactForm padded(CompactForm form, const FormShape& shape);  // with terms that are 0
 
 // The numbers of a form in a row, as a search changes them: the pole as its logarithm, P, Q, and the hinge
 // where there are limits.
@@ -33,10 +36,10 @@ CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers);
 
 // The form of least squares of relative errors (error_weight of table/regression.hpp) on the samples. Throws
 // kNumeric where the samples do not determine it. Limits are part of the form where samples are at one.
-// If that form is not sound, the result is the smaller form with more terms, changed as far as it stays
-// sound.
+// The best of the `sound` forms within the shape is another start, where the first is not sound or limits
+// make it depend on the start.
 CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
-                     const FormShape& shape, const CompactForm* smaller = nullptr);
+                     const FormShape& shape, const std::vector<CompactForm>& sound = {});
 
 // What a search minimises: for each texel, the gradient and the curvature (an approximation of it that has no
 // negative eigenvalue) of its error by target alpha and target specular.
@@ -47,9 +50,9 @@ struct TexelError {
 };
 using TexelErrors = std::function<std::vector<TexelError>(const std::vector<MappedTexel>& targets)>;
 
-// Gauss and Newton's method over all numbers at once, damped (Levenberg 1944): the sum of the errors never
-// rises.
-CompactForm refined_form(const CompactForm& form, const Domain& domain,
+// Gauss and Newton's method over all numbers at once, damped (Levenberg 1944), from each start: the sum of
+// the errors never rises. The best result, a sound one where there is one.
+CompactForm refined_form(const std::vector<CompactForm>& starts, const Domain& domain,
                          const std::vector<MappedTexel>& sources, const TexelErrors& errors, int iterations);
 
 // Whether P and Q are positive and finite over the domain, the hinge leaves a width, and below the limits

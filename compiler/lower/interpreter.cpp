@@ -40,7 +40,8 @@ struct Rule {
       specular *= factor;
     }
     const double free = alpha * alpha_factor(inside, top);
-    const double over = std::max(cut / specular_limit - 1.0, 0.0);
+    const double excess = std::max(cut / specular_limit - 1.0, 0.0);
+    const double over = excess / (1.0 + static_cast<double>(hinge.bend) * excess);
     const double turn = static_cast<double>(hinge.turn) + static_cast<double>(hinge.turn_by_alpha) * inside;
     const double wide = std::max(free / alpha_limit - 1.0, 0.0);
     for (double& specular : speculars)

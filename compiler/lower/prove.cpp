@@ -140,8 +140,8 @@ Distance proven_distance(const MappingKind& mapping, const CompactForm& form, co
 Distance rounding_of(const CompactForm& form, const Domain& domain) {
   const double alpha = domain.alpha.max, specular = domain.specular.max;
   const double t = specular / (specular + static_cast<double>(form.pole));
-  // Sum, quotient, conversion of the width, product, and the hinge with its own six operations.
-  constexpr std::size_t kOthers = 12;
+  // Sum, quotient, conversion of the width, product, and the hinge with its own nine operations.
+  constexpr std::size_t kOthers = 15;
   const auto bound = [&](const FactorTerms& factor, double value, double hinge) {
     const double n = static_cast<double>(operations(factor) + kOthers) * 2.0 * kFloatUnit;
     return n / (1.0 - n) * (value * magnitude(factor, alpha, t) * (1.0 + hinge)) + 1e-37;

@@ -20,7 +20,7 @@ constexpr float kSharpestExponent = 1e-3f;
 std::size_t number_count(const CompactForm& form) {
   const std::size_t factors = terms_of(form.alpha) + terms_of(form.specular);
   std::size_t count = factors + (form.alpha.size() > 1 || form.specular.size() > 1 ? 1 : 0);
-  for (const float number : {form.hinge.turn, form.hinge.turn_by_alpha, form.hinge.spread})
+  for (const float number : {form.hinge.turn, form.hinge.turn_by_alpha, form.hinge.bend, form.hinge.spread})
     count += number != 0.0f;
   return count;
 }

@@ -4,7 +4,8 @@
 //   t  = s / (s + pole)                          s: source specular, a: source alpha
 //   A  = a P(a, t of the largest channel)        P, Q: sums of products t^j a^i
 //   u  = s Q(a, t)                               for each channel
-//   a2 = min(alpha limit,    A + a (turn + turn_by_alpha a) max(0, largest u / specular limit - 1))
+//   x  = max(0, largest u / specular limit - 1)
+//   a2 = min(alpha limit,    A + a (turn + turn_by_alpha a) x / (1 + bend x))
 //   s2 = min(specular limit, u (1 + spread max(0, A / alpha limit - 1)))
 //
 // The factors of a texel beyond the domain are those of the nearest texel in it, so that 0 stays 0 and both
@@ -26,7 +27,8 @@ inline constexpr std::size_t kMostPowersOfT = 16, kMostPowersOfAlpha = 32;
 using FactorTerms = std::vector<std::vector<float>>;
 
 struct Hinge {
-  float turn = 0.0f, turn_by_alpha = 0.0f;  // of alpha, where specular is cut off
+  float turn = 0.0f, turn_by_alpha = 0.0f;  // of alpha, where specular is cut off,
+  float bend = 0.0f;                        // at least 0: less and less the more is cut off
   float spread = 0.0f;                      // of specular, where alpha is cut off
   bool operator==(const Hinge&) const = default;
 };
@@ -56,10 +58,10 @@ Scalar factor_value(const FactorTerms& terms, const Scalar& alpha, const Scalar&
 
 // The ends between which a form is evaluated, as floats.
 struct FormEnds {
-  float width_min = 0.0f, width_max = 0.0f;    // the domain, in the source's own width parameter
-  float width_from = 0.0f, width_to = 0.0f;    // to which widths are clamped: to perfectly sharp on one side
-  float alpha_min = 0.0f;                      // the sharpest source in the domain
-  float least_alpha = 0.0f;                    // of the target: exponents end somewhere
+  float width_min = 0.0f, width_max = 0.0f;  // the domain, in the source's own width parameter
+  float width_from = 0.0f, width_to = 0.0f;  // to which widths are clamped: to perfectly sharp on one side
+  float alpha_min = 0.0f;                    // the sharpest source in the domain
+  float least_alpha = 0.0f;                  // of the target: exponents end somewhere
 };
 // `width`: the domain.
 FormEnds ends_of(RoughnessConvention source, RoughnessConvention target, const Range& width);

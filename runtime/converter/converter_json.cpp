@@ -59,6 +59,7 @@ std::string converter_to_json(const ConverterData& data) {
   add("limits", limits.dump());
   const Json hinge = {{"turn", decimal(form.hinge.turn)},
                       {"turn_by_alpha", decimal(form.hinge.turn_by_alpha)},
+                      {"bend", decimal(form.hinge.bend)},
                       {"spread", decimal(form.hinge.spread)}};
   add("hinge", hinge.dump());
   const Json within = {{"alpha", finite(data.alpha_bound)}, {"specular", finite(data.specular_bound)}};
@@ -111,7 +112,9 @@ CompactForm read_form(const Field& field) {
   form.alpha_limit = read_limit(field["limits"]["alpha"]);
   form.specular_limit = read_limit(field["limits"]["specular"]);
   const Field hinge = field["hinge"];
-  form.hinge = {read_float(hinge["turn"]), read_float(hinge["turn_by_alpha"]), read_float(hinge["spread"])};
+  form.hinge = {read_float(hinge["turn"]), read_float(hinge["turn_by_alpha"]), read_float(hinge["bend"]),
+                read_float(hinge["spread"])};
+  hinge["bend"].require(form.hinge.bend >= 0.0f, "at least 0");
   return form;
 }
 

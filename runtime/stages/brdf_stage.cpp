@@ -78,6 +78,7 @@ FormPass pass_of(const ConverterData& data) {
   pass.inverse_specular_limit = 1.0f / pass.specular_limit;
   pass.turn = form.hinge.turn;
   pass.turn_by_alpha = form.hinge.turn_by_alpha;
+  pass.bend = form.hinge.bend;
   pass.spread = form.hinge.spread;
   pass.is_limited = form.alpha_limit || form.specular_limit;
   pass.powers = std::max(form.alpha.size(), form.specular.size());

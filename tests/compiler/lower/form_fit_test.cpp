@@ -27,7 +27,7 @@ CompactForm limited_form() {
   form.specular = {{1.8f, -0.3f}, {0.2f}};
   form.alpha_limit = 1.0f;
   form.specular_limit = 1.0f;
-  form.hinge = {-0.3f, 0.1f, 0.4f};
+  form.hinge = {-0.3f, 0.1f, 0.2f, 0.4f};
   return form;
 }
 
