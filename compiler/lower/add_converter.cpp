@@ -58,17 +58,14 @@ std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, doubl
 
 ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
   const bool has_pictures = fit.image_similarity.has_value();
-  // Rows are matched under one light: a form that pictures under many lights chose is not meant to follow
-  // them.
-  const bool follows_rows = fit.has_errors() && !fit.pictures;
   ConverterData data;
   data.info = {fit.id,
                fit.source,
                fit.target,
                own_roughness_range(fit),
                specular_range(fit),
-               two_digits(follows_rows, fit.alpha_error.rms),
-               two_digits(follows_rows, fit.specular_error.rms),
+               two_digits(fit.follows_rows(), fit.alpha_error.rms),
+               two_digits(fit.follows_rows(), fit.specular_error.rms),
                two_digits(has_pictures, has_pictures ? fit.image_similarity->image_error.rms : 0.0),
                three_digits(mean_ssim(fit)),
                InstructionSet::kBaseline,

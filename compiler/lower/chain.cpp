@@ -148,6 +148,7 @@ void carry_errors(const std::vector<Fit>& steps, Fit* chain) {
           states(steps, {at(chain->domain.alpha, i, kCoarse), chain->domain.specular.max * j / kCoarse});
       ErrorFigures alpha_here, specular_here;
       for (std::size_t s = 0; s < steps.size(); ++s) {
+        if (!steps[s].follows_rows()) continue;
         const Jacobian rest = s + 1 == steps.size() ? Jacobian{{{1.0, 0.0}, {0.0, 1.0}}}
                                                     : jacobian(steps, s + 1, passed[s + 1]);
         alpha.add(rest[0], steps[s].alpha_error, steps[s].specular_error, &alpha_here);
@@ -230,7 +231,7 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   chain.method["against its steps one after another"] =
       "alpha within " + digits(difference.alpha) + ", specular within " + digits(difference.grey_specular) +
       " for grey texels, " + digits(difference.color_specular) + " for colored ones; sampled";
-  chain.method["errors"] = "those of the steps, carried on to the end to first order";
+  chain.method["errors"] = "those of the steps that follow rows, carried on to the end to first order";
   std::string names;
   for (const Fit& step : steps) names += (names.empty() ? "" : ", then ") + step.id;
   chain.remarks.push_back("Composed of " + names + ".");
