@@ -6,8 +6,8 @@
 // Fit: compact, 12 numbers.
 // Error of its steps together: alpha rms 2e-05, 99 % 4.2e-05, max 4.2e-05;
 // specular rms 0.0016, 99 % 0.012, max 0.012.
-// The code is within 6.1e-06 of the fit in alpha and 1.1e-05 in specular (proven).
-// Covers alpha 0.00980886066 to 0.5867306771739, f0 0 to 0.41755737583968344.
+// The code is within 4.3e-06 of the fit in alpha and 7.6e-06 in specular (proven).
+// Covers alpha 0.00980886066 to 0.58919615502225, f0 0 to 0.41755737583968344.
 #ifndef REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 #define REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 
@@ -47,8 +47,8 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // The numbers of this converter. Target alpha is source alpha times a polynomial of alpha and t = s / (s + pole), s the
 // largest channel of specular; target specular is source specular times another, channel by channel.
 struct Form {
-  static constexpr float width_min = 0.009808861f, width_max = 0.58673066f;    // what was measured,
-  static constexpr float width_from = 0.0f, width_to = 0.58673066f;  // and where widths are clamped
+  static constexpr float width_min = 0.009808861f, width_max = 0.58919615f;    // what was measured,
+  static constexpr float width_from = 0.0f, width_to = 0.58919615f;  // and where widths are clamped
   static constexpr float specular_min = 0.0f, specular_max = 0.4175574f;
   static constexpr float alpha_min = 0.009808861f, least_alpha = 0.0f;
   static constexpr float pole = 1.0f;
@@ -57,10 +57,10 @@ struct Form {
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = ((((6.0948696f * alpha + -4.121028f) * alpha + -1.9977298f) * alpha + 1.3256415f) * alpha + 0.03507373f) * alpha + 1.1974874f;
+    c[0] = ((((5.8276067f * alpha + -3.731537f) * alpha + -2.2262266f) * alpha + 1.3869829f) * alpha + 0.024369854f) * alpha + 1.1981467f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = ((((-0.64938843f * alpha + 9.204624f) * alpha + -13.54392f) * alpha + 6.6792636f) * alpha + -1.2745547f) * alpha + 0.46999693f;
+    c[0] = ((((-0.789321f * alpha + 9.487786f) * alpha + -13.749632f) * alpha + 6.717064f) * alpha + -1.2629858f) * alpha + 0.46934384f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -282,7 +282,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
   // What was measured. Beyond, both parameters go on in proportion, but widths above it are clamped; specular below 0 counts as
   // 0. Such texels count as out of domain. NaN makes the outputs that depend on it NaN.
   static constexpr Input kDomainMin{0.009808861f, 0.0f};
-  static constexpr Input kDomainMax{0.58673066f, 0.4175574f};
+  static constexpr Input kDomainMax{0.58919615f, 0.4175574f};
 
   // Rows of `count` texels with `Channels` channels (1: grey, 3: RGB). An output row may be exactly its own input row. Any split
   // into rows gives the same bits. Returns the number of texels out of domain.
@@ -341,19 +341,19 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.009808861f, 0.4175574f}, {0.011750594f, 0.19129345f}, {6.6e-06f, 1.1e-05f}},
-        {{0.08192409f, 0.39146006f}, {0.09896399f, 0.1579047f}, {6.6e-06f, 1.1e-05f}},
-        {{0.15403931f, 0.3653627f}, {0.1887369f, 0.14167812f}, {6.7e-06f, 1.1e-05f}},
-        {{0.22615454f, 0.33926538f}, {0.2810962f, 0.13244948f}, {6.7e-06f, 1.1e-05f}},
-        {{0.29826975f, 0.31316805f}, {0.37422264f, 0.124008186f}, {6.8e-06f, 1.1e-05f}},
-        {{0.370385f, 0.2870707f}, {0.46511355f, 0.1133166f}, {6.8e-06f, 1.1e-05f}},
-        {{0.4425002f, 0.26097336f}, {0.5508625f, 0.099752866f}, {6.9e-06f, 1.1e-05f}},
-        {{0.5146154f, 0.23487604f}, {0.6305562f, 0.08437755f}, {6.9e-06f, 1.1e-05f}},
-        {{0.58673066f, 0.2087787f}, {0.7077893f, 0.069224164f}, {6.9e-06f, 1.1e-05f}},
-        {{0.0049044304f, 0.2087787f}, {0.005875297f, 0.095646724f}, {6.6e-06f, 1.1e-05f}},
-        {{0.88009596f, 0.10438935f}, {0.7077893f, 0.034612082f}, {6.9e-06f, 1.1e-05f}},
-        {{0.29826975f, 0.0f}, {0.37422264f, 0.0f}, {6.8e-06f, 1.1e-05f}},
-        {{0.29826975f, 0.8351148f}, {0.37422264f, 0.33068848f}, {6.8e-06f, 2.2e-05f}},
+        {{0.009808861f, 0.4175574f}, {0.011756087f, 0.19106957f}, {4.8e-06f, 7.7e-06f}},
+        {{0.082232274f, 0.39146006f}, {0.09934835f, 0.15802953f}, {4.8e-06f, 7.6e-06f}},
+        {{0.15465568f, 0.3653627f}, {0.18948968f, 0.14218958f}, {4.9e-06f, 7.6e-06f}},
+        {{0.2270791f, 0.33926538f}, {0.28219786f, 0.13321699f}, {4.9e-06f, 7.6e-06f}},
+        {{0.2995025f, 0.31316805f}, {0.37559688f, 0.12484537f}, {4.9e-06f, 7.6e-06f}},
+        {{0.37192592f, 0.2870707f}, {0.4666206f, 0.114055626f}, {5e-06f, 7.6e-06f}},
+        {{0.44434932f, 0.26097336f}, {0.5523214f, 0.1002866f}, {5e-06f, 7.6e-06f}},
+        {{0.51677275f, 0.23487604f}, {0.6317849f, 0.08467501f}, {5.1e-06f, 7.6e-06f}},
+        {{0.58919615f, 0.2087787f}, {0.7086498f, 0.06932512f}, {5.1e-06f, 7.6e-06f}},
+        {{0.0049044304f, 0.2087787f}, {0.0058780434f, 0.09553479f}, {4.8e-06f, 7.6e-06f}},
+        {{0.8837942f, 0.10438935f}, {0.7086498f, 0.03466256f}, {5.1e-06f, 7.6e-06f}},
+        {{0.2995025f, 0.0f}, {0.37559688f, 0.0f}, {4.9e-06f, 7.6e-06f}},
+        {{0.2995025f, 0.8351148f}, {0.37559688f, 0.33292097f}, {4.9e-06f, 1.6e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

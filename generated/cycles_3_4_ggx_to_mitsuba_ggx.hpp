@@ -7,7 +7,7 @@
 // Fit: compact, 3 numbers, seed 1, 758 rows trained, 189 held out.
 // Error on the rows held out: alpha rms 0.0023, 99 % 0.018, max 0.02;
 // f0 rms 0.0036, 99 % 0.0058, max 0.0058.
-// The code is within 2.3e-06 of the fit in alpha and 4.2e-06 in specular (proven).
+// The code is within 1.2e-06 of the fit in alpha and 1.9e-06 in specular (proven).
 // Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_3_4_GGX_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_3_4_GGX_TO_MITSUBA_GGX_HPP
@@ -57,7 +57,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.2125f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.21264f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
@@ -347,19 +347,19 @@ struct cycles_3_4_ggx_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.010016001f, 0.99425f}, {2.8e-06f, 4.7e-06f}},
-        {{0.2125f, 0.9375f}, {0.045228504f, 0.93210936f}, {2.8e-06f, 4.7e-06f}},
-        {{0.325f, 0.875f}, {0.105794f, 0.8699688f}, {2.8e-06f, 4.6e-06f}},
-        {{0.4375f, 0.8125f}, {0.1917125f, 0.8078281f}, {2.9e-06f, 4.6e-06f}},
-        {{0.55f, 0.75f}, {0.30298403f, 0.7456875f}, {2.9e-06f, 4.6e-06f}},
-        {{0.6625f, 0.6875f}, {0.43960854f, 0.6835469f}, {3e-06f, 4.5e-06f}},
-        {{0.775f, 0.625f}, {0.601586f, 0.62140626f}, {3.1e-06f, 4.5e-06f}},
-        {{0.8875f, 0.5625f}, {0.7889165f, 0.5592656f}, {3.2e-06f, 4.5e-06f}},
-        {{1.0f, 0.5f}, {1.0f, 0.49729404f}, {3.3e-06f, 4.5e-06f}},
-        {{0.05f, 0.5f}, {0.0025040002f, 0.497125f}, {2.8e-06f, 4.5e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.24864702f}, {3.3e-06f, 4.3e-06f}},
-        {{0.55f, 0.0f}, {0.30298403f, 0.0f}, {2.9e-06f, 4.2e-06f}},
-        {{0.55f, 2.0f}, {0.30298403f, 1.0f}, {2.9e-06f, 8.9e-06f}},
+        {{0.1f, 1.0f}, {0.010016001f, 0.99425f}, {1.7e-06f, 2.4e-06f}},
+        {{0.2125f, 0.9375f}, {0.045228504f, 0.93210936f}, {1.7e-06f, 2.4e-06f}},
+        {{0.325f, 0.875f}, {0.105794f, 0.8699688f}, {1.8e-06f, 2.4e-06f}},
+        {{0.4375f, 0.8125f}, {0.1917125f, 0.8078281f}, {1.8e-06f, 2.3e-06f}},
+        {{0.55f, 0.75f}, {0.30298403f, 0.7456875f}, {1.9e-06f, 2.3e-06f}},
+        {{0.6625f, 0.6875f}, {0.43960854f, 0.6835469f}, {1.9e-06f, 2.3e-06f}},
+        {{0.775f, 0.625f}, {0.601586f, 0.62140626f}, {2e-06f, 2.2e-06f}},
+        {{0.8875f, 0.5625f}, {0.7889165f, 0.5592656f}, {2.1e-06f, 2.2e-06f}},
+        {{1.0f, 0.5f}, {1.0f, 0.49729413f}, {2.2e-06f, 2.2e-06f}},
+        {{0.05f, 0.5f}, {0.0025040002f, 0.497125f}, {1.7e-06f, 2.2e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.24864706f}, {2.2e-06f, 2.1e-06f}},
+        {{0.55f, 0.0f}, {0.30298403f, 0.0f}, {1.9e-06f, 1.9e-06f}},
+        {{0.55f, 2.0f}, {0.30298403f, 1.0f}, {1.9e-06f, 4.3e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 10 numbers, seed 1, 514 rows trained, 128 held out.
 // Error on the rows held out: alpha rms 0.0011, 99 % 0.0033, max 0.0089;
 // f0 rms 0.0017, 99 % 0.0057, max 0.0062.
-// The code is within 6.7e-05 of the fit in alpha and 6e-06 in specular (proven).
+// The code is within 2.8e-05 of the fit in alpha and 3.7e-06 in specular (proven).
 // Covers alpha 0.01 to 1, base_color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_3_4_PRINCIPLED_METAL_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_3_4_PRINCIPLED_METAL_TO_MITSUBA_GGX_HPP
@@ -57,17 +57,17 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.70379f, turn_by_alpha = -2.9375f, bend = 0.078441f, spread = 0.0f;
+  static constexpr float turn = -0.70382f, turn_by_alpha = -2.9371f, bend = 0.078398f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
     c[0] = -0.0040168f * alpha + 0.93347f;
-    c[1] = 0.069947f;
+    c[1] = 0.069948f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
     c[0] = -0.010214f * alpha + 1.5768f;
-    c[1] = -0.58266f;
+    c[1] = -0.58267f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -349,19 +349,19 @@ struct cycles_3_4_principled_metal_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.009995869f, 1.0f}, {6.7e-05f, 6.5e-06f}},
-        {{0.2125f, 0.9375f}, {0.045247108f, 0.94112945f}, {6.7e-05f, 6.4e-06f}},
-        {{0.325f, 0.875f}, {0.1058028f, 0.87847215f}, {6.7e-05f, 6.4e-06f}},
-        {{0.4375f, 0.8125f}, {0.19164361f, 0.81568027f}, {6.7e-05f, 6.4e-06f}},
-        {{0.55f, 0.75f}, {0.30270544f, 0.7528017f}, {6.7e-05f, 6.3e-06f}},
-        {{0.6625f, 0.6875f}, {0.43890452f, 0.6898844f}, {6.7e-05f, 6.3e-06f}},
-        {{0.775f, 0.625f}, {0.6001354f, 0.626976f}, {6.8e-05f, 6.3e-06f}},
-        {{0.8875f, 0.5625f}, {0.7862678f, 0.5641238f}, {6.8e-05f, 6.2e-06f}},
-        {{1.0f, 0.5f}, {0.9971405f, 0.50137454f}, {6.8e-05f, 6.2e-06f}},
-        {{0.05f, 0.5f}, {0.002502793f, 0.5064305f}, {6.7e-05f, 6.2e-06f}},
-        {{1.5f, 0.25f}, {0.9950223f, 0.25509852f}, {6.8e-05f, 6.1e-06f}},
-        {{0.55f, 0.0f}, {0.28200713f, 0.0f}, {6.7e-05f, 6e-06f}},
-        {{0.55f, 2.0f}, {0.30252185f, 1.0f}, {6.7e-05f, 1.3e-05f}},
+        {{0.1f, 1.0f}, {0.00999595f, 1.0f}, {2.8e-05f, 4.1e-06f}},
+        {{0.2125f, 0.9375f}, {0.045247152f, 0.94112027f}, {2.8e-05f, 4.1e-06f}},
+        {{0.325f, 0.875f}, {0.1058029f, 0.8784636f}, {2.8e-05f, 4.1e-06f}},
+        {{0.4375f, 0.8125f}, {0.1916438f, 0.81567234f}, {2.8e-05f, 4e-06f}},
+        {{0.55f, 0.75f}, {0.30270573f, 0.7527944f}, {2.8e-05f, 4e-06f}},
+        {{0.6625f, 0.6875f}, {0.43890497f, 0.6898777f}, {2.8e-05f, 4e-06f}},
+        {{0.775f, 0.625f}, {0.600136f, 0.62696993f}, {2.8e-05f, 4e-06f}},
+        {{0.8875f, 0.5625f}, {0.7862686f, 0.5641184f}, {2.9e-05f, 3.9e-06f}},
+        {{1.0f, 0.5f}, {0.9971415f, 0.5013697f}, {2.9e-05f, 3.9e-06f}},
+        {{0.05f, 0.5f}, {0.0025027953f, 0.5064257f}, {2.8e-05f, 3.9e-06f}},
+        {{1.5f, 0.25f}, {0.99502325f, 0.2550962f}, {2.9e-05f, 3.8e-06f}},
+        {{0.55f, 0.0f}, {0.28200713f, 0.0f}, {2.8e-05f, 3.7e-06f}},
+        {{0.55f, 2.0f}, {0.3025269f, 1.0f}, {2.8e-05f, 7.7e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,7 +7,7 @@
 // Fit: compact, 10 numbers, seed 1, 784 rows trained, 196 held out.
 // Error on the rows held out: alpha rms 0.0011, 99 % 0.0042, max 0.0084;
 // f0 rms 0.0015, 99 % 0.0038, max 0.0039.
-// The code is within 1.2e-05 of the fit in alpha and 6.7e-06 in specular (proven).
+// The code is within 4.6e-06 of the fit in alpha and 3.1e-06 in specular (proven).
 // Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_5_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_CYCLES_5_BECKMANN_TO_MITSUBA_BECKMANN_HPP
@@ -57,17 +57,17 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.057464f, turn_by_alpha = -0.65525f, bend = 0.0f, spread = 0.34065f;
+  static constexpr float turn = 0.057485f, turn_by_alpha = -0.65527f, bend = 0.0f, spread = 0.34065f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
     c[0] = 0.0048625f * alpha + 1.0259f;
-    c[1] = -0.027959f;
+    c[1] = -0.027958f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.011199f * alpha + 0.71143f;
-    c[1] = 0.28787f;
+    c[0] = 0.011199f * alpha + 0.71144f;
+    c[1] = 0.28786f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -349,19 +349,19 @@ struct cycles_5_beckmann_to_mitsuba_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.009982665f, 0.99656177f}, {1.2e-05f, 7.2e-06f}},
-        {{0.2125f, 0.9375f}, {0.045086514f, 0.9344695f}, {1.2e-05f, 7.1e-06f}},
-        {{0.325f, 0.875f}, {0.10549513f, 0.87257636f}, {1.2e-05f, 7.1e-06f}},
-        {{0.4375f, 0.8125f}, {0.19125536f, 0.8108292f}, {1.2e-05f, 7.1e-06f}},
-        {{0.55f, 0.75f}, {0.3024334f, 0.74917495f}, {1.2e-05f, 7e-06f}},
-        {{0.6625f, 0.6875f}, {0.43911523f, 0.6875606f}, {1.2e-05f, 7e-06f}},
-        {{0.775f, 0.625f}, {0.6014069f, 0.6259331f}, {1.2e-05f, 7e-06f}},
-        {{0.8875f, 0.5625f}, {0.7894358f, 0.5642396f}, {1.3e-05f, 7e-06f}},
-        {{1.0f, 0.5f}, {1.0f, 0.5030009f}, {1.3e-05f, 6.9e-06f}},
-        {{0.05f, 0.5f}, {0.0024963447f, 0.49688375f}, {1.2e-05f, 6.9e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.25018692f}, {1.3e-05f, 6.8e-06f}},
-        {{0.55f, 0.0f}, {0.31077972f, 0.0f}, {1.2e-05f, 6.7e-06f}},
-        {{0.55f, 2.0f}, {0.30240586f, 1.0f}, {1.2e-05f, 1.4e-05f}},
+        {{0.1f, 1.0f}, {0.009982674f, 0.99656194f}, {5e-06f, 3.6e-06f}},
+        {{0.2125f, 0.9375f}, {0.04508656f, 0.93446964f}, {5.1e-06f, 3.5e-06f}},
+        {{0.325f, 0.875f}, {0.10549524f, 0.8725765f}, {5.1e-06f, 3.5e-06f}},
+        {{0.4375f, 0.8125f}, {0.19125554f, 0.81082934f}, {5.1e-06f, 3.5e-06f}},
+        {{0.55f, 0.75f}, {0.3024337f, 0.7491751f}, {5.2e-06f, 3.5e-06f}},
+        {{0.6625f, 0.6875f}, {0.43911564f, 0.68756074f}, {5.2e-06f, 3.4e-06f}},
+        {{0.775f, 0.625f}, {0.60140747f, 0.62593323f}, {5.3e-06f, 3.4e-06f}},
+        {{0.8875f, 0.5625f}, {0.7894366f, 0.56423974f}, {5.4e-06f, 3.4e-06f}},
+        {{1.0f, 0.5f}, {1.0f, 0.50300115f}, {5.5e-06f, 3.3e-06f}},
+        {{0.05f, 0.5f}, {0.002496347f, 0.49688387f}, {5e-06f, 3.3e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.2501871f}, {5.5e-06f, 3.2e-06f}},
+        {{0.55f, 0.0f}, {0.31077972f, 0.0f}, {5.2e-06f, 3.1e-06f}},
+        {{0.55f, 2.0f}, {0.30240616f, 1.0f}, {5.2e-06f, 6.6e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

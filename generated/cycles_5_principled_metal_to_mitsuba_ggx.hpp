@@ -7,7 +7,7 @@
 // Fit: compact, 12 numbers, seed 1, 563 rows trained, 141 held out.
 // Error on the rows held out: alpha rms 0.00022, 99 % 0.00094, max 0.0014;
 // f0 rms 3e-04, 99 % 0.00097, max 0.0012.
-// The code is within 4.2e-05 of the fit in alpha and 3.3e-05 in specular (proven).
+// The code is within 1.5e-05 of the fit in alpha and 1.3e-05 in specular (proven).
 // Covers alpha 0.01 to 1, base_color 0 to 1.
 #ifndef REMAP_GENERATED_CYCLES_5_PRINCIPLED_METAL_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_5_PRINCIPLED_METAL_TO_MITSUBA_GGX_HPP
@@ -57,12 +57,12 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -1.4336f, turn_by_alpha = 0.79662f, bend = 0.46771f, spread = -1.3854f;
+  static constexpr float turn = -1.4336f, turn_by_alpha = 0.79662f, bend = 0.4677f, spread = -1.3854f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = ((0.091191f * alpha + -0.022116f) * alpha + -0.0032301f) * alpha + 1.0005f;
+    c[0] = ((0.091191f * alpha + -0.022116f) * alpha + -0.00323f) * alpha + 1.0005f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
     c[0] = ((0.34871f * alpha + -0.19188f) * alpha + 0.03438f) * alpha + 0.99884f;
@@ -347,19 +347,19 @@ struct cycles_5_principled_metal_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.1f, 1.0f}, {0.010004655f, 0.99916494f}, {4.3e-05f, 3.3e-05f}},
-        {{0.2125f, 0.9375f}, {0.045170587f, 0.93753123f}, {4.3e-05f, 3.3e-05f}},
-        {{0.325f, 0.875f}, {0.10562705f, 0.87564886f}, {4.3e-05f, 3.3e-05f}},
-        {{0.4375f, 0.8125f}, {0.19135092f, 0.81317925f}, {4.3e-05f, 3.3e-05f}},
-        {{0.55f, 0.75f}, {0.30250707f, 0.75100064f}, {4.3e-05f, 3.3e-05f}},
-        {{0.6625f, 0.6875f}, {0.44001764f, 0.6919341f}, {4.3e-05f, 3.3e-05f}},
-        {{0.775f, 0.625f}, {0.60683566f, 0.64114106f}, {4.3e-05f, 3.3e-05f}},
-        {{0.8875f, 0.5625f}, {0.8103381f, 0.6059693f}, {4.3e-05f, 3.3e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.54033375f}, {4.3e-05f, 3.3e-05f}},
-        {{0.05f, 0.5f}, {0.0025011639f, 0.49958247f}, {4.3e-05f, 3.3e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.27016687f}, {4.3e-05f, 3.3e-05f}},
-        {{0.55f, 0.0f}, {0.30250707f, 0.0f}, {4.3e-05f, 3.3e-05f}},
-        {{0.55f, 2.0f}, {0.30202603f, 1.0f}, {4.3e-05f, 6.5e-05f}},
+        {{0.1f, 1.0f}, {0.010004655f, 0.99916494f}, {1.6e-05f, 1.4e-05f}},
+        {{0.2125f, 0.9375f}, {0.045170587f, 0.93753123f}, {1.6e-05f, 1.4e-05f}},
+        {{0.325f, 0.875f}, {0.10562705f, 0.87564886f}, {1.6e-05f, 1.4e-05f}},
+        {{0.4375f, 0.8125f}, {0.19135092f, 0.81317925f}, {1.6e-05f, 1.3e-05f}},
+        {{0.55f, 0.75f}, {0.30250707f, 0.75100064f}, {1.6e-05f, 1.3e-05f}},
+        {{0.6625f, 0.6875f}, {0.44001764f, 0.6919341f}, {1.6e-05f, 1.3e-05f}},
+        {{0.775f, 0.625f}, {0.6068357f, 0.64114106f}, {1.6e-05f, 1.3e-05f}},
+        {{0.8875f, 0.5625f}, {0.8103382f, 0.6059693f}, {1.6e-05f, 1.3e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.5403337f}, {1.6e-05f, 1.3e-05f}},
+        {{0.05f, 0.5f}, {0.0025011639f, 0.49958247f}, {1.6e-05f, 1.3e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.27016684f}, {1.6e-05f, 1.3e-05f}},
+        {{0.55f, 0.0f}, {0.30250707f, 0.0f}, {1.6e-05f, 1.3e-05f}},
+        {{0.55f, 2.0f}, {0.30202603f, 1.0f}, {1.6e-05f, 2.6e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

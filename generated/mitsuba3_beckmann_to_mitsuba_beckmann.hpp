@@ -7,7 +7,7 @@
 // Fit: compact, 11 numbers, seed 1, 760 rows trained, 190 held out.
 // Error on the rows held out: alpha rms 0.00036, 99 % 0.002, max 0.0039;
 // f0 rms 0.00089, 99 % 0.003, max 0.003.
-// The code is within 1.2e-05 of the fit in alpha and 1.2e-05 in specular (proven).
+// The code is within 4.7e-06 of the fit in alpha and 4.9e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA3_BECKMANN_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA3_BECKMANN_TO_MITSUBA_BECKMANN_HPP
@@ -57,12 +57,12 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.3169f, turn_by_alpha = -0.43118f, bend = 0.0020045f, spread = 0.7914f;
+  static constexpr float turn = 0.31688f, turn_by_alpha = -0.43115f, bend = 0.0020008f, spread = 0.7914f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 2, kSpecularPowers = 2;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.00097629f * alpha + 1.024f;
+    c[0] = 0.00097628f * alpha + 1.024f;
     c[1] = -0.024984f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
@@ -348,19 +348,19 @@ struct mitsuba3_beckmann_to_mitsuba_beckmann {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.009993343f, 0.99819475f}, {1.2e-05f, 1.3e-05f}},
-        {{0.13375f, 0.9375f}, {0.13367984f, 0.9362449f}, {1.3e-05f, 1.3e-05f}},
-        {{0.2575f, 0.875f}, {0.25740197f, 0.87421286f}, {1.3e-05f, 1.3e-05f}},
-        {{0.38125f, 0.8125f}, {0.3811611f, 0.8120988f}, {1.3e-05f, 1.3e-05f}},
-        {{0.505f, 0.75f}, {0.5049589f, 0.7499028f}, {1.3e-05f, 1.3e-05f}},
-        {{0.62875f, 0.6875f}, {0.6287978f, 0.687625f}, {1.3e-05f, 1.3e-05f}},
-        {{0.7525f, 0.625f}, {0.752681f, 0.62526554f}, {1.3e-05f, 1.2e-05f}},
-        {{0.87625f, 0.5625f}, {0.8766134f, 0.5628248f}, {1.3e-05f, 1.2e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.50054127f}, {1.3e-05f, 1.2e-05f}},
-        {{0.005f, 0.5f}, {0.004998176f, 0.49766397f}, {1.2e-05f, 1.2e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.24900201f}, {1.3e-05f, 1.2e-05f}},
-        {{0.505f, 0.0f}, {0.517369f, 0.0f}, {1.3e-05f, 1.2e-05f}},
-        {{0.505f, 2.0f}, {0.50494957f, 1.0f}, {1.3e-05f, 2.4e-05f}},
+        {{0.01f, 1.0f}, {0.009993343f, 0.99819475f}, {5.1e-06f, 5.3e-06f}},
+        {{0.13375f, 0.9375f}, {0.13367984f, 0.9362449f}, {5.2e-06f, 5.3e-06f}},
+        {{0.2575f, 0.875f}, {0.25740197f, 0.87421286f}, {5.3e-06f, 5.3e-06f}},
+        {{0.38125f, 0.8125f}, {0.3811611f, 0.8120988f}, {5.3e-06f, 5.3e-06f}},
+        {{0.505f, 0.75f}, {0.5049589f, 0.7499028f}, {5.4e-06f, 5.2e-06f}},
+        {{0.62875f, 0.6875f}, {0.6287978f, 0.687625f}, {5.4e-06f, 5.2e-06f}},
+        {{0.7525f, 0.625f}, {0.752681f, 0.62526554f}, {5.5e-06f, 5.2e-06f}},
+        {{0.87625f, 0.5625f}, {0.8766134f, 0.5628248f}, {5.6e-06f, 5.1e-06f}},
+        {{1.0f, 0.5f}, {1.0f, 0.50054127f}, {5.6e-06f, 5.1e-06f}},
+        {{0.005f, 0.5f}, {0.004998176f, 0.49766397f}, {5.1e-06f, 5.1e-06f}},
+        {{1.5f, 0.25f}, {1.0f, 0.24900201f}, {5.6e-06f, 5e-06f}},
+        {{0.505f, 0.0f}, {0.517369f, 0.0f}, {5.4e-06f, 4.9e-06f}},
+        {{0.505f, 2.0f}, {0.50494957f, 1.0f}, {5.4e-06f, 1.1e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

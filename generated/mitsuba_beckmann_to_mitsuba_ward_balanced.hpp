@@ -7,9 +7,9 @@
 // Table mitsuba_beckmann_to_mitsuba_ward_balanced.csv, sha256 b8be26c038d7ba4b2d31fbdaaa0ec4fc82ed6c3c13c7d6205fbd63a3a6333cce;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 11 numbers, seed 1, 823 rows trained, 206 held out.
-// Error on the rows held out: alpha rms 0.038, 99 % 0.15, max 0.16;
-// specular rms 0.012, 99 % 0.055, max 0.055.
-// The code is within 4.8e-05 of the fit in alpha and 0.00017 in specular (proven).
+// Error on the rows held out: alpha rms 0.039, 99 % 0.15, max 0.16;
+// specular rms 0.013, 99 % 0.053, max 0.062.
+// The code is within 1.1e-05 of the fit in alpha and 5.4e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_BALANCED_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.38681f, turn_by_alpha = 0.14712f, bend = 0.0f, spread = -1.9262f;
+  static constexpr float turn = -0.38174f, turn_by_alpha = 0.13048f, bend = 0.0f, spread = -1.73f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = ((-0.76346f * alpha + 0.89595f) * alpha + 0.013148f) * alpha + 0.9998f;
+    c[0] = ((-0.64254f * alpha + 0.76937f) * alpha + 0.047257f) * alpha + 0.99788f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = ((-0.90164f * alpha + 1.6702f) * alpha + 0.045089f) * alpha + 1.0006f;
+    c[0] = ((-0.71332f * alpha + 1.4711f) * alpha + 0.099139f) * alpha + 0.99764f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -348,19 +348,19 @@ struct mitsuba_beckmann_to_mitsuba_ward_balanced {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.009995514f, 1.0f}, {4.8e-05f, 0.00017f}},
-        {{0.13375f, 0.9375f}, {0.13585785f, 0.9697046f}, {4.8e-05f, 0.00017f}},
-        {{0.2575f, 0.875f}, {0.27026105f, 0.96911556f}, {4.8e-05f, 0.00017f}},
-        {{0.38125f, 0.8125f}, {0.4166045f, 0.98360574f}, {4.8e-05f, 0.00017f}},
-        {{0.505f, 0.75f}, {0.57398564f, 0.99989444f}, {4.8e-05f, 0.00017f}},
-        {{0.62875f, 0.6875f}, {0.73586076f, 1.0f}, {4.9e-05f, 0.00017f}},
-        {{0.7525f, 0.625f}, {0.8967655f, 0.99755925f}, {4.9e-05f, 0.00017f}},
-        {{0.87625f, 0.5625f}, {1.0f, 0.8929173f}, {4.9e-05f, 0.00017f}},
-        {{1.0f, 0.5f}, {1.0f, 0.65300006f}, {4.9e-05f, 0.00017f}},
-        {{0.005f, 0.5f}, {0.0050001014f, 0.5006085f}, {4.8e-05f, 0.00017f}},
-        {{1.5f, 0.25f}, {1.0f, 0.32650003f}, {4.9e-05f, 0.00017f}},
-        {{0.505f, 0.0f}, {0.57398564f, 0.0f}, {4.8e-05f, 0.00017f}},
-        {{0.505f, 2.0f}, {0.5214012f, 1.0f}, {4.8e-05f, 0.00033f}},
+        {{0.01f, 1.0f}, {0.009984288f, 0.9987778f}, {1.1e-05f, 5.5e-05f}},
+        {{0.13375f, 0.9375f}, {0.13594705f, 0.9707904f}, {1.1e-05f, 5.5e-05f}},
+        {{0.2575f, 0.875f}, {0.2703987f, 0.96996576f}, {1.1e-05f, 5.5e-05f}},
+        {{0.38125f, 0.8125f}, {0.41637048f, 0.9829094f}, {1.1e-05f, 5.5e-05f}},
+        {{0.505f, 0.75f}, {0.57327706f, 0.99825424f}, {1.2e-05f, 5.5e-05f}},
+        {{0.62875f, 0.6875f}, {0.73566145f, 1.0f}, {1.2e-05f, 5.5e-05f}},
+        {{0.7525f, 0.625f}, {0.8992961f, 1.0f}, {1.2e-05f, 5.5e-05f}},
+        {{0.87625f, 0.5625f}, {1.0f, 0.89190346f}, {1.2e-05f, 5.5e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.6514111f}, {1.2e-05f, 5.5e-05f}},
+        {{0.005f, 0.5f}, {0.004992144f, 0.4993889f}, {1.1e-05f, 5.5e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.32570556f}, {1.2e-05f, 5.5e-05f}},
+        {{0.505f, 0.0f}, {0.57327706f, 0.0f}, {1.2e-05f, 5.4e-05f}},
+        {{0.505f, 2.0f}, {0.5204807f, 1.0f}, {1.1e-05f, 0.00011f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

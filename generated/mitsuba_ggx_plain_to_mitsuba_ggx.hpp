@@ -9,7 +9,7 @@
 // Fit: compact, 3 numbers, seed 1, 747 rows trained, 187 held out.
 // Error on the rows held out: alpha rms 0.0031, 99 % 0.016, max 0.025;
 // f0 rms 0.00093, 99 % 0.0026, max 0.0028.
-// The code is within 2.3e-06 of the fit in alpha and 3.3e-06 in specular (proven).
+// The code is within 1.2e-06 of the fit in alpha and 1.6e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_PLAIN_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_PLAIN_TO_MITSUBA_GGX_HPP
@@ -59,7 +59,7 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = -0.10461f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = -0.10718f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
@@ -348,19 +348,19 @@ struct mitsuba_ggx_plain_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.0099997f, 0.99969f}, {2.8e-06f, 3.7e-06f}},
-        {{0.13375f, 0.9375f}, {0.133746f, 0.93720937f}, {2.9e-06f, 3.7e-06f}},
-        {{0.2575f, 0.875f}, {0.25749227f, 0.87472874f}, {2.9e-06f, 3.7e-06f}},
-        {{0.38125f, 0.8125f}, {0.38123855f, 0.8122481f}, {3e-06f, 3.7e-06f}},
-        {{0.505f, 0.75f}, {0.50498486f, 0.7497675f}, {3e-06f, 3.6e-06f}},
-        {{0.62875f, 0.6875f}, {0.6287312f, 0.68728685f}, {3.1e-06f, 3.6e-06f}},
-        {{0.7525f, 0.625f}, {0.7524774f, 0.6248062f}, {3.2e-06f, 3.6e-06f}},
-        {{0.87625f, 0.5625f}, {0.87622374f, 0.5623256f}, {3.2e-06f, 3.5e-06f}},
-        {{1.0f, 0.5f}, {0.99997f, 0.499845f}, {3.3e-06f, 3.5e-06f}},
-        {{0.005f, 0.5f}, {0.00499985f, 0.499845f}, {2.8e-06f, 3.5e-06f}},
-        {{1.5f, 0.25f}, {0.99997f, 0.2499225f}, {3.3e-06f, 3.4e-06f}},
-        {{0.505f, 0.0f}, {0.50498486f, 0.0f}, {3e-06f, 3.3e-06f}},
-        {{0.505f, 2.0f}, {0.50498486f, 1.0f}, {3e-06f, 7e-06f}},
+        {{0.01f, 1.0f}, {0.0099997f, 0.99969f}, {1.7e-06f, 2.1e-06f}},
+        {{0.13375f, 0.9375f}, {0.133746f, 0.93720937f}, {1.8e-06f, 2e-06f}},
+        {{0.2575f, 0.875f}, {0.25749227f, 0.87472874f}, {1.8e-06f, 2e-06f}},
+        {{0.38125f, 0.8125f}, {0.38123855f, 0.8122481f}, {1.9e-06f, 2e-06f}},
+        {{0.505f, 0.75f}, {0.50498486f, 0.7497675f}, {2e-06f, 2e-06f}},
+        {{0.62875f, 0.6875f}, {0.6287312f, 0.68728685f}, {2e-06f, 1.9e-06f}},
+        {{0.7525f, 0.625f}, {0.7524774f, 0.6248062f}, {2.1e-06f, 1.9e-06f}},
+        {{0.87625f, 0.5625f}, {0.87622374f, 0.5623256f}, {2.1e-06f, 1.9e-06f}},
+        {{1.0f, 0.5f}, {0.99997f, 0.499845f}, {2.2e-06f, 1.8e-06f}},
+        {{0.005f, 0.5f}, {0.00499985f, 0.499845f}, {1.7e-06f, 1.8e-06f}},
+        {{1.5f, 0.25f}, {0.99997f, 0.2499225f}, {2.2e-06f, 1.7e-06f}},
+        {{0.505f, 0.0f}, {0.50498486f, 0.0f}, {2e-06f, 1.6e-06f}},
+        {{0.505f, 2.0f}, {0.50498486f, 1.0f}, {2e-06f, 3.6e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

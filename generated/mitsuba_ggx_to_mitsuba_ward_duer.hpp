@@ -7,9 +7,9 @@
 // Table mitsuba_ggx_to_mitsuba_ward_duer.csv, sha256 36b11fa5988652b1fea3ef9e176950de365bdc83af3031a85f52d3dfcd8a6848;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 8 numbers, seed 1, 766 rows trained, 192 held out.
-// Error on the rows held out: alpha rms 0.082, 99 % 0.23, max 0.23;
-// specular rms 0.095, 99 % 0.26, max 0.3.
-// The code is within 5.9e-05 of the fit in alpha and 2.5e-05 in specular (proven).
+// Error on the rows held out: alpha rms 0.077, 99 % 0.21, max 0.21;
+// specular rms 0.082, 99 % 0.24, max 0.3.
+// The code is within 1.1e-05 of the fit in alpha and 1.1e-05 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_DUER_HPP
@@ -59,15 +59,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.25325f, turn_by_alpha = -2.2729f, bend = 4.0f, spread = -0.8949f;
+  static constexpr float turn = -0.21374f, turn_by_alpha = -1.9975f, bend = 4.0f, spread = -1.0384f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.42308f * alpha + 1.1641f;
+    c[0] = 0.33449f * alpha + 1.1682f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.75953f * alpha + 0.95153f;
+    c[0] = 0.62524f * alpha + 0.95973f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -348,19 +348,19 @@ struct mitsuba_ggx_to_mitsuba_ward_duer {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.0116833085f, 0.9591253f}, {5.9e-05f, 2.5e-05f}},
-        {{0.13375f, 0.9375f}, {0.1632669f, 0.9872973f}, {5.9e-05f, 2.5e-05f}},
-        {{0.2575f, 0.875f}, {0.3270171f, 1.0f}, {6e-05f, 2.5e-05f}},
-        {{0.38125f, 0.8125f}, {0.5018411f, 1.0f}, {6e-05f, 2.5e-05f}},
-        {{0.505f, 0.75f}, {0.6948378f, 1.0f}, {6e-05f, 2.5e-05f}},
-        {{0.62875f, 0.6875f}, {0.89918274f, 0.9824956f}, {6e-05f, 2.5e-05f}},
-        {{0.7525f, 0.625f}, {1.0f, 0.85348254f}, {6e-05f, 2.5e-05f}},
-        {{0.87625f, 0.5625f}, {1.0f, 0.6288602f}, {6e-05f, 2.5e-05f}},
-        {{1.0f, 0.5f}, {1.0f, 0.40597683f}, {6e-05f, 2.5e-05f}},
-        {{0.005f, 0.5f}, {0.0058416543f, 0.47956264f}, {5.9e-05f, 2.5e-05f}},
-        {{1.5f, 0.25f}, {1.0f, 0.20298842f}, {6e-05f, 2.5e-05f}},
-        {{0.505f, 0.0f}, {0.6957665f, 0.0f}, {6e-05f, 2.5e-05f}},
-        {{0.505f, 2.0f}, {0.59446174f, 1.0f}, {6e-05f, 4.9e-05f}},
+        {{0.01f, 1.0f}, {0.011715448f, 0.96598244f}, {1.1e-05f, 1.1e-05f}},
+        {{0.13375f, 0.9375f}, {0.16223048f, 0.97814614f}, {1.1e-05f, 1.1e-05f}},
+        {{0.2575f, 0.875f}, {0.32299027f, 0.98063815f}, {1.1e-05f, 1.1e-05f}},
+        {{0.38125f, 0.8125f}, {0.4939949f, 0.9734585f}, {1.1e-05f, 1.1e-05f}},
+        {{0.505f, 0.75f}, {0.67524433f, 0.95660716f}, {1.1e-05f, 1.1e-05f}},
+        {{0.62875f, 0.6875f}, {0.86673856f, 0.93008417f}, {1.2e-05f, 1.1e-05f}},
+        {{0.7525f, 0.625f}, {1.0f, 0.8303276f}, {1.2e-05f, 1.1e-05f}},
+        {{0.87625f, 0.5625f}, {1.0f, 0.60105234f}, {1.2e-05f, 1.1e-05f}},
+        {{1.0f, 0.5f}, {1.0f, 0.37881312f}, {1.2e-05f, 1.1e-05f}},
+        {{0.005f, 0.5f}, {0.005857724f, 0.48299122f}, {1.1e-05f, 1.1e-05f}},
+        {{1.5f, 0.25f}, {1.0f, 0.18940656f}, {1.2e-05f, 1.1e-05f}},
+        {{0.505f, 0.0f}, {0.67524433f, 0.0f}, {1.1e-05f, 1.1e-05f}},
+        {{0.505f, 2.0f}, {0.5943341f, 1.0f}, {1.1e-05f, 2.1e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

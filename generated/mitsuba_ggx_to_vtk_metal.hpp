@@ -5,9 +5,9 @@
 // Table mitsuba_ggx_to_vtk_metal.csv, sha256 74c8f255ce90e561b206a82d968a37566b53f90a862a3967fd3c4a404d3e09d1;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; VTK 9.7.2 PBR.
 // Fit: compact, 10 numbers, seed 1, 550 rows trained, 138 held out.
-// Error on the rows held out: alpha rms 0.0026, 99 % 0.0086, max 0.015;
+// Error on the rows held out: alpha rms 0.0027, 99 % 0.0083, max 0.015;
 // base_color rms 0.0045, 99 % 0.018, max 0.019.
-// The code is within 0.00011 of the fit in alpha and 1.3e-05 in specular (proven).
+// The code is within 2.6e-05 of the fit in alpha and 8.2e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_VTK_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_VTK_METAL_HPP
@@ -71,15 +71,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.61043f, turn_by_alpha = -0.93742f, bend = 0.0f, spread = 0.0f;
+  static constexpr float turn = -0.59804f, turn_by_alpha = -0.95892f, bend = 0.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = ((0.17025f * alpha + -0.55249f) * alpha + 0.34433f) * alpha + 0.97937f;
+    c[0] = ((0.12459f * alpha + -0.47898f) * alpha + 0.31171f) * alpha + 0.98265f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = ((0.47189f * alpha + -1.6982f) * alpha + 1.1193f) * alpha + 0.97417f;
+    c[0] = ((0.47192f * alpha + -1.6982f) * alpha + 1.1193f) * alpha + 0.97417f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -361,19 +361,19 @@ struct mitsuba_ggx_to_vtk_metal {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.09913416f, 0.98519367f}, {0.00054f, 1.4e-05f}},
-        {{0.13375f, 0.9375f}, {0.36510736f, 1.0f}, {0.00015f, 1.4e-05f}},
-        {{0.2575f, 0.875f}, {0.51328135f, 1.0f}, {0.00011f, 1.4e-05f}},
-        {{0.38125f, 0.8125f}, {0.62961435f, 0.9589264f}, {8.5e-05f, 1.4e-05f}},
-        {{0.505f, 0.75f}, {0.7227125f, 0.87533003f}, {7.4e-05f, 1.4e-05f}},
-        {{0.62875f, 0.6875f}, {0.80073786f, 0.7726675f}, {6.7e-05f, 1.4e-05f}},
-        {{0.7525f, 0.625f}, {0.8666745f, 0.65993935f}, {6.2e-05f, 1.4e-05f}},
-        {{0.87625f, 0.5625f}, {0.9226102f, 0.54480433f}, {5.9e-05f, 1.3e-05f}},
-        {{1.0f, 0.5f}, {0.97028863f, 0.43358004f}, {5.6e-05f, 1.3e-05f}},
-        {{0.005f, 0.5f}, {0.07009844f, 0.49259683f}, {0.00076f, 1.3e-05f}},
-        {{1.5f, 0.25f}, {0.97028863f, 0.21679002f}, {5.6e-05f, 1.3e-05f}},
-        {{0.505f, 0.0f}, {0.7227125f, 0.0f}, {7.4e-05f, 1.3e-05f}},
-        {{0.505f, 2.0f}, {0.656392f, 1.0f}, {8.2e-05f, 2.6e-05f}},
+        {{0.01f, 1.0f}, {0.0992834f, 0.98519367f}, {0.00013f, 8.7e-06f}},
+        {{0.13375f, 0.9375f}, {0.36517555f, 1.0f}, {3.5e-05f, 8.7e-06f}},
+        {{0.2575f, 0.875f}, {0.5130466f, 1.0f}, {2.6e-05f, 8.7e-06f}},
+        {{0.38125f, 0.8125f}, {0.6293109f, 0.9589277f}, {2.1e-05f, 8.6e-06f}},
+        {{0.505f, 0.75f}, {0.7225984f, 0.8753329f}, {1.9e-05f, 8.6e-06f}},
+        {{0.62875f, 0.6875f}, {0.8009268f, 0.77267265f}, {1.7e-05f, 8.6e-06f}},
+        {{0.7525f, 0.625f}, {0.8670663f, 0.65994734f}, {1.6e-05f, 8.5e-06f}},
+        {{0.87625f, 0.5625f}, {0.9228091f, 0.54481566f}, {1.5e-05f, 8.4e-06f}},
+        {{1.0f, 0.5f}, {0.9695205f, 0.43359503f}, {1.4e-05f, 8.4e-06f}},
+        {{0.005f, 0.5f}, {0.07020396f, 0.49259683f}, {0.00018f, 8.4e-06f}},
+        {{1.5f, 0.25f}, {0.9695205f, 0.21679752f}, {1.4e-05f, 8.3e-06f}},
+        {{0.505f, 0.0f}, {0.7225984f, 0.0f}, {1.9e-05f, 8.2e-06f}},
+        {{0.505f, 2.0f}, {0.65636325f, 1.0f}, {2e-05f, 1.7e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

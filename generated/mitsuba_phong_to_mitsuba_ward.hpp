@@ -8,8 +8,8 @@
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 12 numbers, seed 1, 797 rows trained, 199 held out.
 // Error on the rows held out: alpha rms 0.049, 99 % 0.19, max 0.2;
-// specular rms 0.021, 99 % 0.086, max 0.089.
-// The code is within 6.4e-05 of the fit in alpha and 1.9e-05 in specular (proven).
+// specular rms 0.021, 99 % 0.087, max 0.09.
+// The code is within 2e-05 of the fit in alpha and 1.3e-05 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_HPP
@@ -73,15 +73,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 0.33938f, turn_by_alpha = -0.92027f, bend = 0.89242f, spread = -0.0013803f;
+  static constexpr float turn = 0.33558f, turn_by_alpha = -0.91516f, bend = 0.88825f, spread = -0.0013836f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = ((0.43268f * alpha + -0.027225f) * alpha + 0.11418f) * alpha + 0.52958f;
+    c[0] = ((0.44153f * alpha + -0.039797f) * alpha + 0.11871f) * alpha + 0.52948f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = ((3.4163f * alpha + -1.3961f) * alpha + 0.42212f) * alpha + 0.98154f;
+    c[0] = ((3.442f * alpha + -1.4297f) * alpha + 0.42986f) * alpha + 0.98117f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -364,19 +364,19 @@ struct mitsuba_phong_to_mitsuba_ward {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.0f, 1.0f}, {0.6040835f, 1.0f}, {6.4e-05f, 2e-05f}},
-        {{2499.75f, 0.9375f}, {0.015064485f, 0.9304091f}, {6.4e-05f, 2e-05f}},
-        {{4999.5f, 0.875f}, {0.010635521f, 0.8657689f}, {6.4e-05f, 2e-05f}},
-        {{7499.25f, 0.8125f}, {0.00867764f, 0.80281115f}, {6.4e-05f, 2e-05f}},
-        {{9999.0f, 0.75f}, {0.007511792f, 0.7404299f}, {6.4e-05f, 1.9e-05f}},
-        {{12498.75f, 0.6875f}, {0.006716739f, 0.6783307f}, {6.4e-05f, 1.9e-05f}},
-        {{14998.5f, 0.625f}, {0.0061301505f, 0.61639583f}, {6.4e-05f, 1.9e-05f}},
-        {{17498.25f, 0.5625f}, {0.0056744292f, 0.5545672f}, {6.4e-05f, 1.9e-05f}},
-        {{19998.0f, 0.5f}, {0.0053071952f, 0.4928125f}, {6.4e-05f, 1.9e-05f}},
-        {{0.0f, 0.5f}, {0.79633003f, 1.0f}, {6.4e-05f, 2e-05f}},
-        {{29997.0f, 0.25f}, {0.0043333787f, 0.24640626f}, {6.4e-05f, 1.9e-05f}},
-        {{9999.0f, 0.0f}, {0.007511792f, 0.0f}, {6.4e-05f, 1.9e-05f}},
-        {{9999.0f, 2.0f}, {0.007511792f, 1.0f}, {6.4e-05f, 3.8e-05f}},
+        {{0.0f, 1.0f}, {0.6044024f, 1.0f}, {2.1e-05f, 1.3e-05f}},
+        {{2499.75f, 0.9375f}, {0.015065f, 0.93024266f}, {2.1e-05f, 1.3e-05f}},
+        {{4999.5f, 0.875f}, {0.0106352335f, 0.865569f}, {2.1e-05f, 1.3e-05f}},
+        {{7499.25f, 0.8125f}, {0.00867716f, 0.80260605f}, {2.1e-05f, 1.3e-05f}},
+        {{9999.0f, 0.75f}, {0.007511248f, 0.7402295f}, {2.1e-05f, 1.3e-05f}},
+        {{12498.75f, 0.6875f}, {0.006716173f, 0.67814f}, {2.1e-05f, 1.3e-05f}},
+        {{14998.5f, 0.625f}, {0.0061295805f, 0.6162176f}, {2.1e-05f, 1.3e-05f}},
+        {{17498.25f, 0.5625f}, {0.0056738625f, 0.5544035f}, {2.1e-05f, 1.3e-05f}},
+        {{19998.0f, 0.5f}, {0.0053066355f, 0.49266455f}, {2.1e-05f, 1.3e-05f}},
+        {{0.0f, 0.5f}, {0.7972071f, 1.0f}, {2.1e-05f, 1.3e-05f}},
+        {{29997.0f, 0.25f}, {0.004332922f, 0.24633227f}, {2.1e-05f, 1.3e-05f}},
+        {{9999.0f, 0.0f}, {0.007511248f, 0.0f}, {2.1e-05f, 1.3e-05f}},
+        {{9999.0f, 2.0f}, {0.007511248f, 1.0f}, {2.1e-05f, 2.5e-05f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,9 +7,9 @@
 // Table mitsuba_phong_to_mitsuba_ward_balanced.csv, sha256 664b9094fea160dd7764d232504d051f40be2d50c97176651d006a2af2e52856;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 11 numbers, seed 1, 741 rows trained, 185 held out.
-// Error on the rows held out: alpha rms 0.027, 99 % 0.11, max 0.11;
-// specular rms 0.017, 99 % 0.054, max 0.058.
-// The code is within 7.2e-05 of the fit in alpha and 4.4e-06 in specular (proven).
+// Error on the rows held out: alpha rms 0.025, 99 % 0.095, max 0.095;
+// specular rms 0.016, 99 % 0.051, max 0.055.
+// The code is within 3.3e-05 of the fit in alpha and 2.9e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_BALANCED_HPP
@@ -73,15 +73,15 @@ struct Form {
   // The target's limits. What one cuts off changes the other parameter.
   static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
   static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = 2.3803f, turn_by_alpha = -3.011f, bend = 3.0252f, spread = 0.0f;
+  static constexpr float turn = 3.2173f, turn_by_alpha = -4.0303f, bend = 4.0f, spread = 0.0f;
 
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = ((0.19693f * alpha + -0.01736f) * alpha + 0.11582f) * alpha + 0.53932f;
+    c[0] = ((0.23577f * alpha + -0.058019f) * alpha + 0.12648f) * alpha + 0.53883f;
   }
   static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = ((0.67831f * alpha + 0.057518f) * alpha + 0.038219f) * alpha + 0.6819f;
+    c[0] = ((0.74076f * alpha + -0.016968f) * alpha + 0.05621f) * alpha + 0.68127f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -364,19 +364,19 @@ struct mitsuba_phong_to_mitsuba_ward_balanced {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.0f, 1.0f}, {0.7138501f, 1.0f}, {7.3e-05f, 4.9e-06f}},
-        {{2499.75f, 0.9375f}, {0.015341261f, 0.64035183f}, {7.2e-05f, 4.7e-06f}},
-        {{4999.5f, 0.875f}, {0.010830989f, 0.59735614f}, {7.2e-05f, 4.7e-06f}},
-        {{7499.25f, 0.8125f}, {0.008837143f, 0.55456567f}, {7.2e-05f, 4.7e-06f}},
-        {{9999.0f, 0.75f}, {0.0076498757f, 0.51184046f}, {7.2e-05f, 4.6e-06f}},
-        {{12498.75f, 0.6875f}, {0.0068402137f, 0.4691459f}, {7.2e-05f, 4.6e-06f}},
-        {{14998.5f, 0.625f}, {0.006242846f, 0.4264688f}, {7.2e-05f, 4.6e-06f}},
-        {{17498.25f, 0.5625f}, {0.00577875f, 0.38380274f}, {7.2e-05f, 4.6e-06f}},
-        {{19998.0f, 0.5f}, {0.0054047666f, 0.34114432f}, {7.2e-05f, 4.6e-06f}},
-        {{0.0f, 0.5f}, {0.83471f, 0.7279735f}, {7.3e-05f, 4.7e-06f}},
-        {{29997.0f, 0.25f}, {0.004413047f, 0.17057216f}, {7.2e-05f, 4.5e-06f}},
-        {{9999.0f, 0.0f}, {0.0076498757f, 0.0f}, {7.2e-05f, 4.4e-06f}},
-        {{9999.0f, 2.0f}, {0.0076498757f, 1.0f}, {7.2e-05f, 9.2e-06f}},
+        {{0.0f, 1.0f}, {0.7112499f, 1.0f}, {3.4e-05f, 3.4e-06f}},
+        {{2499.75f, 0.9375f}, {0.015335035f, 0.64018357f}, {3.3e-05f, 3.2e-06f}},
+        {{4999.5f, 0.875f}, {0.010825134f, 0.597094f}, {3.3e-05f, 3.2e-06f}},
+        {{7499.25f, 0.8125f}, {0.00883181f, 0.5542766f}, {3.3e-05f, 3.2e-06f}},
+        {{9999.0f, 0.75f}, {0.0076449644f, 0.5115477f}, {3.3e-05f, 3.1e-06f}},
+        {{12498.75f, 0.6875f}, {0.00683564f, 0.4688611f}, {3.3e-05f, 3.1e-06f}},
+        {{14998.5f, 0.625f}, {0.006238547f, 0.4261987f}, {3.3e-05f, 3.1e-06f}},
+        {{17498.25f, 0.5625f}, {0.0057746805f, 0.3835518f}, {3.3e-05f, 3.1e-06f}},
+        {{19998.0f, 0.5f}, {0.0054008923f, 0.34091556f}, {3.3e-05f, 3.1e-06f}},
+        {{0.0f, 0.5f}, {0.843061f, 0.730636f}, {3.4e-05f, 3.3e-06f}},
+        {{29997.0f, 0.25f}, {0.0044098836f, 0.17045778f}, {3.3e-05f, 3e-06f}},
+        {{9999.0f, 0.0f}, {0.0076449644f, 0.0f}, {3.3e-05f, 2.9e-06f}},
+        {{9999.0f, 2.0f}, {0.0076449644f, 1.0f}, {3.3e-05f, 6.2e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -7,9 +7,9 @@
 // Table mitsuba_ward_balanced_to_mitsuba_ggx.csv, sha256 bc82fc395c9c89cc33e822f253d595a771e4c78aa2f9295b5006776e878776f6;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: compact, 2 numbers, seed 1, 736 rows trained, 184 held out.
-// Error on the rows held out: alpha rms 0.021, 99 % 0.035, max 0.035;
-// f0 rms 0.034, 99 % 0.12, max 0.14.
-// The code is within 1.9e-06 of the fit in alpha and 2.1e-06 in specular (proven).
+// Error on the rows held out: alpha rms 0.02, 99 % 0.034, max 0.034;
+// f0 rms 0.035, 99 % 0.12, max 0.14.
+// The code is within 9.7e-07 of the fit in alpha and 1.2e-06 in specular (proven).
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_GGX_HPP
@@ -64,10 +64,10 @@ struct Form {
   // The coefficients of powers of t.
   static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
   static void alpha_factor(float, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.80895f;
+    c[0] = 0.80781f;
   }
   static void specular_factor(float, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.92408f;
+    c[0] = 0.92386f;
   }
 
   // A row of widths as the models state them, and of alpha.
@@ -348,19 +348,19 @@ struct mitsuba_ward_balanced_to_mitsuba_ggx {
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.0080895f, 0.92408f}, {2.4e-06f, 2.6e-06f}},
-        {{0.13375f, 0.9375f}, {0.10819707f, 0.866325f}, {2.4e-06f, 2.6e-06f}},
-        {{0.2575f, 0.875f}, {0.20830461f, 0.80857f}, {2.5e-06f, 2.5e-06f}},
-        {{0.38125f, 0.8125f}, {0.3084122f, 0.75081503f}, {2.5e-06f, 2.5e-06f}},
-        {{0.505f, 0.75f}, {0.40851974f, 0.69306004f}, {2.6e-06f, 2.5e-06f}},
-        {{0.62875f, 0.6875f}, {0.50862736f, 0.635305f}, {2.6e-06f, 2.4e-06f}},
-        {{0.7525f, 0.625f}, {0.6087349f, 0.57755f}, {2.7e-06f, 2.4e-06f}},
-        {{0.87625f, 0.5625f}, {0.70884246f, 0.519795f}, {2.7e-06f, 2.4e-06f}},
-        {{1.0f, 0.5f}, {0.80895f, 0.46204f}, {2.8e-06f, 2.4e-06f}},
-        {{0.005f, 0.5f}, {0.00404475f, 0.46204f}, {2.4e-06f, 2.4e-06f}},
-        {{1.5f, 0.25f}, {0.80895f, 0.23102f}, {2.8e-06f, 2.3e-06f}},
-        {{0.505f, 0.0f}, {0.40851974f, 0.0f}, {2.6e-06f, 2.1e-06f}},
-        {{0.505f, 2.0f}, {0.40851974f, 1.0f}, {2.6e-06f, 4.7e-06f}},
+        {{0.01f, 1.0f}, {0.0080781f, 0.92386f}, {1.5e-06f, 1.6e-06f}},
+        {{0.13375f, 0.9375f}, {0.108044595f, 0.8661188f}, {1.5e-06f, 1.6e-06f}},
+        {{0.2575f, 0.875f}, {0.20801108f, 0.8083775f}, {1.6e-06f, 1.5e-06f}},
+        {{0.38125f, 0.8125f}, {0.30797756f, 0.7506363f}, {1.6e-06f, 1.5e-06f}},
+        {{0.505f, 0.75f}, {0.40794405f, 0.692895f}, {1.7e-06f, 1.5e-06f}},
+        {{0.62875f, 0.6875f}, {0.50791055f, 0.6351538f}, {1.7e-06f, 1.5e-06f}},
+        {{0.7525f, 0.625f}, {0.607877f, 0.5774125f}, {1.8e-06f, 1.4e-06f}},
+        {{0.87625f, 0.5625f}, {0.70784354f, 0.51967126f}, {1.8e-06f, 1.4e-06f}},
+        {{1.0f, 0.5f}, {0.80781f, 0.46193f}, {1.9e-06f, 1.4e-06f}},
+        {{0.005f, 0.5f}, {0.00403905f, 0.46193f}, {1.5e-06f, 1.4e-06f}},
+        {{1.5f, 0.25f}, {0.80781f, 0.230965f}, {1.9e-06f, 1.3e-06f}},
+        {{0.505f, 0.0f}, {0.40794405f, 0.0f}, {1.7e-06f, 1.2e-06f}},
+        {{0.505f, 2.0f}, {0.40794405f, 1.0f}, {1.7e-06f, 2.7e-06f}},
     }};
     bool passed = true;
     for (const Golden& golden : kGolden) {

@@ -60,7 +60,8 @@ Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const
   };
   if (has_table(item) && !same(paths.table, known.table)) return {false, false, false, reason(paths.table)};
   if (!same(paths.fit, known.fit)) return {true, false, false, reason(paths.fit)};
-  if (!has_current_format(paths.fit)) return {true, false, false, paths.fit.string() + " has an older format"};
+  if (!has_current_format(paths.fit))
+    return {true, false, false, paths.fit.string() + " has an older format"};
   if (!same(paths.header, known.header)) return {true, true, false, reason(paths.header)};
   return {true, true, true, ""};
 }

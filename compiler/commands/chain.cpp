@@ -44,15 +44,14 @@ void run_chain(const ChainCommand& command) {
   write_file(path, fit_to_json(chain));
   const std::string& steps_text = chain.method.at("against its steps one after another");
   if (command.json) {
-    const Json json = {
-        {"fit", path.string()},
-        {"id", chain.id},
-        {"domain",
-         {{"alpha", {chain.domain.alpha.min, chain.domain.alpha.max}},
-          {"specular", {chain.domain.specular.min, chain.domain.specular.max}}}},
-        {"alpha_error", figures_json(chain.alpha_error)},
-        {"specular_error", figures_json(chain.specular_error)},
-        {"against_its_steps", steps_text}};
+    const Json json = {{"fit", path.string()},
+                       {"id", chain.id},
+                       {"domain",
+                        {{"alpha", {chain.domain.alpha.min, chain.domain.alpha.max}},
+                         {"specular", {chain.domain.specular.min, chain.domain.specular.max}}}},
+                       {"alpha_error", figures_json(chain.alpha_error)},
+                       {"specular_error", figures_json(chain.specular_error)},
+                       {"against_its_steps", steps_text}};
     std::cout << json.dump(2) << "\n";
     return;
   }

@@ -223,9 +223,7 @@ void add_regression_options(Command& app, FitCommand& command) {
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
   app.option_group(kRareOptions);
-  app.add_option(
-      "--form FORM", regression.form,
-      "Parametric: paper or paper+pole (default: paper)");
+  app.add_option("--form FORM", regression.form, "Parametric: paper or paper+pole (default: paper)");
   app.add_option("--layers", regression.mlp.hidden, "Network: units of each hidden layer, as 16,16")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -237,9 +235,10 @@ void add_regression_options(Command& app, FitCommand& command) {
       ->range(1, kMostStarts);
   app.add_option("--held-out", command.options.held_out_fraction,
                  "Fraction of the rows held out to measure errors");
-  app.add_option("--lower TOLERANCE", command.tolerance,
-                 "Largest proven deviation from the fit of the form that texremap and headers run: absolute for "
-                 "target alpha, relative to the largest one for target specular")
+  app.add_option(
+         "--lower TOLERANCE", command.tolerance,
+         "Largest proven deviation from the fit of the form that texremap and headers run: absolute for "
+         "target alpha, relative to the largest one for target specular")
       ->positive();
   app.add_option("--seed", regression.seed, "Seed of the split and all other random choices")
       ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());

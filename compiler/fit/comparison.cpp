@@ -18,10 +18,11 @@ constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures sh
 constexpr double kNear = 1.01;         // of the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range
 constexpr double kNearRow = 0.01;      // relative
-constexpr double kNarrowWidth =
-    0.05;                           // below, rows take part in the refinement, which pictures do not resolve
-constexpr double kRowWeight = 3.0;  // of the squared relative error of such a row
-constexpr std::size_t kMostNarrowRows = 60;
+// Rows take part in the refinement: little where pictures show the difference, so that a form does not wander
+// where they hardly do; much where highlights are narrower than a pixel. Weights of squared relative errors.
+constexpr double kNarrowWidth = 0.05;
+constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
+constexpr std::size_t kMostRows = 60;  // of either
 
 FormSample sample_of(const TableRow& row) {
   const bool is_corner = row.status == RowStatus::kCorner;
@@ -37,35 +38,44 @@ std::vector<FormSample> samples_of(const std::vector<TableRow>& rows) {
   return samples;
 }
 
-// Some of the rows whose highlights are smaller than a pixel.
-std::vector<FormSample> narrow_samples(const std::vector<FormSample>& samples) {
-  std::vector<FormSample> narrow;
-  for (const FormSample& sample : samples)
-    if (sample.source.alpha < kNarrowWidth && !sample.alpha_at_limit && !sample.specular_at_limit)
-      narrow.push_back(sample);
-  std::vector<FormSample> some;
-  const std::size_t step = narrow.size() / kMostNarrowRows + 1;
-  for (std::size_t i = 0; i < narrow.size(); i += step) some.push_back(narrow[i]);
-  return some;
+struct WeightedSample {
+  FormSample sample;
+  double weight = 0.0;
+};
+
+// Some of the rows below the limits. `pictures`: their number, by which weights are measured.
+std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samples, std::size_t pictures) {
+  std::vector<WeightedSample> all;
+  for (const bool is_narrow : {true, false}) {
+    std::vector<FormSample> kept;
+    for (const FormSample& sample : samples)
+      if ((sample.source.alpha < kNarrowWidth) == is_narrow && !sample.alpha_at_limit &&
+          !sample.specular_at_limit)
+        kept.push_back(sample);
+    const std::size_t step = kept.size() / kMostRows + 1, count = (kept.size() + step - 1) / step;
+    const double weight = (is_narrow ? kNarrowWeight : kShownWeight) * static_cast<double>(pictures) /
+                          static_cast<double>(std::max<std::size_t>(count, 1));
+    for (std::size_t i = 0; i < kept.size(); i += step) all.push_back({kept[i], weight});
+  }
+  return all;
 }
 
-// The best of the `starts`, refined by the pictures, and by rows where pictures show nothing. `unit`: what
+// The best of the `starts`, refined by the pictures and by rows. `unit`: what
 // the rows leave of both errors.
 CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain,
                     const PairPictures& pictures, const PictureErrors& unit,
                     const std::vector<FormSample>& samples) {
-  const std::vector<FormSample> narrow = narrow_samples(samples);
   std::vector<MappedTexel> sources = pictures.sources();
   const std::size_t shown = sources.size();
-  for (const FormSample& sample : narrow) sources.push_back(sample.source);
+  const std::vector<WeightedSample> rows = weighted_samples(samples, shown);
+  for (const WeightedSample& row : rows) sources.push_back(row.sample.source);
   const TexelErrors by_pictures = pictures.choosing_errors(unit);
-  const double weight =
-      kRowWeight * static_cast<double>(shown) / std::max(1.0, static_cast<double>(narrow.size()));
   const TexelErrors errors = [&](const std::vector<MappedTexel>& targets) {
     std::vector<TexelError> all =
         by_pictures({targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(shown)});
-    for (std::size_t r = 0; r < narrow.size(); ++r) {
-      const MappedTexel &wanted = narrow[r].target, &found = targets[shown + r];
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const MappedTexel &wanted = rows[r].sample.target, &found = targets[shown + r];
+      const double weight = rows[r].weight;
       const double a = error_weight(wanted.alpha), s = error_weight(wanted.specular);
       const double off_alpha = a * (found.alpha - wanted.alpha),
                    off_specular = s * (found.specular - wanted.specular);

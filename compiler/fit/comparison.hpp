@@ -1,4 +1,5 @@
-// Compares fits of one table, and chooses the one with the fewest numbers that pictures cannot tell from more.
+// Compares fits of one table, and chooses the one with the fewest numbers that pictures cannot tell from
+// more.
 #pragma once
 
 #include <vector>
@@ -19,13 +20,14 @@ struct Comparison {
   std::size_t chosen = 0;
 };
 
-// Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base`: the fit but for its mapping. Forms of pairs that `pictures` knows are then
-// refined by pictures; null: rows are all there is.
+// Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base`: the fit but
+// for its mapping. Forms of pairs that `pictures` knows are then refined by pictures; null: rows are all
+// there is.
 //
-// Of the candidates that are sound, the one with the fewest numbers is chosen whose judged errors are near the
-// best: with pictures both within 1 % (of the RMSE also within .05 points, an eighth of an 8-bit step), else
-// both relative errors on the held-out rows within .01, which pictures do not show, or within 1 %. Throws
-// kNumeric with the reasons if none is sound.
+// Of the candidates that are sound, the one with the fewest numbers is chosen whose judged errors are near
+// the best: with pictures both within 1 % (of the RMSE also within .05 points, an eighth of an 8-bit step),
+// else both relative errors on the held-out rows within .01, which pictures do not show, or within 1 %.
+// Throws kNumeric with the reasons if none is sound.
 Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
                          const FitProgress& progress);
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/brdf.hpp"
 #include "lights/radiance_pyramid.hpp"
+#include "renderer/brdf.hpp"
 
 namespace remap {
 

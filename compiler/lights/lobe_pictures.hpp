@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image.hpp"
 #include "lights/environment.hpp"
 #include "lights/lit_sphere.hpp"
+#include "renderer/image.hpp"
 
 namespace remap {
 

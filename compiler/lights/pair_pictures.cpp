@@ -19,8 +19,8 @@ constexpr std::size_t kWidthCount = 40;
 constexpr Range kWidths{0.01, 1.0};
 constexpr double kLeastWidth = 0.05;  // narrower highlights are smaller than a pixel
 constexpr std::array kChoosingSpeculars = {0.04, 0.2, 0.6, 1.0}, kJudgingSpeculars = {0.1, 0.3, 0.5, 0.9};
-// Of a per cent of the error under point lights, where one under environments counts 1: so that forms are no worse than
-// regressions of the rows in either, by the lights that choose (docs/decisions/079-one-form.md).
+// Of a per cent of the error under point lights, where one under environments counts 1: so that forms are no
+// worse than regressions of the rows in either, by the lights that choose (docs/decisions/079-one-form.md).
 constexpr double kPointWeight = 0.5;
 constexpr double kWidthStep = 0.04;  // of differences, relative
 
@@ -143,7 +143,8 @@ class Judge {
       specular_2 += s * s;
     }
     // The root of a mean of squares; its slope is that of the squares over twice itself.
-    const double count = is_environment ? static_cast<double>(here.size()) / 1e4 : std::max(shown.power[light], 1e-12);
+    const double count =
+        is_environment ? static_cast<double>(here.size()) / 1e4 : std::max(shown.power[light], 1e-12);
     const double error = std::sqrt(square / count);
     if (sum == nullptr) return error;
     const double scale = unit / (count * std::max(error, 1e-6));
@@ -187,10 +188,10 @@ std::vector<MappedTexel> materials(const std::string& source, const Domain& doma
 class BuiltinPair final : public PairPictures {
  public:
   BuiltinPair(const std::string& source, const std::string& target, const Domain& domain, unsigned jobs)
-      : choosing_(halves(jobs).choosing.lights(), halves(jobs).choosing.of(source), halves(jobs).choosing.of(target),
-                  materials(source, domain, true, kChoosingSpeculars)),
-        judging_(halves(jobs).judging.lights(), halves(jobs).judging.of(source), halves(jobs).judging.of(target),
-                 materials(source, domain, false, kJudgingSpeculars)) {
+      : choosing_(halves(jobs).choosing.lights(), halves(jobs).choosing.of(source),
+                  halves(jobs).choosing.of(target), materials(source, domain, true, kChoosingSpeculars)),
+        judging_(halves(jobs).judging.lights(), halves(jobs).judging.of(source),
+                 halves(jobs).judging.of(target), materials(source, domain, false, kJudgingSpeculars)) {
     for (const Shown& shown : choosing_.shown()) sources_.push_back(shown.source);
   }
 
@@ -203,8 +204,9 @@ class BuiltinPair final : public PairPictures {
       const double points = static_cast<double>(choosing_.lights()) - environments;
       for (std::size_t m = 0; m < targets.size(); ++m)
         for (std::size_t light = 0; light < choosing_.lights(); ++light) {
-          const double unit = light < choosing_.environments() ? 1.0 / (unit_errors.rmse * environments)
-                                                               : kPointWeight / (unit_errors.relative * points);
+          const double unit = light < choosing_.environments()
+                                  ? 1.0 / (unit_errors.rmse * environments)
+                                  : kPointWeight / (unit_errors.relative * points);
           choosing_.error_under(light, choosing_.shown()[m], targets[m], unit, &errors[m]);
         }
       return errors;

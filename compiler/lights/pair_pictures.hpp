@@ -1,5 +1,5 @@
-// Pictures of two models of the built-in renderer under lights that the project makes: some choose the numbers
-// of a converter, the others judge it. Materials are highlights without diffuse light.
+// Pictures of two models of the built-in renderer under lights that the project makes: some choose the
+// numbers of a converter, the others judge it. Materials are highlights without diffuse light.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ class PairPictures {
   // The materials whose pictures choose.
   virtual const std::vector<MappedTexel>& sources() const = 0;
   // Of what their target texels show: the RMSE of display values under environments and the error relative to
-  // the source under point lights, each divided by `unit`, so that a per cent of one counts as a per cent of the
-  // other.
+  // the source under point lights, each divided by `unit`, so that a per cent of one counts as a per cent of
+  // the other.
   virtual TexelErrors choosing_errors(const PictureErrors& unit) const = 0;
   // Means by the lights and materials that choose.
   virtual PictureErrors chosen(const TexelMap& map) const = 0;

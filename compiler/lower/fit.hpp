@@ -115,8 +115,8 @@ struct Fit {
   std::optional<ConverterData> converter;
   // Whether the errors are known. Formulas from publications were not compared with rows.
   bool has_errors() const { return alpha_error != ErrorFigures{} || specular_error != ErrorFigures{}; }
-  // Whether these are errors: rows are matched under one light, and a form that pictures under many lights chose
-  // is not meant to follow them.
+  // Whether these are errors: rows are matched under one light, and a form that pictures under many lights
+  // chose is not meant to follow them.
   bool follows_rows() const { return has_errors() && !pictures; }
   bool operator==(const Fit&) const = default;
 };

@@ -16,14 +16,17 @@ namespace {
 
 constexpr std::array kPoles = {0.02, 0.035, 0.06, 0.1, 0.17, 0.3, 0.5, 1.0};
 constexpr float kMostBend = 4.0f;  // above, a hinge is a step
+constexpr double kLeastRelative = 2e-4;
 constexpr int kRowIterations = 30;
-constexpr int kGrid = 40;               // steps over the domain, in each direction
-constexpr double kLeastFactor = 1e-3;   // of a sound form
+constexpr int kGrid = 80;               // steps over the domain, in each direction
+constexpr double kLeastFactor = 1e-5;   // of a sound form
 constexpr double kSmallestGain = 2e-5;  // of a sum of errors, relative
 constexpr double kStep = 1e-5;          // of differences, relative to a number
 constexpr double kRidge = 1e-9;         // of normal equations, relative
 
-double weight_of(double value) { return 1.0 / std::max(value, 0.02); }
+// Pictures show errors relative to a value, and below `least` nothing.
+constexpr double kLeastShown = 0.02;
+double weight_of(double value, double least = kLeastShown) { return 1.0 / std::max(value, least); }
 
 std::vector<std::pair<int, int>> products(const FormShape& shape) {
   std::vector<std::pair<int, int>> all;
@@ -44,8 +47,8 @@ FactorTerms shaped(const FormShape& shape, const Eigen::VectorXd& numbers) {
 // The factor by which `of` the targets are the sources', over the samples that `counts` keeps.
 template <typename Counts, typename Source, typename Target>
 std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples, const FormShape& shape,
-                                          double pole, const Counts& counts, const Source& source,
-                                          const Target& target) {
+                                          double pole, double least_shown, const Counts& counts,
+                                          const Source& source, const Target& target) {
   const auto terms = products(shape);
   std::vector<const FormSample*> kept;
   for (const FormSample& sample : samples)
@@ -59,7 +62,7 @@ std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples
   Eigen::VectorXd wanted(matrix.rows());
   for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
     const FormSample& sample = *kept[static_cast<std::size_t>(r)];
-    const double weight = weight_of(target(sample)),
+    const double weight = weight_of(target(sample), least_shown),
                  t = sample.source.specular / (sample.source.specular + pole);
     for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
       const auto& [j, i] = terms[static_cast<std::size_t>(k)];
@@ -69,6 +72,40 @@ std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples
   }
   const Eigen::VectorXd numbers = matrix.colPivHouseholderQr().solve(wanted);
   return {shaped(shape, numbers), (matrix * numbers - wanted).squaredNorm()};
+}
+
+// The form of least squares on the samples below the limits; it has no hinge yet.
+CompactForm least_squares(const std::vector<FormSample>& samples, const Limits& limits,
+                          const FormShape& shape, double least_shown) {
+  CompactForm best;
+  double least = INFINITY;
+  const auto is_free = [](const FormSample& sample) {
+    return !sample.alpha_at_limit && !sample.specular_at_limit;
+  };
+  const auto alpha = [](const FormSample& sample) { return sample.source.alpha; };
+  const auto specular = [](const FormSample& sample) { return sample.source.specular; };
+  const auto has_light = [&](const FormSample& sample) {
+    return is_free(sample) && sample.source.specular > 0.0;
+  };
+  for (const double pole : kPoles) {
+    if (shape.powers == 1 && pole != kPoles.back()) continue;
+    CompactForm form;
+    form.pole = static_cast<float>(pole);
+    double alpha_error = 0.0, specular_error = 0.0;
+    std::tie(form.alpha, alpha_error) = fit_factor(samples, shape, pole, least_shown, is_free, alpha,
+                                                   [](const FormSample& s) { return s.target.alpha; });
+    std::tie(form.specular, specular_error) =
+        fit_factor(samples, shape, pole, least_shown, has_light, specular,
+                   [](const FormSample& s) { return s.target.specular; });
+    if (alpha_error + specular_error >= least) continue;
+    least = alpha_error + specular_error;
+    best = form;
+  }
+  if (std::ranges::any_of(samples, &FormSample::alpha_at_limit))
+    best.alpha_limit = static_cast<float>(limits.alpha);
+  if (limits.specular && std::ranges::any_of(samples, &FormSample::specular_at_limit))
+    best.specular_limit = static_cast<float>(*limits.specular);
+  return best;
 }
 
 std::vector<MappedTexel> targets_of(const CompactForm& form, const Domain& domain,
@@ -272,37 +309,11 @@ CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers) {
 
 CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
                      const FormShape& shape, const std::vector<CompactForm>& sound) {
-  CompactForm best;
-  double least = INFINITY;
-  const auto is_free = [](const FormSample& sample) {
-    return !sample.alpha_at_limit && !sample.specular_at_limit;
-  };
-  const auto alpha = [](const FormSample& sample) { return sample.source.alpha; };
-  const auto specular = [](const FormSample& sample) { return sample.source.specular; };
-  const auto has_light = [&](const FormSample& sample) {
-    return is_free(sample) && sample.source.specular > 0.0;
-  };
-  for (const double pole : kPoles) {
-    if (shape.powers == 1 && pole != kPoles.back()) continue;
-    CompactForm form;
-    form.pole = static_cast<float>(pole);
-    double alpha_error = 0.0, specular_error = 0.0;
-    std::tie(form.alpha, alpha_error) =
-        fit_factor(samples, shape, pole, is_free, alpha, [](const FormSample& s) { return s.target.alpha; });
-    std::tie(form.specular, specular_error) = fit_factor(
-        samples, shape, pole, has_light, specular, [](const FormSample& s) { return s.target.specular; });
-    if (alpha_error + specular_error >= least) continue;
-    least = alpha_error + specular_error;
-    best = form;
-  }
-  if (std::ranges::any_of(samples, &FormSample::alpha_at_limit))
-    best.alpha_limit = static_cast<float>(limits.alpha);
-  if (limits.specular && std::ranges::any_of(samples, &FormSample::specular_at_limit))
-    best.specular_limit = static_cast<float>(*limits.specular);
-  // Below the limits nothing is nearer.
-  const bool is_limited = best.alpha_limit || best.specular_limit;
-  if (!is_limited && is_sound(best, domain)) return best;
-  std::vector<CompactForm> starts = {best};
+  const CompactForm nearest = least_squares(samples, limits, shape, kLeastShown);
+  const bool is_limited = nearest.alpha_limit || nearest.specular_limit;
+  if (!is_limited && is_sound(nearest, domain)) return nearest;
+  // Factors that begin near 0 stay positive where small values count as much as large ones.
+  std::vector<CompactForm> starts = {nearest, least_squares(samples, limits, shape, kLeastRelative)};
   if (const CompactForm* smaller = best_within(sound, shape, domain, samples))
     starts.push_back(padded(*smaller, shape));
   return refined_by_rows(starts, domain, samples);

@@ -140,20 +140,30 @@ Distance proven_distance(const MappingKind& mapping, const CompactForm& form, co
 Distance rounding_of(const CompactForm& form, const Domain& domain) {
   const double alpha = domain.alpha.max, specular = domain.specular.max;
   const double t = specular / (specular + static_cast<double>(form.pole));
-  // Sum, quotient, conversion of the width, product, and the hinge with its own nine operations.
-  constexpr std::size_t kOthers = 15;
-  const auto bound = [&](const FactorTerms& factor, double value, double hinge) {
-    const double n = static_cast<double>(operations(factor) + kOthers) * 2.0 * kFloatUnit;
-    return n / (1.0 - n) * (value * magnitude(factor, alpha, t) * (1.0 + hinge)) + 1e-37;
+  // Relative to the sum of the magnitudes: sum, quotient, conversion of the width, product; or the hinge.
+  const auto relative = [](std::size_t operations) {
+    const double n = static_cast<double>(operations) * 2.0 * kFloatUnit;
+    return n / (1.0 - n);
   };
-  const double cut = specular * magnitude(form.specular, alpha, t),
-               width = alpha * magnitude(form.alpha, alpha, t);
-  const double turn = (std::fabs(static_cast<double>(form.hinge.turn)) +
-                       std::fabs(static_cast<double>(form.hinge.turn_by_alpha)) * alpha) *
-                      (form.specular_limit ? cut / static_cast<double>(*form.specular_limit) + 1.0 : 0.0);
-  const double spread = std::fabs(static_cast<double>(form.hinge.spread)) *
-                        (form.alpha_limit ? width / static_cast<double>(*form.alpha_limit) + 1.0 : 0.0);
-  return {bound(form.alpha, alpha, 2.0 * turn), bound(form.specular, specular, 2.0 * spread)};
+  constexpr std::size_t kOthers = 6, kHinge = 9;
+  const double of_alpha = relative(operations(form.alpha) + kOthers),
+               of_specular = relative(operations(form.specular) + kOthers), of_hinge = relative(kHinge);
+  const double width = alpha * magnitude(form.alpha, alpha, t),
+               light = specular * magnitude(form.specular, alpha, t);
+  Distance distance{of_alpha * width, of_specular * light};
+  const auto size = [](float number) { return std::fabs(static_cast<double>(number)); };
+  if (form.specular_limit) {
+    // x / (1 + bend x) changes by no more than x does, and is at most 1 / bend.
+    const double cut = light / size(*form.specular_limit),
+                 most = std::min(cut, 1.0 / std::max(size(form.hinge.bend), 1e-9));
+    distance.alpha += alpha * (size(form.hinge.turn) + size(form.hinge.turn_by_alpha) * alpha) *
+                      (of_specular * cut + of_hinge * (most + 1.0));
+  }
+  if (form.alpha_limit) {
+    const double wide = width / size(*form.alpha_limit);
+    distance.specular += light * size(form.hinge.spread) * (of_alpha * wide + of_hinge * (wide + 1.0));
+  }
+  return {distance.alpha + 1e-37, distance.specular + 1e-37};
 }
 
 }  // namespace remap

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "lower/fit.hpp"
-#include "measure/sweep_options.hpp"
 #include "lights/environment.hpp"
 #include "lights/lit_sphere.hpp"
 #include "lights/radiance_pyramid.hpp"
+#include "lower/fit.hpp"
+#include "measure/sweep_options.hpp"
 
 namespace remap {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/image.hpp"
 #include "lights/lit_sphere.hpp"
+#include "renderer/image.hpp"
 
 namespace remap {
 

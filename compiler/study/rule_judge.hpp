@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "lower/short_form.hpp"
 #include "lights/lobe_pictures.hpp"
+#include "lower/short_form.hpp"
 
 namespace remap {
 

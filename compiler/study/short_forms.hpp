@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "lower/fit.hpp"
-#include "lower/short_form.hpp"
 #include "lights/environment.hpp"
 #include "lights/lit_sphere.hpp"
+#include "lower/fit.hpp"
+#include "lower/short_form.hpp"
 #include "study/conversions.hpp"
 
 namespace remap {

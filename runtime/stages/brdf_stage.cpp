@@ -57,8 +57,7 @@ std::size_t pad(const FactorTerms& factor, FormPass::Terms& rows) {
 
 FormPass pass_of(const ConverterData& data) {
   const CompactForm& form = data.form;
-  const FormEnds ends =
-      ends_of(data.info.source.roughness, data.info.target.roughness, data.info.roughness);
+  const FormEnds ends = ends_of(data.info.source.roughness, data.info.target.roughness, data.info.roughness);
   FormPass pass;
   pass.source = data.info.source.roughness;
   pass.target = data.info.target.roughness;
@@ -124,8 +123,7 @@ class BrdfStage final : public Stage {
     Row roughness, specular;
     for (std::size_t i = 0; i < kCount; ++i) {
       const float share = static_cast<float>(i) / (kCount - 1), other = static_cast<float>(i % 17) / 16.0f;
-      roughness[i] =
-          pass_.width_min + (1.2f * share - 0.1f) * (pass_.width_max - pass_.width_min);
+      roughness[i] = pass_.width_min + (1.2f * share - 0.1f) * (pass_.width_max - pass_.width_min);
       specular[i] = pass_.specular_max * 1.2f * other;
     }
     const auto run = [&](const auto& kernel, std::size_t channels) {

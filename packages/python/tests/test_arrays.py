@@ -270,7 +270,7 @@ def test_table():
     result = texremap.convert(source="mitsuba/ward", target="mitsuba/as", roughness=table.rows["alpha1"],
                               specular=table.rows["specular1"])
     inside = (table.rows["status"] == "ok") & (table.rows["alpha1"] > 0.05) & (table.rows["alpha1"] < 0.5)
-    assert np.abs(result.roughness - table.rows["alpha2"])[inside].max() < 0.01
+    assert np.abs(result.roughness - table.rows["alpha2"])[inside].max() < 0.02
 
 
 def test_doctests():
