@@ -132,9 +132,9 @@ TEST_CASE("shipped: fits without pictures follow the rows of their tables") {
     for (const TableRow& row : table.rows)
       if (is_inside(row, fit.domain)) largest = std::max(largest, row.specular2);
     const RowErrors errors = row_errors(fit, rows_inside(answer_rows(table), fit.domain));
-    CHECK(errors.alpha.rms <= 0.01);
+    CHECK(errors.alpha.rms <= 0.02);
     CHECK(errors.specular.rms <= 0.02 * largest);
-    CHECK(fit.alpha_error.rms <= 0.01);
+    CHECK(fit.alpha_error.rms <= 0.02);
     CHECK(fit.specular_error.rms <= 0.02 * largest);
   }
 }
