@@ -173,9 +173,9 @@ TEST_CASE("shipped: converters of the hub cover every width and specular") {
     }
 }
 
-TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more than 1e-3",
+TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more than 2e-3",
           "[slow][campaign]") {
-  constexpr double kStep = 1e-4, kMost = 1e-3;
+  constexpr double kStep = 1e-4, kMost = 2e-3;
   const int lines = campaign_length(40) + 1;
   for (const Fit& fit : shipped()) {
     if (!of_hub(fit) || !is_measured(fit)) continue;
