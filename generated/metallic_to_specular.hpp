@@ -7,12 +7,15 @@
 #ifndef REMAP_GENERATED_METALLIC_TO_SPECULAR_HPP
 #define REMAP_GENERATED_METALLIC_TO_SPECULAR_HPP
 
+#if defined(_MSVC_LANG) ? _MSVC_LANG < 201703L : __cplusplus < 201703L
+#error "metallic_to_specular.hpp needs C++17: compile with -std=c++17 or /std:c++17"
+#endif
+
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <type_traits>
 #include <utility>
 
 #if defined(__clang__)  // silences the warning about loops that cannot be vectorised
@@ -250,97 +253,6 @@ struct Strided {
 // Texels whose channels become planar rows together.
 inline constexpr std::size_t kTexels = 128;
 
-// Moves texels of three channels in another way than element by element, and returns how many: floats where gcc knows no
-// shuffles by threes.
-template <class Count, class T>
-constexpr std::size_t move_threes(Count, T*, float (*)[kTexels]) noexcept {
-  return 0;
-}
-#if defined(__GNUC__) && __GNUC__ >= 12 && defined(__SSE2__) && !defined(__AVX__)
-typedef float FourFloats __attribute__((vector_size(16)));
-inline FourFloats load_four(const float* from) noexcept {
-  FourFloats four;
-  std::memcpy(&four, from, sizeof four);
-  return four;
-}
-inline void store_four(float* to, FourFloats four) noexcept { std::memcpy(to, &four, sizeof four); }
-
-template <class Count>
-inline std::size_t move_threes(Count count, const float* from, float (*rows)[kTexels]) noexcept {
-  const std::size_t size = count / 4 * 4;
-  for (std::size_t i = 0; i < size; i += 4, from += 12) {
-    __builtin_prefetch(from + 3 * kTexels);  // of the next block: a large buffer keeps a block waiting
-    const FourFloats a = load_four(from), b = load_four(from + 4), c = load_four(from + 8);
-    const FourFloats rg = __builtin_shufflevector(b, c, 2, 3, 5, 6);  // r2 g2 r3 g3
-    const FourFloats gb = __builtin_shufflevector(a, b, 1, 2, 4, 5);  // g0 b0 g1 b1
-    store_four(rows[0] + i, __builtin_shufflevector(a, rg, 0, 3, 4, 6));
-    store_four(rows[1] + i, __builtin_shufflevector(gb, rg, 0, 2, 5, 7));
-    store_four(rows[2] + i, __builtin_shufflevector(gb, c, 1, 3, 4, 7));
-  }
-  return size;
-}
-template <class Count>
-inline std::size_t move_threes(Count count, float* to, float (*rows)[kTexels]) noexcept {
-  const std::size_t size = count / 4 * 4;
-  for (std::size_t i = 0; i < size; i += 4, to += 12) {
-    __builtin_prefetch(to + 3 * kTexels, 1);
-    const FourFloats r = load_four(rows[0] + i), g = load_four(rows[1] + i), b = load_four(rows[2] + i);
-    const FourFloats rg = __builtin_shufflevector(r, g, 0, 2, 4, 6);  // r0 r2 g0 g2
-    const FourFloats gb = __builtin_shufflevector(g, b, 1, 3, 5, 7);  // g1 g3 b1 b3
-    const FourFloats br = __builtin_shufflevector(b, r, 0, 2, 5, 7);  // b0 b2 r1 r3
-    store_four(to, __builtin_shufflevector(rg, br, 0, 2, 4, 6));
-    store_four(to + 4, __builtin_shufflevector(gb, rg, 0, 2, 5, 7));
-    store_four(to + 8, __builtin_shufflevector(br, gb, 1, 3, 5, 7));
-  }
-  return size;
-}
-#endif
-
-// Calls move(element, value in its row) for channels side by side. A stride of 0 is known at run time only.
-template <std::size_t Stride, class Count, class T, class Move, std::size_t... Channel>
-inline void move_channels(Count count, Strided<T> texels, float (*rows)[kTexels], const Move& move,
-                          std::index_sequence<Channel...>) noexcept {
-  const std::size_t size = count, stride = Stride == 0 ? texels.stride : Stride;
-  T* const first = texels.first;
-  std::size_t start = 0;
-  if constexpr (Stride == 3) start = move_threes(count, first, rows);
-#if defined(__GNUC__) && !defined(__clang__)  // clang would warn, at the caller, of a T that has no vectors
-#pragma GCC ivdep
-#endif
-  for (std::size_t i = start; i < size; ++i) (move(first[i * stride + Channel], rows[Channel][i]), ...);
-}
-
-template <std::size_t kRows, class Count, class T, class Move>
-inline void move_texels(Count count, std::size_t start, const std::array<Strided<T>, kRows>& texels,
-                        float (*rows)[kTexels], const Move& move) noexcept {
-  for (std::size_t r = 0; r < kRows;) {
-    const Strided<T> from = texels[r][start * texels[r].stride];
-    std::size_t side_by_side = 1;
-    while (r + side_by_side < kRows && texels[r + side_by_side].first == texels[r].first + side_by_side &&
-           texels[r + side_by_side].stride == from.stride)
-      ++side_by_side;
-    const auto run = [&](auto channels, auto stride) {
-      move_channels<stride>(count, from, rows + r, move, std::make_index_sequence<channels>());
-      r += channels;
-    };
-    using One = std::integral_constant<std::size_t, 1>;
-    using Three = std::integral_constant<std::size_t, 3>;
-    using Four = std::integral_constant<std::size_t, 4>;
-    if (side_by_side >= 4 && from.stride == 4)
-      run(Four(), Four());
-    else if (side_by_side >= 3 && from.stride == 4)
-      run(Three(), Four());
-    else if (side_by_side >= 3 && from.stride == 3)
-      run(Three(), Three());
-    else if (from.stride == 1 && std::is_same_v<T, float>)
-      ++r;  // was written where it lies
-    else if (from.stride == 1)
-      run(One(), One());
-    else
-      run(One(), std::integral_constant<std::size_t, 0>());
-  }
-}
-
 // Texels anywhere by `convert`, which takes planar rows and returns how many were outside.
 template <std::size_t kIn, std::size_t kOut, class T, class Convert>
 inline std::size_t convert_texels(std::size_t count, const std::array<Strided<const T>, kIn>& in,
@@ -349,20 +261,18 @@ inline std::size_t convert_texels(std::size_t count, const std::array<Strided<co
   std::array<const float*, kIn> from{};
   std::array<float*, kOut> to{};
   for (std::size_t r = 0; r < kIn; ++r) from[r] = rows[r];
-  std::size_t outside = 0, start = 0;
-  const auto run = [&](auto size) {
-    for (std::size_t r = 0; r < kOut; ++r) {
-      to[r] = rows[r];
-      if constexpr (std::is_same_v<T, float>)
-        if (out[r].stride == 1) to[r] = out[r].first + start;
-    }
-    move_texels(size, start, in, rows, [](const T& texel, float& value) { value = static_cast<float>(texel); });
+  for (std::size_t r = 0; r < kOut; ++r) to[r] = rows[r];
+  std::size_t outside = 0;
+  for (std::size_t start = 0; start < count; start += kTexels) {
+    const std::size_t size = count - start < kTexels ? count - start : kTexels;
+    for (std::size_t r = 0; r < kIn; ++r)
+      for (std::size_t i = 0; i < size; ++i)
+        rows[r][i] = static_cast<float>(in[r].first[(start + i) * in[r].stride]);
     outside += convert(size, from, to);
-    move_texels(size, start, out, rows, [](T& texel, float value) { texel = static_cast<T>(value); });
-    start += size;
-  };
-  while (count - start >= kTexels) run(std::integral_constant<std::size_t, kTexels>());
-  if (start < count) run(count - start);
+    for (std::size_t r = 0; r < kOut; ++r)
+      for (std::size_t i = 0; i < size; ++i)
+        out[r].first[(start + i) * out[r].stride] = static_cast<T>(rows[r][i]);
+  }
   return outside;
 }
 

@@ -4,22 +4,24 @@
 // mitsuba/ggx to threejs-r187/standard-metal: which parameters of the second give the same picture as those of the first.
 // Table mitsuba_ggx_to_threejs_r187_standard_metal.csv, sha256 ddd54b948b795b6b3fe8f22d0333f427bc03b1b3689958cdca7cb3f1ec4b16e6;
 // objective natural-2 (lights 65, weighting relative), 512 pixels squared, by remapc 0.1.0; three.js r0.187.0 (HeadlessChrome/156.0.8078.79).
-// Fit: series, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 0.00095, 99 % 0.0045, max 0.0057;
-// color rms 0.00027, 99 % 0.0012, max 0.0014.
-// Lowered from the fit. Target alpha: degree 5 on 32 pieces, proven within 3.1e-06 (sampled 3.7e-07).
-// Target specular: degree 15, 4 in specular, proven within 8.8e-05 (sampled 6.3e-05), rising with specular.
+// Fit: compact, 19 numbers, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 0.0053, 99 % 0.033, max 0.034;
+// color rms 0.0035, 99 % 0.017, max 0.018.
+// The code is within 3.8e-06 of the fit in alpha and 9.8e-06 in specular (proven).
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_STANDARD_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_STANDARD_METAL_HPP
 
-#include <cmath>
+#if defined(_MSVC_LANG) ? _MSVC_LANG < 201703L : __cplusplus < 201703L
+#error "mitsuba_ggx_to_threejs_r187_standard_metal.hpp needs C++17: compile with -std=c++17 or /std:c++17"
+#endif
+
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <type_traits>
-#include <utility>
+#include <limits>
 #if defined(__SSE__) || defined(_M_X64)
 #include <xmmintrin.h>
 #endif
@@ -46,500 +48,170 @@ inline float float_from_bits(std::uint32_t value) noexcept {
   return result;
 }
 
+// Square roots of a row, four at once: compilers make no vectors of std::sqrt unless nobody asks for its errors
+// (-fno-math-errno).
+template <std::size_t Size>
+inline void take_roots(float (&row)[Size]) noexcept {
+  std::size_t done = 0;
+#if defined(__SSE__) || defined(_M_X64)
+  for (; done + 4 <= Size; done += 4) _mm_storeu_ps(row + done, _mm_sqrt_ps(_mm_loadu_ps(row + done)));
+#endif
+  for (std::size_t i = done; i < Size; ++i) row[i] = std::sqrt(row[i]);
+}
+
+// The numbers of this converter. Target alpha is source alpha times a polynomial of alpha and t = s / (s + pole), s the
+// largest channel of specular; target specular is source specular times another, channel by channel.
+struct Form {
+  static constexpr float width_min = 0.01f, width_max = 1.0f;    // what was measured,
+  static constexpr float width_from = 0.0f, width_to = 1.0f;  // and where widths are clamped
+  static constexpr float specular_min = 0.0f, specular_max = 1.0f;
+  static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;
+  static constexpr float pole = 0.3f;
+  static constexpr bool is_limited = true;
+  // The target's limits. What one cuts off changes the other parameter.
+  static constexpr float alpha_limit = std::numeric_limits<float>::infinity(), specular_limit = 1.0f;
+  static constexpr float inverse_alpha_limit = 0.0f, inverse_specular_limit = 1.0f;
+  static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
+
+  // The coefficients of powers of t.
+  static constexpr std::size_t kAlphaPowers = 3, kSpecularPowers = 3;
+  static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
+    c[0] = ((0.11013f * alpha + -0.25131f) * alpha + 0.10605f) * alpha + 0.99485f;
+    c[1] = (0.023273f * alpha + 0.031548f) * alpha + -0.022254f;
+    c[2] = -0.082392f * alpha + 0.030412f;
+  }
+  static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
+    c[0] = ((0.23007f * alpha + -0.73807f) * alpha + 0.41562f) * alpha + 0.85001f;
+    c[1] = (0.56858f * alpha + -0.82486f) * alpha + 0.49202f;
+    c[2] = -0.33211f * alpha + -0.36916f;
+  }
+
+  // A row of widths as the models state them, and of alpha.
+  template <std::size_t Size>
+  static void to_alpha(float (&)[Size]) noexcept {
+  }
+  template <std::size_t Size>
+  static void from_alpha(float (&row)[Size]) noexcept {
+    take_roots(row);
+  }
+};
+
+// Texels are converted in blocks of rows, whose length is a constant: compilers make vectors of such loops, whatever
+// their flags. Floats from 0 compare as integers do, NaN above all others.
+inline std::int32_t order(float value) noexcept { return static_cast<std::int32_t>(bits(value)); }
+inline float of_order(std::int32_t value) noexcept { return float_from_bits(static_cast<std::uint32_t>(value)); }
+inline float least(float a, float b) noexcept { return of_order(order(a) < order(b) ? order(a) : order(b)); }
+inline float most(float a, float b) noexcept { return of_order(order(a) > order(b) ? order(a) : order(b)); }
+
+// All bits where a value is not a number, and a value with these bits.
+inline std::uint32_t nan_bits(float value) noexcept {
+  return order(float_from_bits(bits(value) & 0x7fffffffu)) > 0x7f800000 ? 0xffffffffu : 0u;
+}
+inline float with_bits(float value, std::uint32_t more) noexcept { return float_from_bits(bits(value) | more); }
+inline float without_bits(float value, std::uint32_t some) noexcept { return float_from_bits(bits(value) & ~some); }
+
+// Sign bit: whether a value lies outside of a range from 0. -0 lies inside.
+inline std::uint32_t outside_of(float value, float low, float high) noexcept {
+  const std::uint32_t given = bits(value + 0.0f);
+  return given | (given - bits(low)) | (bits(high) - given);
+}
+
+// c[0] + c[1] x + ...
+template <std::size_t Count>
+inline float sum_of_powers(const float (&c)[Count], float x) noexcept {
+  float sum = c[Count - 1];
+  for (std::size_t j = Count - 1; j-- > 0;) sum = sum * x + c[j];
+  return sum;
+}
+
+// Converts rows in place: the source's width becomes the target's, and so does specular, channel by channel. `outside`: with
+// its sign bit whether the texel lies out of the domain.
+template <std::size_t Channels, std::size_t Size, class Form>
+inline void convert_block(const Form& form, float (&width)[Size], float (&specular)[Channels][Size],
+                          std::uint32_t (&outside)[Size]) noexcept {
+  float factors[Form::kSpecularPowers][Size], top[Size] = {}, cut[Size] = {};
+  [[maybe_unused]] float more[Size];
+  std::uint32_t nan[Size];
+  for (std::size_t i = 0; i < Size; ++i) {
+    nan[i] = nan_bits(width[i]);
+    outside[i] = outside_of(width[i], form.width_min, form.width_max);
+    width[i] = least(most(without_bits(width[i], nan[i]), form.width_from), form.width_to);
+  }
+  form.to_alpha(width);
+  for (std::size_t i = 0; i < Size; ++i) {
+    float c[Form::kSpecularPowers];
+    form.specular_factor(most(width[i], form.alpha_min), c);
+    for (std::size_t j = 0; j < Form::kSpecularPowers; ++j) factors[j][i] = c[j];
+  }
+  for (float (&row)[Size] : specular)
+    for (std::size_t i = 0; i < Size; ++i) {
+      const std::uint32_t channel_nan = nan_bits(row[i]);
+      outside[i] |= outside_of(row[i], form.specular_min, form.specular_max);
+      const float s = most(without_bits(row[i], channel_nan), 0.0f);
+      const float inside = least(most(s, form.specular_min), form.specular_max);
+      const float t = inside / (inside + form.pole);
+      float c[Form::kSpecularPowers];
+      for (std::size_t j = 0; j < Form::kSpecularPowers; ++j) c[j] = factors[j][i];
+      const float factor = sum_of_powers(c, t);
+      row[i] = with_bits(s * factor, channel_nan);
+      top[i] = most(top[i], t);
+      cut[i] = most(cut[i], inside * factor);
+    }
+  for (std::size_t i = 0; i < Size; ++i) {
+    const float alpha = width[i], inside = most(alpha, form.alpha_min);
+    float c[Form::kAlphaPowers];
+    form.alpha_factor(inside, c);
+    const float free = alpha * sum_of_powers(c, top[i]);
+    if constexpr (Form::is_limited) {
+      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
+      const float over = excess / (1.0f + form.bend * excess);
+      const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
+      more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
+      width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
+    } else {
+      width[i] = most(free, form.least_alpha);
+    }
+  }
+  form.from_alpha(width);
+  for (std::size_t i = 0; i < Size; ++i) width[i] = with_bits(width[i], nan[i]);
+  for (float (&row)[Size] : specular)
+    for (std::size_t i = 0; i < Size; ++i) {
+      const std::uint32_t no_number = nan[i] | nan_bits(row[i]);
+      if constexpr (Form::is_limited) row[i] = least(row[i] * more[i], form.specular_limit);
+      row[i] = with_bits(row[i], no_number);
+    }
+}
+
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, clamped to [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[32][12] = {
-    {0.025398545f, 0.031028707f, 0.00021128339f, -0.0004210053f, 0.00031328716f, -0.000118730466f, 0.00015872794f, -0.00021247119f, -0.0004307103f, 0.0008766495f, -0.0006441136f, 0.00023886532f},
-    {0.056426987f, 0.030951366f, -7.310705e-05f, 4.518402e-05f, 1.5431608e-05f, -1.9794754e-05f, -4.238778e-05f, -3.0139492e-05f, 0.00015911901f, -0.00010116278f, -3.4910172e-05f, 4.2296622e-05f},
-    {0.08734993f, 0.030930094f, 2.9874824e-05f, 8.806767e-06f, -1.2685525e-05f, 2.1348335e-06f, -1.5109194e-05f, 1.706704e-06f, -8.067063e-05f, -2.387301e-05f, 2.9556211e-05f, -3.6984734e-06f},
-    {0.118308485f, 0.030978357f, 6.974661e-06f, -1.4233185e-05f, 8.6966895e-07f, 2.0213477e-06f, -9.292563e-05f, -0.00013708722f, -2.6294449e-05f, 3.9755818e-05f, 1.6258313e-06f, -4.7217713e-06f},
-    {0.14928217f, 0.030961111f, -1.618312e-05f, 9.022613e-07f, 4.2468437e-06f, -4.4686772e-07f, -0.00021910034f, -8.362888e-05f, 6.656376e-05f, 1.523763e-05f, -9.040768e-06f, 1.4697396e-07f},
-    {0.18023169f, 0.030945351f, 5.233977e-06f, 1.0356237e-05f, 1.6127016e-08f, -9.3355214e-07f, -0.0002295347f, 6.1762235e-05f, 6.489946e-05f, -1.2112551e-05f, -3.256987e-06f, 1.5733543e-06f},
-    {0.21119176f, 0.03098269f, 2.8260718e-05f, 2.9593923e-06f, -2.965853e-06f, -1.8449286e-07f, -0.00011672912f, 0.00014961163f, 2.3371578e-05f, -1.1684476e-05f, 2.4065248e-06f, 5.152384e-07f},
-    {0.24220261f, 0.0310359f, 1.9176148e-05f, -8.343395e-06f, -2.0385098e-06f, 4.7074127e-07f, 4.7352623e-05f, 0.00017252607f, 5.158853e-06f, -8.650356e-07f, 1.9197737e-06f, -5.7989985e-07f},
-    {0.2732478f, 0.031043597f, -1.2922339e-05f, -1.1221039e-05f, 6.177242e-07f, 4.919121e-07f, 0.0002254672f, 0.00018472364f, 7.4816626e-06f, 7.3438207e-09f, -1.5262734e-06f, -6.280089e-07f},
-    {0.30426833f, 0.030988777f, -3.8666607e-05f, -4.9181563e-06f, 2.1211376e-06f, 7.5925165e-08f, 0.00041558134f, 0.00019086763f, -6.754525e-06f, -1.0564211e-05f, -3.0747854e-06f, 6.15174e-08f},
-    {0.33521566f, 0.030905215f, -4.0889372e-05f, 2.9438522e-06f, 1.4162782e-06f, -3.2256548e-07f, 0.0005861939f, 0.00013421642f, -5.475568e-05f, -2.005339e-05f, -1.0686953e-06f, 6.6926384e-07f},
-    {0.366084f, 0.030836174f, -2.718284e-05f, 4.856264e-06f, -5.319943e-07f, -3.9608378e-07f, 0.00064522616f, -3.622056e-05f, -0.00011421128f, -1.7119477e-05f, 2.5204329e-06f, 6.544805e-07f},
-    {0.39689696f, 0.03079239f, -1.9403351e-05f, -6.5329823e-07f, -1.9704341e-06f, -1.410573e-07f, 0.0004808049f, -0.00030297268f, -0.00014485535f, -1.9692525e-06f, 4.4746057e-06f, 6.784827e-08f},
-    {0.4276672f, 0.0307433f, -3.384351e-05f, -8.834971e-06f, -1.7698327e-06f, 2.1383568e-07f, 3.5475583e-05f, -0.0005808814f, -0.00012473455f, 1.4417853e-05f, 3.060007e-06f, -5.989048e-07f},
-    {0.4583663f, 0.030643297f, -6.827861e-05f, -1.3002519e-05f, -1.3272407e-07f, 3.9739274e-07f, -0.0006533058f, -0.00077815854f, -6.995154e-05f, 1.9519799e-05f, -7.1947335e-07f, -8.115175e-07f},
-    {0.4889286f, 0.030469175f, -0.000104160776f, -9.684567e-06f, 1.6732762e-06f, 2.774516e-07f, -0.0014834047f, -0.0008662693f, -2.3308563e-05f, 9.385183e-06f, -3.9151514e-06f, -3.72953e-07f},
-    {0.51928586f, 0.030239668f, -0.00012101581f, -1.1481806e-06f, 2.262583e-06f, -5.9071084e-08f, -0.0023678085f, -0.00090170745f, -2.0798992e-05f, -7.6539845e-06f, -3.815816e-06f, 4.25306e-07f},
-    {0.5494055f, 0.030002687f, -0.00011220546f, 6.254994e-06f, 1.1392169e-06f, -3.6231788e-07f, -0.0033012845f, -0.0009788787f, -6.0932372e-05f, -1.6570031e-05f, -1.07335524e-07f, 9.652362e-07f},
-    {0.579303f, 0.029799685f, -9.05e-05f, 6.841629e-06f, -8.660588e-07f, -3.8208427e-07f, -0.0043568f, -0.001146015f, -0.00010156561f, -7.386466e-06f, 4.4505377e-06f, 7.1105893e-07f},
-    {0.6090178f, 0.029633999f, -7.8509096e-05f, 3.1908408e-07f, -2.0720345e-06f, -5.452122e-08f, -0.0056066904f, -0.001350561f, -9.1695045e-05f, 1.479134e-05f, 5.6030376e-06f, -3.3796334e-07f},
-    {0.63857156f, 0.029469714f, -8.9567264e-05f, -7.0951805e-06f, -1.1893767e-06f, 3.9567075e-07f, -0.007029018f, -0.0014697586f, -1.9642188e-05f, 3.0096931e-05f, 9.632455e-07f, -1.4335698e-06f},
-    {0.66794384f, 0.029266741f, -0.00011341402f, -7.056088e-06f, 1.3487788e-06f, 5.3423753e-07f, -0.008488846f, -0.0014224296f, 6.11432e-05f, 1.8455728e-05f, -6.7298984e-06f, -1.3686664e-06f},
-    {0.69709194f, 0.029026609f, -0.000121762074f, 2.6637708e-06f, 3.0013275e-06f, 1.5053804e-08f, -0.009839643f, -0.0012775688f, 6.531714e-05f, -1.7606788e-05f, -9.345612e-06f, 6.196068e-07f},
-    {0.7260024f, 0.028802482f, -9.755135e-05f, 1.1914782e-05f, 6.3991644e-07f, -9.787286e-07f, -0.011077924f, -0.0012318797f, -3.1207386e-05f, -3.9648967e-05f, 1.24401e-06f, 3.561906e-06f},
-    {0.7547188f, 0.02864018f, -6.9438785e-05f, 2.3674388e-06f, -5.840519e-06f, -1.3950261e-06f, -0.012375649f, -0.0013890537f, -0.00010328822f, 5.8765754e-06f, 2.1879996e-05f, 3.870203e-06f},
-    {0.7832848f, 0.028478678f, -0.00010944293f, -3.1725227e-05f, -9.40864e-06f, 4.5290457e-07f, -0.013836772f, -0.0014741449f, 7.52459e-05f, 0.0001172756f, 2.6587615e-05f, -3.5394892e-06f},
-    {0.81161374f, 0.028132142f, -0.00024813274f, -5.198297e-05f, 4.08303e-06f, 5.3227013e-06f, -0.015096752f, -0.00089325826f, 0.0005220569f, 0.00014413972f, -2.8828994e-05f, -1.9381865e-05f},
-    {0.8394557f, 0.027526867f, -0.00031512894f, 3.3568103e-05f, 4.2514603e-05f, 9.060125e-06f, -0.015373575f, 0.0003602554f, 0.0005578343f, -0.00020584709f, -0.00015250075f, -2.5190038e-05f},
-    {0.8667522f, 0.027209753f, 0.00012170512f, 0.00027609227f, 6.514709e-05f, -5.2693626e-06f, -0.014836239f, 0.00014348481f, -0.0011614405f, -0.0009547717f, -0.00015344152f, 4.6506444e-05f},
-    {0.89441514f, 0.028482756f, 0.0011905078f, 0.00032756783f, -0.00011264994f, -8.101119e-05f, -0.016896239f, -0.0052814693f, -0.0040571936f, -0.0004284488f, 0.0007251961f, 0.00036536233f},
-    {0.9242065f, 0.030876223f, 0.00035155597f, -0.0014575361f, -0.0010019952f, -0.00030962043f, -0.025508141f, -0.009485354f, 0.0040325355f, 0.008263295f, 0.0045199245f, 0.0012908613f},
-    {0.95262396f, 0.021353524f, -0.0139945485f, -0.0098985005f, -0.003757435f, -0.0008631677f, -0.016721634f, 0.049096078f, 0.072322786f, 0.04461381f, 0.015814632f, 0.003508796f},
-};
-[[gnu::always_inline]] inline float target_alpha(float alpha, float specular) noexcept {
-  const float x = alpha * 32.323162f - 0.32323048f;
-  const std::int32_t cell = cell_of(x, 31);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
-  const float u_2 = u * u;
-  float c0 = row[5];
-  float c0_next = row[4];
-  c0 = c0 * u_2 + row[3];
-  c0_next = c0_next * u_2 + row[2];
-  c0 = c0 * u_2 + row[1];
-  c0_next = c0_next * u_2 + row[0];
-  c0 = c0 * u + c0_next;
-  float c1 = row[11];
-  float c1_next = row[10];
-  c1 = c1 * u_2 + row[9];
-  c1_next = c1_next * u_2 + row[8];
-  c1 = c1 * u_2 + row[7];
-  c1_next = c1_next * u_2 + row[6];
-  c1 = c1 * u + c1_next;
-  float sum = c1;
-  sum = sum * specular + c0;
-  return sum;
-}
-
-// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
-// channels: one row of a block for each power.
-struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
-};
-
-template <class Count>
-inline void specular_terms(Count count, Terms& terms) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; ++i) {
-    const float alpha = terms.alpha[i];
-    const float u = alpha - 0.50500107f;
-    const float u_2 = u * u;
-    float c0 = 24380.037f;
-    float c0_next = 11722.001f;
-    c0 = c0 * u_2 + -15299.068f;
-    c0_next = c0_next * u_2 + -7679.7373f;
-    c0 = c0 * u_2 + 3406.267f;
-    c0_next = c0_next * u_2 + 1907.8079f;
-    c0 = c0 * u_2 + -294.46762f;
-    c0_next = c0_next * u_2 + -222.14423f;
-    c0 = c0 * u_2 + 3.737341f;
-    c0_next = c0_next * u_2 + 10.475129f;
-    c0 = c0 * u_2 + 0.86105317f;
-    c0_next = c0_next * u_2 + 0.10255401f;
-    c0 = c0 * u_2 + -0.017603207f;
-    c0_next = c0_next * u_2 + -0.050146632f;
-    c0 = c0 * u_2 + -0.2119131f;
-    c0_next = c0_next * u_2 + 0.41642493f;
-    c0 = c0 * u + c0_next;
-    float c1 = 56795.004f;
-    float c1_next = 57143.94f;
-    c1 = c1 * u_2 + -24360.545f;
-    c1_next = c1_next * u_2 + -37945.582f;
-    c1 = c1 * u_2 + 436.22897f;
-    c1_next = c1_next * u_2 + 9557.998f;
-    c1 = c1 * u_2 + 1175.0896f;
-    c1_next = c1_next * u_2 + -1141.3281f;
-    c1 = c1 * u_2 + -202.55527f;
-    c1_next = c1_next * u_2 + 60.53578f;
-    c1 = c1 * u_2 + 13.361389f;
-    c1_next = c1_next * u_2 + -0.6966174f;
-    c1 = c1 * u_2 + -0.37893024f;
-    c1_next = c1_next * u_2 + 0.1416667f;
-    c1 = c1 * u_2 + -0.587159f;
-    c1_next = c1_next * u_2 + 0.7255087f;
-    c1 = c1 * u + c1_next;
-    float c2 = 61249.887f;
-    float c2_next = -5770.4585f;
-    c2 = c2 * u_2 + -48455.375f;
-    c2_next = c2_next * u_2 + 4839.6997f;
-    c2 = c2 * u_2 + 15205.025f;
-    c2_next = c2_next * u_2 + -1525.6616f;
-    c2 = c2 * u_2 + -2404.9773f;
-    c2_next = c2_next * u_2 + 233.34929f;
-    c2 = c2 * u_2 + 195.97649f;
-    c2_next = c2_next * u_2 + -16.363264f;
-    c2 = c2 * u_2 + -7.4953065f;
-    c2_next = c2_next * u_2 + -0.007181095f;
-    c2 = c2 * u_2 + 0.551831f;
-    c2_next = c2_next * u_2 + -0.12840115f;
-    c2 = c2 * u_2 + -0.1652491f;
-    c2 = c2_next * u + c2;
-    float c3 = -68816.94f;
-    float c3_next = -17616.855f;
-    c3 = c3 * u_2 + 47820.258f;
-    c3_next = c3_next * u_2 + 11278.88f;
-    c3 = c3 * u_2 + -12548.383f;
-    c3_next = c3_next * u_2 + -2669.5566f;
-    c3 = c3 * u_2 + 1551.9941f;
-    c3_next = c3_next * u_2 + 288.4518f;
-    c3 = c3 * u_2 + -91.73361f;
-    c3_next = c3_next * u_2 + -13.527215f;
-    c3 = c3 * u_2 + 1.935098f;
-    c3_next = c3_next * u_2 + 0.11765611f;
-    c3 = c3 * u_2 + 0.23729385f;
-    c3_next = c3_next * u_2 + 0.0859593f;
-    c3 = c3 * u + c3_next;
-    float c4 = 0.5082531f;
-    c4 = c4 * u + -0.08989939f;
-    c4 = c4 * u + -0.28934184f;
-    c4 = c4 * u + -0.06385353f;
-    terms.c0[i] = c0;
-    terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-  }
-}
-
-[[gnu::always_inline]] inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
-  return sum;
-}
-
-// The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
-using Float = float;
-using Bits = std::uint32_t;
-inline constexpr std::size_t kLanes = 1;
-
-inline float load(const float* from) noexcept { return *from; }
-inline std::uint32_t load(const std::uint32_t* from) noexcept { return *from; }
-inline void store(float* to, float value) noexcept { *to = value; }
-inline void store(std::uint32_t* to, std::uint32_t value) noexcept { *to = value; }
-
-inline std::int32_t as_signed(std::uint32_t value) noexcept { return static_cast<std::int32_t>(value); }
-inline std::uint32_t as_bits(std::int32_t value) noexcept { return static_cast<std::uint32_t>(value); }
-// All bits where a > b, as signed numbers.
-inline std::uint32_t above(std::uint32_t a, std::uint32_t b) noexcept {
-  return as_signed(a) > as_signed(b) ? 0xffffffffu : 0u;
-}
-// Sign bit where a and b differ. Compilers would branch on a comparison.
-inline std::uint32_t differs(std::uint32_t a, std::uint32_t b) noexcept { return (a - b) | (b - a); }
-// Compilers know the larger of two signed numbers as one instruction.
-inline std::uint32_t larger(std::uint32_t a, std::uint32_t b) noexcept {
-  const std::int32_t x = as_signed(a), y = as_signed(b);
-  return as_bits(x < y ? y : x);
-}
-inline std::uint32_t smaller(std::uint32_t a, std::uint32_t b) noexcept {
-  const std::int32_t x = as_signed(a), y = as_signed(b);
-  return as_bits(x > y ? y : x);
-}
-inline std::uint32_t all_of_sign(std::uint32_t value) noexcept { return as_bits(as_signed(value) >> 31); }
-inline bool any_sign(std::uint32_t value) noexcept { return value >> 31 != 0; }
-
-// What a converter covers, in the source's own parameters.
-struct Domain {
-  float alpha_min, alpha_max, specular_min, specular_max;
-  float inverse_edge;  // 1 / specular_max
-};
-
-// The width, clamped to the domain. Floats that are not negative compare as integers do; that vectorises with every
-// compiler and under any floating-point flags.
-struct ClampedWidth {
-  Float own;
-  Bits nan;      // all bits: not a number
-  Bits outside;  // sign bit: out of domain
-};
-
-inline ClampedWidth clamped_width(const Domain& domain, Float given) noexcept {
-  const Bits order = bits(given + 0.0f);  // -0 becomes 0
-  const Bits raised = larger(order, bits(domain.alpha_min));
-  const Bits clamped = smaller(raised, bits(domain.alpha_max));
-  return {float_from_bits(clamped), above(order & 0x7fffffffu, 0x7f800000u), differs(clamped, order)};
-}
-
-// Sign bit: whether a channel is out of domain; negative, beyond the edge, or NaN.
-inline Bits channel_outside(const Domain& domain, Float given) noexcept {
-  const Bits order = bits(given + 0.0f);
-  return order | (order - bits(domain.specular_min)) | (bits(domain.specular_max) - order);
-}
-
-// A channel clamped to 0 from below; NaN stays.
-inline Float clamped_channel(Float given) noexcept {
-  const Bits order = bits(given);
-  return float_from_bits(order & above(order, 0xff800000u));  // minus infinity
-}
-
-// The value, or NaN where `nan` has all bits.
-inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
-
-// Square roots of a row, four at once: compilers make no vectors of std::sqrt, which may report an error, unless told that
-// nobody asks (-fno-math-errno).
-template <class Count>
-inline void take_roots(Count count, float* row) noexcept {
-  const std::size_t size = count;
-  std::size_t done = 0;
-#if defined(__SSE__) || defined(_M_X64)
-  done = size / 4 * 4;
-  for (std::size_t i = 0; i < done; i += 4) _mm_storeu_ps(row + i, _mm_sqrt_ps(_mm_loadu_ps(row + i)));
-#endif
-  for (std::size_t i = done; i < size; ++i) row[i] = std::sqrt(row[i]);
-}
-
-// What is this converter's own: its domain, the conventions of its widths and its functions.
-struct Mapping {
-  static constexpr Domain domain{0.01f, 1.0f, 0.0f, 1.0f, 1.0f};
-  static constexpr bool source_root = false, target_root = true;  // whether roots are taken
-  [[gnu::always_inline]] static float alpha_of(float own) noexcept { return own; }
-  [[gnu::always_inline]] static float own_of(float alpha) noexcept { return alpha; }
-  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
-  [[gnu::always_inline]] static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
-    return detail::target_alpha(terms.alpha[i], top);
-  }
-  [[gnu::always_inline]] static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-    return detail::target_specular(terms, i, specular);
-  }
-  template <class Count>
-  static void find_terms(Count count, Terms& terms) noexcept {
-    specular_terms(count, terms);
-  }
-};
-
-template <class Count>
-inline std::size_t count_outside(Count count, const std::uint32_t* outside) noexcept {
-  const std::size_t size = count;
-  std::uint32_t sum = 0;
-  for (std::size_t i = 0; i < size; ++i) sum += outside[i] >> 31;
-  return sum;
-}
-
-// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
-inline constexpr float kLargestChannel = 1e30f;
-
-// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
-// comparison: compilers would branch on it.
-inline Bits larger_channel(Bits largest, Float given) noexcept {
-  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
-  return larger(bits(given) & ~all_of_sign(kept), largest);
-}
-
-// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
-inline Float channel_scale(const Domain& domain, Float largest) noexcept {
-  const Bits one = bits(1.0f);
-  const Bits more = bits(largest * domain.inverse_edge) - one;
-  return float_from_bits((more & ~all_of_sign(more)) + one);
-}
-
-// The channel, clamped to 0 from below, where it is left as it is; otherwise what it was mapped to.
-inline Float kept_or_mapped(Float clamped, Float mapped) noexcept {
-  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(clamped) & 0x7fffffffu));
-  return float_from_bits((bits(clamped) & kept) | (bits(mapped) & ~kept));
-}
-
-// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
-// the same bits: a factor of 1.
-//
-// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
-// NaN where the width is NaN.
-struct Block {
-  float top[kBlock], scale[kBlock], inverse[kBlock];
-  std::uint32_t outside[kBlock];  // sign bit: out of domain
-  Terms terms;
-};
-
-// Returns with its sign bit whether any channel of the block is out of domain.
-template <class Count, std::size_t... Channel>
-inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
-                           Block& block, std::index_sequence<Channel...>) noexcept {
-  const std::size_t size = count;
-  const Domain domain = mapping.domain;
-  Bits channels = 0;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const ClampedWidth clamped = clamped_width(domain, load(width + i));
-    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
-    store(block.terms.alpha + i, mapping.alpha_of(clamped.own));
-    store(block.scale + i, with_nan(1.0f, clamped.nan));
-    store(block.outside + i, clamped.outside | outside);
-    channels = channels | outside;
-  }
-  if constexpr (Mapping::source_root) take_roots(count, block.terms.alpha);
-  return channels;
-}
-
-// A row of target alphas as the target's own parameter.
-template <class Count>
-inline void store_widths(Count count, const Mapping& mapping, float* alphas, float* out, const Block& block) noexcept {
-  const std::size_t size = count;
-  if constexpr (Mapping::target_root) take_roots(count, alphas);
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(load(alphas + i)), nan));
-  }
-}
-
-// The largest channel.
-template <class Count, std::size_t... Channel>
-inline void find_tops(Count count, const float* const* specular, Block& block,
-                      std::index_sequence<Channel...>) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    Bits largest = 0;
-    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
-    store(block.top + i, float_from_bits(largest));
-  }
-}
-
-template <class Count>
-inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float scale = channel_scale(domain, load(block.top + i));
-    const Float inverse = 1.0f / scale;
-    store(block.inverse + i, inverse);
-    store(block.top + i, load(block.top + i) * inverse);
-    store(block.scale + i, scale * load(block.scale + i));
-  }
-}
-
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    store(out + i, mapping.target_alpha(block.terms, i, top));
-  }
-  store_widths(count, mapping, out, out, block);
-}
-
-template <bool kInside, class Count>
-inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
-                            const Block& block) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, clamped_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float clamped = clamped_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, clamped * load(block.inverse + i));
-      store(out + i, kept_or_mapped(clamped, clamped_channel(mapped)) * load(block.scale + i));
-    }
-  }
-}
-
-template <std::size_t Channels, class Count>
-inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
-                          float* width_out, float* const* specular_out, Block& block) noexcept {
-  constexpr auto kChannels = std::make_index_sequence<Channels>();
-  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
-  if (!inside) scale_texels(count, mapping.domain, block);
-  mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
-}
-
-// Rows of any length; one function for all buffers. In a caller's function clang would warn of loops that stay scalar.
 template <std::size_t Channels>
-[[gnu::noinline]] inline std::size_t convert_rows(std::size_t count, const float* width, const float* const* specular, float* width_out,
+inline std::size_t convert_rows(std::size_t count, const float* width, const float* const* specular, float* width_out,
                                 float* const* specular_out) noexcept {
-  std::size_t outside = 0, start = 0;
-  const auto convert = [&](auto size) {
-    std::array<const float*, Channels> from{};
-    std::array<float*, Channels> to{};
-    for (std::size_t c = 0; c < Channels; ++c) {
-      from[c] = specular[c] + start;
-      to[c] = specular_out[c] + start;
-    }
-    Block block;
-    convert_block<Channels>(size, Mapping(), width + start, from.data(), width_out + start, to.data(), block);
-    outside += count_outside(size, block.outside);
-    start += size;
-  };
-  while (count - start >= kBlock) convert(std::integral_constant<std::size_t, kBlock>());
-  if (start < count) convert(count - start);
-  return outside;
-}
-
-// A row of one, as a constant: loops and rows of the block become registers.
-template <std::size_t Channels>
-inline void convert_texel(float width, const float* specular, float& width_out, float* specular_out) noexcept {
-  std::array<const float*, Channels> from{};
-  std::array<float*, Channels> to{};
-  for (std::size_t c = 0; c < Channels; ++c) {
-    from[c] = specular + c;
-    to[c] = specular_out + c;
+  float widths[kBlock] = {}, channels[Channels][kBlock] = {};
+  std::uint32_t outside[kBlock];
+  std::size_t sum = 0;
+  for (std::size_t start = 0; start < count; start += kBlock) {
+    const std::size_t size = count - start < kBlock ? count - start : kBlock;
+    std::memcpy(widths, width + start, size * sizeof(float));
+    for (std::size_t c = 0; c < Channels; ++c) std::memcpy(channels[c], specular[c] + start, size * sizeof(float));
+    convert_block(Form(), widths, channels, outside);
+    std::memcpy(width_out + start, widths, size * sizeof(float));
+    for (std::size_t c = 0; c < Channels; ++c) std::memcpy(specular_out[c] + start, channels[c], size * sizeof(float));
+    for (std::size_t i = 0; i < size; ++i) sum += outside[i] >> 31;
   }
-  Block block;
-  convert_block<Channels>(std::integral_constant<std::size_t, 1>(), Mapping(), &width, from.data(), &width_out, to.data(),
-                          block);
+  return sum;
 }
 
-inline bool in_domain(float width, float specular) noexcept {
-  constexpr Domain kDomain = Mapping::domain;
-  return ((clamped_width(kDomain, width).outside | channel_outside(kDomain, specular)) >> 31) == 0;
+template <std::size_t Channels>
+inline void convert_texel(float width, const float* specular, float& width_out,
+                          std::array<float, Channels>& specular_out) noexcept {
+  float widths[1] = {width}, channels[Channels][1];
+  std::uint32_t outside[1];
+  for (std::size_t c = 0; c < Channels; ++c) channels[c][0] = specular[c];
+  convert_block(Form(), widths, channels, outside);
+  width_out = widths[0];
+  for (std::size_t c = 0; c < Channels; ++c) specular_out[c] = channels[c][0];
 }
 
 template <class T>
@@ -553,97 +225,6 @@ struct Strided {
 // Texels whose channels become planar rows together.
 inline constexpr std::size_t kTexels = 128;
 
-// Moves texels of three channels in another way than element by element, and returns how many: floats where gcc knows no
-// shuffles by threes.
-template <class Count, class T>
-constexpr std::size_t move_threes(Count, T*, float (*)[kTexels]) noexcept {
-  return 0;
-}
-#if defined(__GNUC__) && __GNUC__ >= 12 && defined(__SSE2__) && !defined(__AVX__)
-typedef float FourFloats __attribute__((vector_size(16)));
-inline FourFloats load_four(const float* from) noexcept {
-  FourFloats four;
-  std::memcpy(&four, from, sizeof four);
-  return four;
-}
-inline void store_four(float* to, FourFloats four) noexcept { std::memcpy(to, &four, sizeof four); }
-
-template <class Count>
-inline std::size_t move_threes(Count count, const float* from, float (*rows)[kTexels]) noexcept {
-  const std::size_t size = count / 4 * 4;
-  for (std::size_t i = 0; i < size; i += 4, from += 12) {
-    __builtin_prefetch(from + 3 * kTexels);  // of the next block: a large buffer keeps a block waiting
-    const FourFloats a = load_four(from), b = load_four(from + 4), c = load_four(from + 8);
-    const FourFloats rg = __builtin_shufflevector(b, c, 2, 3, 5, 6);  // r2 g2 r3 g3
-    const FourFloats gb = __builtin_shufflevector(a, b, 1, 2, 4, 5);  // g0 b0 g1 b1
-    store_four(rows[0] + i, __builtin_shufflevector(a, rg, 0, 3, 4, 6));
-    store_four(rows[1] + i, __builtin_shufflevector(gb, rg, 0, 2, 5, 7));
-    store_four(rows[2] + i, __builtin_shufflevector(gb, c, 1, 3, 4, 7));
-  }
-  return size;
-}
-template <class Count>
-inline std::size_t move_threes(Count count, float* to, float (*rows)[kTexels]) noexcept {
-  const std::size_t size = count / 4 * 4;
-  for (std::size_t i = 0; i < size; i += 4, to += 12) {
-    __builtin_prefetch(to + 3 * kTexels, 1);
-    const FourFloats r = load_four(rows[0] + i), g = load_four(rows[1] + i), b = load_four(rows[2] + i);
-    const FourFloats rg = __builtin_shufflevector(r, g, 0, 2, 4, 6);  // r0 r2 g0 g2
-    const FourFloats gb = __builtin_shufflevector(g, b, 1, 3, 5, 7);  // g1 g3 b1 b3
-    const FourFloats br = __builtin_shufflevector(b, r, 0, 2, 5, 7);  // b0 b2 r1 r3
-    store_four(to, __builtin_shufflevector(rg, br, 0, 2, 4, 6));
-    store_four(to + 4, __builtin_shufflevector(gb, rg, 0, 2, 5, 7));
-    store_four(to + 8, __builtin_shufflevector(br, gb, 1, 3, 5, 7));
-  }
-  return size;
-}
-#endif
-
-// Calls move(element, value in its row) for channels side by side. A stride of 0 is known at run time only.
-template <std::size_t Stride, class Count, class T, class Move, std::size_t... Channel>
-inline void move_channels(Count count, Strided<T> texels, float (*rows)[kTexels], const Move& move,
-                          std::index_sequence<Channel...>) noexcept {
-  const std::size_t size = count, stride = Stride == 0 ? texels.stride : Stride;
-  T* const first = texels.first;
-  std::size_t start = 0;
-  if constexpr (Stride == 3) start = move_threes(count, first, rows);
-#if defined(__GNUC__) && !defined(__clang__)  // clang would warn, at the caller, of a T that has no vectors
-#pragma GCC ivdep
-#endif
-  for (std::size_t i = start; i < size; ++i) (move(first[i * stride + Channel], rows[Channel][i]), ...);
-}
-
-template <std::size_t kRows, class Count, class T, class Move>
-inline void move_texels(Count count, std::size_t start, const std::array<Strided<T>, kRows>& texels,
-                        float (*rows)[kTexels], const Move& move) noexcept {
-  for (std::size_t r = 0; r < kRows;) {
-    const Strided<T> from = texels[r][start * texels[r].stride];
-    std::size_t side_by_side = 1;
-    while (r + side_by_side < kRows && texels[r + side_by_side].first == texels[r].first + side_by_side &&
-           texels[r + side_by_side].stride == from.stride)
-      ++side_by_side;
-    const auto run = [&](auto channels, auto stride) {
-      move_channels<stride>(count, from, rows + r, move, std::make_index_sequence<channels>());
-      r += channels;
-    };
-    using One = std::integral_constant<std::size_t, 1>;
-    using Three = std::integral_constant<std::size_t, 3>;
-    using Four = std::integral_constant<std::size_t, 4>;
-    if (side_by_side >= 4 && from.stride == 4)
-      run(Four(), Four());
-    else if (side_by_side >= 3 && from.stride == 4)
-      run(Three(), Four());
-    else if (side_by_side >= 3 && from.stride == 3)
-      run(Three(), Three());
-    else if (from.stride == 1 && std::is_same_v<T, float>)
-      ++r;  // was written where it lies
-    else if (from.stride == 1)
-      run(One(), One());
-    else
-      run(One(), std::integral_constant<std::size_t, 0>());
-  }
-}
-
 // Texels anywhere by `convert`, which takes planar rows and returns how many were outside.
 template <std::size_t kIn, std::size_t kOut, class T, class Convert>
 inline std::size_t convert_texels(std::size_t count, const std::array<Strided<const T>, kIn>& in,
@@ -652,20 +233,18 @@ inline std::size_t convert_texels(std::size_t count, const std::array<Strided<co
   std::array<const float*, kIn> from{};
   std::array<float*, kOut> to{};
   for (std::size_t r = 0; r < kIn; ++r) from[r] = rows[r];
-  std::size_t outside = 0, start = 0;
-  const auto run = [&](auto size) {
-    for (std::size_t r = 0; r < kOut; ++r) {
-      to[r] = rows[r];
-      if constexpr (std::is_same_v<T, float>)
-        if (out[r].stride == 1) to[r] = out[r].first + start;
-    }
-    move_texels(size, start, in, rows, [](const T& texel, float& value) { value = static_cast<float>(texel); });
+  for (std::size_t r = 0; r < kOut; ++r) to[r] = rows[r];
+  std::size_t outside = 0;
+  for (std::size_t start = 0; start < count; start += kTexels) {
+    const std::size_t size = count - start < kTexels ? count - start : kTexels;
+    for (std::size_t r = 0; r < kIn; ++r)
+      for (std::size_t i = 0; i < size; ++i)
+        rows[r][i] = static_cast<float>(in[r].first[(start + i) * in[r].stride]);
     outside += convert(size, from, to);
-    move_texels(size, start, out, rows, [](T& texel, float value) { texel = static_cast<T>(value); });
-    start += size;
-  };
-  while (count - start >= kTexels) run(std::integral_constant<std::size_t, kTexels>());
-  if (start < count) run(count - start);
+    for (std::size_t r = 0; r < kOut; ++r)
+      for (std::size_t i = 0; i < size; ++i)
+        out[r].first[(start + i) * out[r].stride] = static_cast<T>(rows[r][i]);
+  }
   return outside;
 }
 
@@ -678,15 +257,8 @@ struct mitsuba_ggx_to_threejs_r187_standard_metal {
   static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
   static constexpr const char* kTargetModel = "threejs-r187/standard-metal";
   static constexpr const char* kTargetWidth = "roughness";
-  static constexpr const char* kSourceSpecular = "f0";  // what the model calls Input::specular
+  static constexpr const char* kSourceSpecular = "f0";
   static constexpr const char* kTargetSpecular = "color";
-
-  // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-  static constexpr float kAlphaRmsError = 0.00095f;
-  static constexpr float kSpecularRmsError = 0.00027f;
-  // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
-  // to the source's. Negative where no pictures were compared.
-  static constexpr float kImageRmsError = 0.036f;
 
   struct Input {
     float width;  // microfacet width, (0, 1]
@@ -724,22 +296,20 @@ struct mitsuba_ggx_to_threejs_r187_standard_metal {
     Strided<T> width, specular;
   };
 
-  // One texel of several channels, which share one width and one extrapolation.
+  // One texel of several channels, which share one width.
   template <std::size_t Channels>
   struct OutputTexel {
     float width;
     std::array<float, Channels> specular;
   };
 
-  // What the measured table covers. Beyond it the width is clamped to the edge, and specular is extrapolated in
-  // proportion: all channels by the same factor, so that color is kept; below 0 it is clamped to 0. Such texels count as out
-  // of domain. Target specular is clamped to 0 from below too. NaN makes the outputs that depend on it NaN.
+  // What was measured. Beyond, both parameters go on in proportion, but widths above it are clamped; specular below 0 counts as
+  // 0. Such texels count as out of domain. NaN makes the outputs that depend on it NaN.
   static constexpr Input kDomainMin{0.01f, 0.0f};
   static constexpr Input kDomainMax{1.0f, 1.0f};
 
-  // `count` texels of `Channels` channels (1 for a grey map, 3 for RGB). An output row may be exactly its own input row; no
-  // other rows may overlap. Texels do not see each other: any split into rows gives the same bits (which NaN aside). Returns
-  // the number of texels out of domain.
+  // Rows of `count` texels with `Channels` channels (1: grey, 3: RGB). An output row may be exactly its own input row. Any split
+  // into rows gives the same bits. Returns the number of texels out of domain.
   template <std::size_t Channels = 3>
   static std::size_t evaluate_batch(std::size_t count, const InputRows<Channels>& in,
                                     const OutputRows<Channels>& out) noexcept {
@@ -764,69 +334,58 @@ struct mitsuba_ggx_to_threejs_r187_standard_metal {
         });
   }
 
-  // One texel of one channel.
+  // One texel.
   static Output evaluate(const Input& in) noexcept {
     const OutputTexel<1> out = evaluate(in.width, {in.specular});
     return {out.width, out.specular[0]};
   }
-
   template <std::size_t Channels>
   static OutputTexel<Channels> evaluate(float width, const std::array<float, Channels>& specular) noexcept {
     OutputTexel<Channels> out{};
-    mitsuba_ggx_to_threejs_r187_standard_metal_detail::convert_texel<Channels>(width, specular.data(), out.width, out.specular.data());
+    mitsuba_ggx_to_threejs_r187_standard_metal_detail::convert_texel(width, specular.data(), out.width, out.specular);
     return out;
   }
-
-  // The same, written as a list: evaluate(0.3f, {0.8f, 0.6f, 0.4f}).
-  template <std::size_t Channels>
+  template <std::size_t Channels>  // written as a list: evaluate(0.3f, {0.8f, 0.6f, 0.4f})
   static OutputTexel<Channels> evaluate(float width, const float (&specular)[Channels]) noexcept {
     OutputTexel<Channels> out{};
-    mitsuba_ggx_to_threejs_r187_standard_metal_detail::convert_texel<Channels>(width, specular, out.width, out.specular.data());
+    mitsuba_ggx_to_threejs_r187_standard_metal_detail::convert_texel(width, specular, out.width, out.specular);
     return out;
   }
 
   // Whether the texel lies where the table has data.
-  static bool in_domain(const Input& in) noexcept { return mitsuba_ggx_to_threejs_r187_standard_metal_detail::in_domain(in.width, in.specular); }
+  static bool in_domain(const Input& in) noexcept {
+    return in.width >= kDomainMin.width && in.width <= kDomainMax.width && in.specular >= kDomainMin.specular &&
+           in.specular <= kDomainMax.specular;
+  }
 
-  // Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
-  // above: single texels and rows.
+  // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
     struct Golden {
       Input in;
       Output out, within;
     };
     constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.100064725f, 0.9981356f}, {1.6e-05f, 8.9e-05f}},
-        {{0.13375f, 0.9375f}, {0.36557433f, 0.90381056f}, {4.9e-06f, 8.9e-05f}},
-        {{0.2575f, 0.875f}, {0.50778115f, 0.7844028f}, {3.8e-06f, 8.8e-05f}},
-        {{0.38125f, 0.8125f}, {0.61804515f, 0.6796932f}, {3.3e-06f, 8.8e-05f}},
-        {{0.505f, 0.75f}, {0.7090091f, 0.5885518f}, {3e-06f, 8.8e-05f}},
-        {{0.62875f, 0.6875f}, {0.787071f, 0.5067351f}, {2.8e-06f, 8.8e-05f}},
-        {{0.7525f, 0.625f}, {0.85619086f, 0.4332999f}, {2.7e-06f, 8.8e-05f}},
-        {{0.87625f, 0.5625f}, {0.9190526f, 0.367756f}, {2.6e-06f, 8.8e-05f}},
-        {{1.0f, 0.5f}, {0.9872125f, 0.3188894f}, {2.5e-06f, 8.8e-05f}},
-        {{0.005f, 0.5f}, {0.10006476f, 0.49769133f}, {1.6e-05f, 8.8e-05f}},
-        {{1.5f, 0.25f}, {0.98307973f, 0.17920499f}, {2.6e-06f, 8.8e-05f}},
-        {{0.505f, 0.0f}, {0.71002465f, 0.0f}, {3e-06f, 8.8e-05f}},
-        {{0.505f, 2.0f}, {0.7086703f, 1.4892702f}, {3e-06f, 0.00018f}},
+        {{0.01f, 1.0f}, {0.09982581f, 1.0f}, {2e-05f, 1.1e-05f}},
+        {{0.13375f, 0.9375f}, {0.36619076f, 0.8929243f}, {5.9e-06f, 1.1e-05f}},
+        {{0.2575f, 0.875f}, {0.50823075f, 0.7841587f}, {4.5e-06f, 1.1e-05f}},
+        {{0.38125f, 0.8125f}, {0.6172459f, 0.68210584f}, {3.9e-06f, 1.1e-05f}},
+        {{0.505f, 0.75f}, {0.70796704f, 0.5886472f}, {3.5e-06f, 1.1e-05f}},
+        {{0.62875f, 0.6875f}, {0.7865312f, 0.5050089f}, {3.3e-06f, 1.1e-05f}},
+        {{0.7525f, 0.625f}, {0.85645074f, 0.4317644f}, {3.2e-06f, 1e-05f}},
+        {{0.87625f, 0.5625f}, {0.9201785f, 0.36883864f}, {3e-06f, 1e-05f}},
+        {{1.0f, 0.5f}, {0.97967833f, 0.31551695f}, {2.9e-06f, 1e-05f}},
+        {{0.005f, 0.5f}, {0.070488766f, 0.50549245f}, {2.8e-05f, 1.1e-05f}},
+        {{1.5f, 0.25f}, {0.98172474f, 0.1799735f}, {2.9e-06f, 9.9e-06f}},
+        {{0.505f, 0.0f}, {0.71009976f, 0.0f}, {3.5e-06f, 9.8e-06f}},
+        {{0.505f, 2.0f}, {0.7076339f, 1.0f}, {3.5e-06f, 2.1e-05f}},
     }};
-    std::array<float, kGolden.size()> width{}, specular{};
-    for (std::size_t i = 0; i < kGolden.size(); ++i) {
-      width[i] = kGolden[i].in.width;
-      specular[i] = kGolden[i].in.specular;
-    }
-    evaluate_batch<1>(kGolden.size(), {width.data(), {specular.data()}}, {width.data(), {specular.data()}});
-    const auto close = [](float value, float expected, float within) {
-      const float difference = value < expected ? expected - value : value - expected;
-      return difference <= within;
-    };
     bool passed = true;
-    for (std::size_t i = 0; i < kGolden.size(); ++i) {
-      const Golden& golden = kGolden[i];
-      const Output alone = evaluate(golden.in);
-      for (const Output& out : {alone, Output{width[i], specular[i]}})
-        passed = passed && close(out.width, golden.out.width, golden.within.width) &&
-                 close(out.specular, golden.out.specular, golden.within.specular);
+    for (const Golden& golden : kGolden) {
+      Output row[2] = {evaluate(golden.in), {}};
+      evaluate_batch<1>(1, {&golden.in.width, {&golden.in.specular}}, {&row[1].width, {&row[1].specular}});
+      for (const Output& out : row)
+        passed = passed && std::fabs(out.width - golden.out.width) <= golden.within.width &&
+                 std::fabs(out.specular - golden.out.specular) <= golden.within.specular;
     }
     return passed;
   }

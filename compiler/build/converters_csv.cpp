@@ -105,8 +105,8 @@ std::string origin(const Fit& fit) {
   std::string text = joined(fit.remarks);
   if (const auto inverse = fit.table.comments.find("inverse_of"); inverse != fit.table.comments.end())
     text += "Inverse of " + inverse->second + ".";
-  if (std::holds_alternative<Chain>(fit.mapping))
-    text += " Against its steps: " + fit.method.at("against its steps one after another") + ".";
+  if (const auto steps = fit.method.find("against its steps one after another"); steps != fit.method.end())
+    text += " Against its steps: " + steps->second + ".";
   return text;
 }
 
@@ -127,8 +127,8 @@ Row row_of(const Fit& fit, const Pairs& pairs) {
     row["specular_error"] = figure(fit.specular_error.rms);
   }
   if (fit.converter) {
-    row["alpha_bound"] = figure(fit.converter->lowered.alpha_bound());
-    row["specular_bound"] = figure(fit.converter->lowered.specular_bound());
+    row["alpha_bound"] = figure(fit.converter->alpha_bound);
+    row["specular_bound"] = figure(fit.converter->specular_bound);
   }
   return row;
 }

@@ -135,7 +135,7 @@ std::string small_errors_text(const std::vector<Fit>& fits) {
   double fit_error = 0.0, bound = 0.0;
   for (const Fit& fit : fits) {
     fit_error = std::max(fit_error, fit.alpha_error.rms);
-    if (fit.converter) bound = std::max(bound, fit.converter->lowered.alpha_bound());
+    if (fit.converter) bound = std::max(bound, fit.converter->alpha_bound);
   }
   if (fit_error == 0.0) return "";
   return "The other errors are small: converters follow the measured target alpha to " +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/report_text.hpp"
 #include "table/split.hpp"
 
 namespace remap {
@@ -11,33 +12,19 @@ const std::string kNone = "-";
 
 std::string digits(double value) { return value == 0.0 ? kNone : error_text(value); }
 
-// Two figures, which are either both measured or both 0.
-std::string pair_text(double first, double second) {
-  return first == 0.0 && second == 0.0 ? kNone : digits(first) + ", " + digits(second);
-}
-
-std::string with_error(const RelativeError& error) {
-  return error.standard_error == 0.0 ? digits(error.rms)
-                                     : digits(error.rms) + " +- " + digits(error.standard_error);
-}
-
-// A smaller shift is rounding error, shown as 0.
-double shown_shift(double shift) { return shift < 1e-9 ? 0.0 : shift; }
-
 using Line = std::vector<std::string>;
 
 Line line_of(const CandidateRecord& candidate) {
   return {candidate.name,
           candidate.number_count == 0 ? kNone : std::to_string(candidate.number_count),
+          candidate.pictures ? fixed(candidate.pictures->rmse, 2) : kNone,
+          candidate.pictures ? fixed(candidate.pictures->relative, 3) : kNone,
+          digits(candidate.relative_alpha),
+          digits(candidate.relative_specular),
           digits(candidate.alpha.rms),
           digits(candidate.alpha.max),
-          with_error(candidate.relative_alpha),
           digits(candidate.specular.rms),
           digits(candidate.specular.max),
-          with_error(candidate.relative_specular),
-          pair_text(candidate.edge_alpha_rms, candidate.raw_edge_alpha_rms),
-          pair_text(candidate.edge_specular_rms, candidate.raw_edge_specular_rms),
-          digits(shown_shift(candidate.chroma_shift)),
           candidate.verdict};
 }
 
@@ -50,9 +37,8 @@ bool has_figures(const std::vector<Line>& lines, std::size_t column) {
 }  // namespace
 
 std::string candidate_text(const std::vector<CandidateRecord>& candidates, const std::string& specular) {
-  std::vector<Line> lines = {{"", "numbers", "alpha rms", "max", "relative", specular + " rms", "max",
-                              "relative", "alpha at edge, raw", specular + " at edge, raw", "chroma shift",
-                              ""}};
+  std::vector<Line> lines = {{"", "numbers", "RMSE %", "one light", "alpha relative", specular + " relative",
+                              "alpha rms", "max", specular + " rms", "max", ""}};
   for (const CandidateRecord& candidate : candidates) lines.push_back(line_of(candidate));
   std::vector<std::size_t> widths(lines[0].size(), 0);
   for (const Line& line : lines)
@@ -79,22 +65,15 @@ std::string errors_text(const Fit& fit, const std::string& rows) {
          text("alpha", fit.alpha_error) + ", " + text(fit.target.specular, fit.specular_error);
 }
 
-static Json relative_json(const RelativeError& error) {
-  return {{"rms", error.rms}, {"standard_error", error.standard_error}};
-}
-
 Json candidate_json(const CandidateRecord& candidate) {
   return {{"name", candidate.name},
           {"numbers", candidate.number_count},
           {"alpha_error", figures_json(candidate.alpha)},
-          {"relative_alpha", relative_json(candidate.relative_alpha)},
+          {"relative_alpha", candidate.relative_alpha},
           {"specular_error", figures_json(candidate.specular)},
-          {"relative_specular", relative_json(candidate.relative_specular)},
-          {"edge_alpha_rms", candidate.edge_alpha_rms},
-          {"edge_specular_rms", candidate.edge_specular_rms},
-          {"raw_edge_alpha_rms", candidate.raw_edge_alpha_rms},
-          {"raw_edge_specular_rms", candidate.raw_edge_specular_rms},
-          {"chroma_shift", candidate.chroma_shift},
+          {"relative_specular", candidate.relative_specular},
+          {"rmse_percent", candidate.pictures ? Json(candidate.pictures->rmse) : Json()},
+          {"one_light", candidate.pictures ? Json(candidate.pictures->relative) : Json()},
           {"verdict", candidate.verdict}};
 }
 

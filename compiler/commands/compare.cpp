@@ -13,7 +13,6 @@
 #include "core/read_file.hpp"
 #include "emit/short_code.hpp"
 #include "fit/baselines.hpp"
-#include "fit/edge.hpp"
 #include "fit/fit_table.hpp"
 #include "report/fit_plot.hpp"
 #include "table/split.hpp"
@@ -80,7 +79,6 @@ Entry entry_of(const NamedFit& named, const std::string& name, const std::vector
   candidate.number_count = number_count(fit.mapping);
   candidate.alpha = errors.alpha;
   candidate.specular = errors.specular;
-  candidate.chroma_shift = look_beyond(fit.mapping, mapping_domain(fit)).chroma_shift;
   if (own_table) candidate.verdict = "fitted from this table, training rows included";
   if (outside != 0)
     candidate.verdict +=
@@ -183,9 +181,9 @@ void add_compare_command(Command& app) {
   command->option_group("Output");
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->footer(
-      "max is the largest error over all usable rows; chroma shift is the change of color beyond the domain. "
-      "`remapc fit --model auto` prints the same table with cross-validation and errors at the domain's "
-      "edge.\n\n"
+      "max is the largest error over all usable rows. `remapc fit --model auto` prints the same table for "
+      "rows "
+      "that were held out, with the errors of pictures.\n\n"
       "Example:\n  remapc compare ward_to_as.csv mitsuba_ward_to_mitsuba_as");
 }
 

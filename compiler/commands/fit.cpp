@@ -31,7 +31,7 @@ namespace {
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
-// The kinds of fits, and first the best by cross-validation.
+// The kinds of fits, and first the choice by pictures.
 const auto kModels = [] {
   NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
   for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};
@@ -43,7 +43,7 @@ struct FitCommand {
   FitOptions options;
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
-  double tolerance = 1e-5;  // of lowering
+  double tolerance = 1e-3;  // of lowering
   bool swap = false, force = false, json = false;
 };
 
@@ -177,7 +177,7 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
 // A fit that cannot be lowered is kept for remapc: only texremap and headers need its converter.
 void lower_if_possible(const FitCommand& command, Fit* fit) {
   try {
-    add_converter(fit, {command.tolerance, 10.0 * command.tolerance});
+    add_converter(fit, {command.tolerance, command.tolerance});
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kNumeric) throw;
     print_message("remapc", "warning: " + fit->id +
@@ -216,18 +216,14 @@ void add_regression_options(Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
   app.option_group("Regression");
   app.add_option("--model NAME", command.options.kind, one_of(kModels, "kind of fit"),
-                 "parametric: polynomials and exponentials; series: of Chebyshev polynomials; svr: support "
-                 "vectors; mlp: a "
-                 "small network; auto: the simplest of them that is as good as the best by cross-validation, "
-                 "in up to a minute")
+                 "auto: the fewest terms that pictures cannot tell from more; parametric: polynomial and "
+                 "exponentials of the paper; svr: support vectors; mlp: a small network")
       ->default_text("auto");
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
   app.option_group(kRareOptions);
-  app.add_option(
-      "--form FORM", regression.form,
-      "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by cross-validation)");
+  app.add_option("--form FORM", regression.form, "Parametric: paper or paper+pole (default: paper)");
   app.add_option("--layers", regression.mlp.hidden, "Network: units of each hidden layer, as 16,16")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -239,11 +235,12 @@ void add_regression_options(Command& app, FitCommand& command) {
       ->range(1, kMostStarts);
   app.add_option("--held-out", command.options.held_out_fraction,
                  "Fraction of the rows held out to measure errors");
-  app.add_option("--lower TOLERANCE", command.tolerance,
-                 "Largest proven deviation of the fit's converter, the polynomials that texremap and headers "
-                 "run: absolute for target alpha, and ten times it relative to the largest target specular")
+  app.add_option(
+         "--lower TOLERANCE", command.tolerance,
+         "Largest proven deviation from the fit of the form that texremap and headers run: absolute for "
+         "target alpha, relative to the largest one for target specular")
       ->positive();
-  app.add_option("--seed", regression.seed, "Seed of the split, the folds and all other random choices")
+  app.add_option("--seed", regression.seed, "Seed of the split and all other random choices")
       ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
   app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it");
 }
@@ -268,7 +265,7 @@ void add_fit_command(Command& app) {
   add_accept_light_flag(*command, options.options.accept_light);
   add_output_options(*command, options);
   add_regression_options(*command, options);
-  command->footer(form_list() + "\nExample:\n  remapc fit ward_to_as.csv -o fits --plot fits/ward_to_as.svg");
+  command->footer("Example:\n  remapc fit ward_to_as.csv -o fits --plot fits/ward_to_as.svg");
 }
 
 }  // namespace remap

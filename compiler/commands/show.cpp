@@ -68,11 +68,6 @@ std::string curve_text(const AlphaCurve& curve) {
 
 std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
 
-std::string series_text(const TexelSeries& series) {
-  return "a Chebyshev series, degree " + std::to_string(series.coefficients.front().size() - 1) +
-         " in alpha, " + std::to_string(series.coefficients.size() - 1) + " in specular";
-}
-
 // Prints a mapping as formulas of a = alpha1 and s = specular1.
 struct PrintMapping {
   void operator()(const Parametric& form) const {
@@ -98,15 +93,18 @@ struct PrintMapping {
     print("alpha2", mlp.alpha);
     print("specular2", mlp.specular);
   }
-  void operator()(const Series& series) const {
-    print("alpha2", series.alpha);
-    print("specular2", series.specular);
-  }
-  void operator()(const Chain& chain) const {
-    for (const ChainStep& step : chain.steps) {
-      std::cout << "  " << step.id << "\n";
-      std::visit(*this, step.mapping);
-    }
+  void operator()(const CompactForm& form) const {
+    std::cout << "  t = specular1 / (specular1 + " << decimal_text(form.pole) << ")\n  alpha2 = alpha1 ("
+              << factor_text(form.alpha) << ")\n  specular2 = specular1 (" << factor_text(form.specular)
+              << ")\n";
+    if (form.specular_limit)
+      std::cout << "  above specular2 " << decimal_text(*form.specular_limit)
+                << ", alpha2 changes by alpha1 (" << decimal_text(form.hinge.turn) << " + "
+                << decimal_text(form.hinge.turn_by_alpha) << " alpha1) x / (1 + "
+                << decimal_text(form.hinge.bend) << " x), x the share that is cut off\n";
+    if (form.alpha_limit)
+      std::cout << "  above alpha2 " << decimal_text(*form.alpha_limit) << ", specular2 changes by "
+                << decimal_text(form.hinge.spread) << " times the share that is cut off\n";
   }
 
  private:
@@ -119,8 +117,20 @@ struct PrintMapping {
     for (const Layer& layer : network.layers) std::cout << " " << layer.output_count();
     std::cout << ", " << activation_name(network.activation) << "\n";
   }
-  static void print(const std::string& output, const TexelSeries& series) {
-    std::cout << "  " << output << ": " << series_text(series) << "\n";
+  static std::string decimal_text(float value) { return number_text(decimal_value(value)); }
+  static std::string factor_text(const FactorTerms& factor) {
+    std::string text;
+    for (std::size_t j = 0; j < factor.size(); ++j)
+      for (std::size_t i = 0; i < factor[j].size(); ++i) {
+        const std::string power = (j == 0   ? ""
+                                   : j == 1 ? " t"
+                                            : " t^" + std::to_string(j)) +
+                                  (i == 0   ? ""
+                                   : i == 1 ? " alpha1"
+                                            : " alpha1^" + std::to_string(i));
+        text += (text.empty() ? "" : " + ") + decimal_text(factor[j][i]) + power;
+      }
+    return text;
   }
 };
 
@@ -128,10 +138,9 @@ std::string percent_text(double share) { return number_text(rounded_up(100.0 * s
 
 // The shares of the domain in which the target is at no limit, at that of alpha, at that of specular, and at
 // both.
-std::array<double, 4> regime_shares(const Fit& fit) {
+std::array<double, 4> limit_shares(const Fit& fit) {
   constexpr int kSteps = 100;
   constexpr double kAtLimit = 1.0 - 1e-9;
-  const Regimes& regimes = fit.regimes;
   std::array<double, 4> shares{};
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
@@ -140,29 +149,22 @@ std::array<double, 4> regime_shares(const Fit& fit) {
       };
       const MappedTexel texel =
           evaluate_fit(fit, middle(fit.domain.alpha, i), middle(fit.domain.specular, j));
-      const bool is_wide = texel.alpha >= regimes.alpha_limit * kAtLimit,
-                 is_bright = regimes.specular_limit && texel.specular >= *regimes.specular_limit * kAtLimit;
+      const bool is_wide = texel.alpha >= fit.limits.alpha * kAtLimit,
+                 is_bright = fit.limits.specular && texel.specular >= *fit.limits.specular * kAtLimit;
       shares[(is_wide ? 1 : 0) + (is_bright ? 2 : 0)] += 1.0 / (kSteps * kSteps);
     }
   return shares;
 }
 
-void print_regimes(const Fit& fit) {
-  const Regimes& regimes = fit.regimes;
-  const std::array<double, 4> shares = regime_shares(fit);
+void print_limits(const Fit& fit) {
+  const std::array<double, 4> shares = limit_shares(fit);
   if (shares[0] > 1.0 - 1e-9) return;
   std::cout << "At the limits of " << fit.target.model << ", in shares of the domain\n  neither "
-            << percent_text(shares[0]) << "\n  alpha " << number_text(regimes.alpha_limit) << ": "
+            << percent_text(shares[0]) << "\n  alpha " << number_text(fit.limits.alpha) << ": "
             << percent_text(shares[1]);
-  if (regimes.wide)
-    std::cout << "; from alpha1 " << number_text(rounded_up(regimes.wide->specular.alpha.min, 3))
-              << ", specular2 is " << series_text(regimes.wide->specular);
-  if (regimes.specular_limit)
-    std::cout << "\n  " << fit.target.specular << " " << number_text(*regimes.specular_limit) << ": "
+  if (fit.limits.specular)
+    std::cout << "\n  " << fit.target.specular << " " << number_text(*fit.limits.specular) << ": "
               << percent_text(shares[2]);
-  if (regimes.bright)
-    std::cout << "; from specular1 " << number_text(rounded_up(regimes.bright->specular.min, 3))
-              << ", alpha2 is " << series_text(*regimes.bright);
   std::cout << "\n  both " << percent_text(shares[3]) << "\n";
 }
 
@@ -184,10 +186,9 @@ void print_lowering(const Fit& fit) {
     std::cout << "No header: the fit could not be lowered (remapc fit --lower)\n";
     return;
   }
-  const Lowered& lowered = fit.converter->lowered;
-  std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha_bound())
-            << ", " << fit.target.specular << " within " << error_text(lowered.specular_bound())
-            << (lowered.wide || lowered.bright ? " (proven; at joints of regimes sampled)\n" : " (proven)\n");
+  std::cout << "Deviation of its header from the fit: alpha within " << error_text(fit.converter->alpha_bound)
+            << ", " << fit.target.specular << " within " << error_text(fit.converter->specular_bound)
+            << " (proven)\n";
 }
 
 // Prints the round trip through the inverse converter in `folder`, if there is one.
@@ -223,6 +224,12 @@ void print_trust(const Fit& fit) {
   } else {
     std::cout << "Difference of the models: unknown (not validated by rendering)\n";
   }
+  if (fit.pictures)
+    std::cout << "Pictures, by materials and lights that chose nothing\n  RMSE of display values "
+              << fixed(fit.pictures->converted.rmse, 2) << " % (numbers copied "
+              << fixed(fit.pictures->copied.rmse, 2) << " %), under one light "
+              << fixed(100.0 * fit.pictures->converted.relative, 0) << " % of the picture (copied "
+              << fixed(100.0 * fit.pictures->copied.relative, 0) << " %)\n";
   if (!fit.has_errors()) {
     std::cout << "Deviation of the fit from its table: unknown (no rows held out)\n";
   } else {
@@ -245,7 +252,7 @@ void show_card(const Fit& fit, const ShowOptions& options) {
   print_round_trip(fit, options.fit_folder);
   std::cout << "Mapping\n";
   std::visit(PrintMapping{}, fit.mapping);
-  print_regimes(fit);
+  print_limits(fit);
   print_method(fit);
   std::cout << (fit.table.name.empty() ? "No table" : "Table " + fit.table.name) << "\n";
   if (!fit.table.sha256.empty()) std::cout << "  sha256 " << fit.table.sha256 << "\n";

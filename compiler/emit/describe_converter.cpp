@@ -1,5 +1,6 @@
 // The description of a converter of width and specular.
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "emit/convention_text.hpp"
 #include "emit/emit.hpp"
 #include "emit/header_data.hpp"
@@ -16,19 +17,27 @@ std::string range_text(const std::string& name, const Range& range) {
   return name + " " + number_text(range.min) + " to " + number_text(range.max);
 }
 
-std::string provenance(const Fit& fit, const std::string& description) {
+// How far pictures are off, and what the numbers come from, in words that need no knowledge of the method.
+std::string provenance(const Fit& fit) {
   const auto comment = [&](const std::string& key) {
     const auto found = fit.table.comments.find(key);
     return found == fit.table.comments.end() ? std::string() : found->second;
   };
   std::string text;
   for (const std::string& remark : fit.remarks) text += remark + "\n";
+  if (fit.pictures)
+    text += "Pictures of spheres differ by " + fixed(fit.pictures->converted.rmse, 1) +
+            " % of white on average (root mean square of display values), by " +
+            fixed(fit.pictures->copied.rmse, 1) +
+            " %\nwhere the numbers are copied: lights and materials that had no "
+            "part in the fit.\n";
   if (!fit.table.name.empty()) text += "Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
   if (!comment("objective").empty())
     text += "objective " + comment("objective") + " (lights " + comment("lights") + ", weighting " +
             comment("weighting") + "), " + comment("resolution") + " pixels squared, by " +
             comment("renderer") + ".\n";
-  text += "Fit: " + kind_name(fit.mapping);
+  text += "Fit: " + kind_name(fit.mapping) + ", " + std::to_string(number_count(fit.converter->form)) +
+          " numbers";
   if (fit.split.trained_rows + fit.split.held_out_rows != 0)
     text += ", seed " + std::to_string(fit.split.seed) + ", " + std::to_string(fit.split.trained_rows) +
             " rows trained, " + std::to_string(fit.split.held_out_rows) + " held out";
@@ -40,8 +49,10 @@ std::string provenance(const Fit& fit, const std::string& description) {
             error_text(fit.target.specular, fit.specular_error) + ".\n";
   else
     text += "Its error is not known.\n";
-  return text + description + "\nCovers " + range_text("alpha", fit.domain.alpha) + ", " +
-         range_text(fit.source.specular, fit.domain.specular) + ".";
+  return text + "The code is within " + two_digits(fit.converter->alpha_bound) + " of the fit in alpha and " +
+         two_digits(fit.converter->specular_bound) + " in specular (proven).\nCovers " +
+         range_text("alpha", fit.domain.alpha) + ", " + range_text(fit.source.specular, fit.domain.specular) +
+         ".";
 }
 
 HeaderEnd end_of(const ModelSide& side) {
@@ -61,7 +72,7 @@ HeaderData describe(const Fit& fit) {
   data.id = fit.id;
   data.title = fit.source.model + " to " + fit.target.model +
                ": which parameters of the second give the same picture as those of the first.";
-  data.provenance = provenance(fit, mapping_text(converter.lowered));
+  data.provenance = provenance(fit);
   data.source = end_of(fit.source);
   data.target = end_of(fit.target);
   for (const GoldenTexel& g : converter.golden)

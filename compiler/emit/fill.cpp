@@ -67,24 +67,17 @@ struct Body {
 
 Body body_of(const HeaderData& data, const ConverterData& converter) {
   const ConverterInfo& info = converter.info;
-  const MappingCode code = mapping_code(converter.lowered);
   const auto golden = [](const GoldenValues& texel) {
     return "{" + numbers(texel.in) + ", " + numbers(texel.out) + ", " + numbers(texel.within) + "},\n";
   };
   Body body;
-  body.includes = {"array", "cstddef", "cstdint", "cstring", "type_traits", "utility"};
-  if (takes_roots(info)) {
-    body.includes.insert(body.includes.begin(), "cmath");
-    body.more_includes = code_file("root_includes");
-  }
-  body.detail = code_files({"converter_bits"}) + code.functions + block_code(converter, code) +
-                code_files({"converter_rows", "strided"});
-  body.constants = fill_template(code_file("converter_constants"),
-                                 {{"source_specular", info.source.specular},
-                                  {"target_specular", info.target.specular},
-                                  {"alpha_rms", literal(info.roughness_rms_error.value_or(-1.0))},
-                                  {"specular_rms", literal(info.specular_rms_error.value_or(-1.0))},
-                                  {"image_rms", literal(info.image_rms_error.value_or(-1.0))}});
+  body.includes = {"array", "cmath", "cstddef", "cstdint", "cstring", "limits"};
+  if (takes_roots(info)) body.more_includes = code_file("root_includes");
+  body.detail = code_files({"bits"}) + (takes_roots(info) ? code_files({"roots"}) : "") + "\n" +
+                form_code(converter) + code_files({"form_block", "form_rows", "strided"});
+  // What the models call specular; the widths are named by every header.
+  body.constants = "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
+                   "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular + "\";";
   body.text = fill_template(code_file("converter"), {{"id", data.id},
                                                      {"width_min", literal(info.roughness.min)},
                                                      {"width_max", literal(info.roughness.max)},
@@ -102,7 +95,7 @@ Body body_of(const HeaderData& data, const Material& material) {
   const std::string input_count = channel_count(in), output_count = channel_count(out);
   const auto name = [](const MaterialParameter& parameter) { return parameter.name; };
   return {
-      {"array", "cmath", "cstddef", "cstdint", "cstring", "type_traits", "utility"},
+      {"array", "cmath", "cstddef", "cstdint", "cstring", "utility"},
       "",
       code.functions +
           fill_template(code_file("material_rows"), {{"block", code.block},

@@ -54,9 +54,6 @@ std::string fill(const HeaderData& data);
 
 // Parts of describe(). Errors are rounded up to two digits.
 std::string two_digits(double error);
-// How the polynomials compute the mapping, and how exactly; up to five lines.
-std::string mapping_text(const Lowered& lowered);
-
 // The network with its scalings in the weights: the first layer takes raw inputs, after the poles of their
 // scalings, and the last gives raw outputs.
 Network folded(const Network& network);

@@ -9,31 +9,8 @@
 
 namespace remap {
 
-// How the domain rule calls what a mapping contributes; functions of namespace detail in the header.
-enum class CodeForm {
-  // `float target_alpha(float alpha)` and `float specular_slope(float alpha)`: a factor for every channel.
-  kProportional,
-  // `float target_alpha(float alpha, float specular)`; `struct Terms` of float[kBlock] rows, `alpha` among
-  // them, from which `void specular_terms(Count, Terms&)` computes the others, for any type of count; `float
-  // target_specular(const Terms&, std::size_t i, float specular)`.
-  kTerms,
-  // The same, with limits and regimes (converter/lowered.hpp): `float wide_specular(float alpha, float
-  // specular)`, `float
-  // bright_alpha(float alpha, float specular)`, if there are any.
-  kRegimes,
-};
-
-struct MappingCode {
-  CodeForm form = CodeForm::kTerms;
-  std::string functions;
-  bool is_positive = false;  // of kProportional: whether the factor is proven to be above 0
-};
-
-MappingCode mapping_code(const Lowered& lowered);
-
-// Functions of namespace detail: clamped_width(), channel_outside(), and convert_block(), which converts up
-// to kBlock texels by the functions of `code`; also its parameter types Mapping and Block.
-std::string block_code(const ConverterData& converter, const MappingCode& code);
+// `struct Form` of a converter, over which runtime/stages/code/form_block.inc is written.
+std::string form_code(const ConverterData& converter);
 
 // What whole materials contribute.
 struct MaterialCode {

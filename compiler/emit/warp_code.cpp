@@ -119,9 +119,10 @@ MaterialCode material_code(const WarpHeader& header) {
       "-1 where unknown.\n"
       "static constexpr double kCopyRmsError = " +
       double_literal(header.copy_rms_error) + ";\n";
-  code.functions = code_files({"floats", "rows", "appearance", coordinates.file, table.file, "warp_block"}) +
-                   "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + coordinates.numbers +
-                   table.numbers;
+  code.functions =
+      code_files({"bits", "floats", "rows", "appearance", coordinates.file, table.file, "warp_block"}) +
+      "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + coordinates.numbers +
+      table.numbers;
   code.block = "kWarpBlock";
   code.call = "warp_block<" + dimension + ">(detail::kCoordinates, detail::table(), from, to)";
   code.within = "1e-4f";

@@ -34,7 +34,7 @@ struct CodeOf {
                            const std::string& function, const std::string& argument,
                            const std::string& within = "1e-4f") {
     MaterialCode code;
-    code.functions = code_files({"floats", "conventions", "rows", "width"}) + functions;
+    code.functions = code_files({"bits", "floats", "conventions", "rows", "width"}) + functions;
     code.block = block;
     code.call = function + "(detail::kConventions, " + argument + "from, to)";
     code.within = within;

@@ -1,193 +1,261 @@
 #include "fit/comparison.hpp"
 
 #include <algorithm>
-#include <span>
+#include <cmath>
+#include <optional>
 
 #include "core/errors.hpp"
-#include "core/parallel.hpp"
-#include "fit/edge.hpp"
-#include "lower/lower.hpp"
+#include "core/number_text.hpp"
+#include "lower/form_fit.hpp"
+#include "lower/interpreter.hpp"
 
 namespace remap {
 namespace {
 
-constexpr std::size_t kMostRows = 2000;
-constexpr std::size_t kFolds = 5;
-constexpr std::size_t kRepeats = 2;  // of the cross-validation, each with different folds
-constexpr double kEdgeFactor = 2.0;
-constexpr double kEdgeMargin = 2e-3;
-// The kinds are fitted in two stages. A quarter of an 8-bit step: nearer ones make no other picture.
-constexpr std::size_t kStages = 2;
-constexpr double kSufficientError = 1e-3;
-// The share of a stage's progress for the fits with their searches; the rest is for the folds.
-constexpr double kShareOfFits = 0.5;
+constexpr int kIterations = 12;
+constexpr std::size_t kMostTerms = 5;  // of a factor fitted to pictures: more follow the lights that choose
+constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
+constexpr double kNear = 1.01;         // of the best
+constexpr double kNearRmse = 0.05;     // percent of the display's range
+constexpr double kNearRow = 0.01;      // relative
+// Rows take part in the refinement: little where pictures show the difference, so that a form does not wander
+// where they hardly do; much where highlights are narrower than a pixel. Weights of squared relative errors.
+constexpr double kNarrowWidth = 0.05;
+constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
+constexpr std::size_t kMostRows = 60;  // of either
+
+FormSample sample_of(const TableRow& row) {
+  const bool is_corner = row.status == RowStatus::kCorner;
+  return {{row.alpha1, row.specular1},
+          {row.alpha2, row.specular2},
+          is_corner || row.status == RowStatus::kWide,
+          is_corner || row.status == RowStatus::kBright};
+}
+
+std::vector<FormSample> samples_of(const std::vector<TableRow>& rows) {
+  std::vector<FormSample> samples;
+  for (const TableRow& row : rows) samples.push_back(sample_of(row));
+  return samples;
+}
+
+struct WeightedSample {
+  FormSample sample;
+  double weight = 0.0;
+};
+
+// Some of the rows below the limits. `pictures`: their number, by which weights are measured.
+std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samples, std::size_t pictures) {
+  std::vector<WeightedSample> all;
+  for (const bool is_narrow : {true, false}) {
+    std::vector<FormSample> kept;
+    for (const FormSample& sample : samples)
+      if ((sample.source.alpha < kNarrowWidth) == is_narrow && !sample.alpha_at_limit &&
+          !sample.specular_at_limit)
+        kept.push_back(sample);
+    const std::size_t step = kept.size() / kMostRows + 1, count = (kept.size() + step - 1) / step;
+    const double weight = (is_narrow ? kNarrowWeight : kShownWeight) * static_cast<double>(pictures) /
+                          static_cast<double>(std::max<std::size_t>(count, 1));
+    for (std::size_t i = 0; i < kept.size(); i += step) all.push_back({kept[i], weight});
+  }
+  return all;
+}
+
+// The best of the `starts`, refined by the pictures and by rows. `unit`: what
+// the rows leave of both errors.
+CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain,
+                    const PairPictures& pictures, const PictureErrors& unit,
+                    const std::vector<FormSample>& samples) {
+  std::vector<MappedTexel> sources = pictures.sources();
+  const std::size_t shown = sources.size();
+  const std::vector<WeightedSample> rows = weighted_samples(samples, shown);
+  for (const WeightedSample& row : rows) sources.push_back(row.sample.source);
+  const TexelErrors by_pictures = pictures.choosing_errors(unit);
+  const TexelErrors errors = [&](const std::vector<MappedTexel>& targets) {
+    std::vector<TexelError> all =
+        by_pictures({targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(shown)});
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const MappedTexel &wanted = rows[r].sample.target, &found = targets[shown + r];
+      const double weight = rows[r].weight;
+      const double a = error_weight(wanted.alpha), s = error_weight(wanted.specular);
+      const double off_alpha = a * (found.alpha - wanted.alpha),
+                   off_specular = s * (found.specular - wanted.specular);
+      all.push_back({weight * (off_alpha * off_alpha + off_specular * off_specular),
+                     2.0 * weight * a * off_alpha, 2.0 * weight * s * off_specular, 2.0 * weight * a * a, 0.0,
+                     2.0 * weight * s * s});
+    }
+    return all;
+  };
+  return refined_form(starts, domain, sources, errors, kIterations);
+}
+
+// Five digits are far below what pictures show, and make headers that a person can read.
+CompactForm rounded_form(CompactForm form) {
+  const auto round = [](float& number) {
+    number = static_cast<float>(rounded(static_cast<double>(number), 5));
+  };
+  round(form.pole);
+  for (FactorTerms* factor : {&form.alpha, &form.specular})
+    for (std::vector<float>& row : *factor) std::ranges::for_each(row, round);
+  for (float* number : {&form.hinge.turn, &form.hinge.turn_by_alpha, &form.hinge.bend, &form.hinge.spread})
+    round(*number);
+  return form;
+}
+
+double relative_rms(const std::vector<double>& errors, const std::vector<double>& values) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double relative = errors[i] * error_weight(values[i]);
+    sum += relative * relative;
+  }
+  return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
+}
+
+// Where nothing was held out, the trained rows have to do.
+const std::vector<TableRow>& judging_rows(const RowSplit& split) {
+  return split.held_out.empty() ? split.training : split.held_out;
+}
+
+CandidateRecord record_of(const std::string& name, const RowSplit& split, const Fit& fit) {
+  CandidateRecord record;
+  record.name = name;
+  record.number_count = number_count(fit.mapping);
+  const std::vector<TableRow>& rows = judging_rows(split);
+  const Residuals residuals =
+      residuals_of(rows, [&](double alpha, double specular) { return evaluate_fit(fit, alpha, specular); });
+  std::vector<double> alphas, speculars;
+  for (const TableRow& row : rows) {
+    alphas.push_back(row.alpha2);
+    speculars.push_back(row.specular2);
+  }
+  record.alpha = error_figures(residuals.alpha);
+  record.specular = error_figures(residuals.specular);
+  record.relative_alpha = relative_rms(residuals.alpha, alphas);
+  record.relative_specular = relative_rms(residuals.specular, speculars);
+  if (fit.pictures) record.pictures = fit.pictures->converted;
+  return record;
+}
 
 bool may_be_chosen(const Candidate& candidate) { return candidate.record.verdict.empty(); }
 
-class ComparisonRun {
- public:
-  ComparisonRun(const std::vector<TableRow>& rows, const Domain& domain, const RegressionOptions& options,
-                const FitProgress& progress)
-      : rows_(rows), domain_(domain), options_(options), progress_(progress) {}
+// Runs `work`. Returns `what: why` if it throws, else an empty text. Passes an interruption on.
+template <typename Work>
+std::string failure_of(const std::string& what, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted) throw;
+    return what + ": " + error.what();
+  }
+  return "";
+}
 
-  Comparison compare() {
-    if (options_.form.empty()) {
-      RegressionOptions paper = options_;
-      paper.form = "paper";
-      enter("paper", kFitKinds.front(), paper, {});
+void choose(Comparison* comparison) {
+  std::vector<Candidate>& candidates = comparison->candidates;
+  PictureErrors best{INFINITY, INFINITY};
+  double alpha = INFINITY, specular = INFINITY;
+  for (const Candidate& candidate : candidates) {
+    if (!may_be_chosen(candidate)) continue;
+    const CandidateRecord& record = candidate.record;
+    if (record.pictures)
+      best = {std::min(best.rmse, record.pictures->rmse), std::min(best.relative, record.pictures->relative)};
+    alpha = std::min(alpha, record.relative_alpha);
+    specular = std::min(specular, record.relative_specular);
+  }
+  // How far a candidate is from what pictures show; at most 1 is near enough.
+  const auto distance = [&](const CandidateRecord& record) {
+    if (record.pictures)
+      return std::max(record.pictures->rmse / std::max(kNear * best.rmse, best.rmse + kNearRmse),
+                      record.pictures->relative / (kNear * best.relative));
+    return std::max(record.relative_alpha / std::max(kNear * alpha, kNearRow),
+                    record.relative_specular / std::max(kNear * specular, kNearRow));
+  };
+  std::size_t chosen = candidates.size();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!may_be_chosen(candidates[i])) continue;
+    if (chosen == candidates.size()) {
+      chosen = i;
+      continue;
     }
-    for (std::size_t stage = 0; stage < kStages && !is_sufficient(); ++stage) run_stage(stage);
-    if (progress_) progress_(1.0);
-    return decide();
+    const double here = distance(candidates[i].record), there = distance(candidates[chosen].record);
+    const bool is_near = here <= 1.0, was_near = there <= 1.0;
+    if (is_near != was_near ? is_near
+        : is_near           ? candidates[i].record.number_count < candidates[chosen].record.number_count
+                            : here < there)
+      chosen = i;
   }
-
- private:
-  void run_stage(std::size_t stage) {
-    constexpr std::size_t kKinds = kFitKinds.size() / kStages;
-    static_assert(kKinds * kStages == kFitKinds.size());
-    const auto share = [&](double part) { return (static_cast<double>(stage) + part) / kStages; };
-    for (std::size_t k = 0; k < kKinds; ++k) {
-      const FitKind& kind = kFitKinds[stage * kKinds + k];
-      const auto at = [&](std::size_t i) { return share(kShareOfFits * static_cast<double>(i) / kKinds); };
-      enter(std::string(kind.name), kind, options_, part_of(progress_, at(k), at(k + 1)));
-    }
-    if (stage == 0) drop_repeated_paper();
-    const std::span<Candidate> added = std::span(candidates_).subspan(judged_);
-    for (Candidate& candidate : added) judge_beyond(candidate);
-    judge_by_lowering(added);
-    judge_by_folds(added, part_of(progress_, share(kShareOfFits), share(1.0)));
-    judge_by_edge(added);
-    judged_ = candidates_.size();
+  if (chosen == candidates.size()) {
+    std::string reasons;
+    for (const Candidate& candidate : candidates)
+      reasons += "; " + candidate.record.name + ": " + candidate.record.verdict;
+    throw numeric_error("fit: no form fits the table" + reasons);
   }
-
-  // If the form of the paper was chosen, too, the one that records how it was chosen stays.
-  void drop_repeated_paper() {
-    const auto is_paper = [](const Candidate& candidate) {
-      const auto form = candidate.regression.method.find("form");
-      return form != candidate.regression.method.end() && form->second == "paper";
-    };
-    if (options_.form.empty() && is_paper(candidates_[0]) && is_paper(candidates_[1]))
-      candidates_.erase(candidates_.begin());
-  }
-
-  void enter(const std::string& name, const FitKind& kind, const RegressionOptions& options,
-             const FitProgress& progress) {
-    Candidate& candidate = candidates_.emplace_back();
-    candidate.record.name = name;
-    candidate.record.verdict = failure_of("not fitted", [&] {
-      candidate.regression = kind.fit(rows_, domain_, options, progress);
-      candidate.record.number_count = number_count(candidate.regression.mapping);
-      if (const auto form = candidate.regression.method.find("form");
-          form != candidate.regression.method.end())
-        candidate.record.name = std::string(kind.name) + " " + form->second;
-    });
-  }
-
-  // Whether a candidate that may be chosen is so near that slower kinds need not be fitted.
-  bool is_sufficient() const {
-    for (std::size_t i = 0; i < judged_; ++i) {
-      const CandidateRecord& record = candidates_[i].record;
-      if (may_be_chosen(candidates_[i]) && refusals_[i].empty() &&
-          std::max(record.relative_alpha.rms, record.relative_specular.rms) <= kSufficientError)
-        return true;
-    }
-    return false;
-  }
-
-  void judge_beyond(Candidate& candidate) {
-    if (!may_be_chosen(candidate)) return;
-    const BeyondDomain beyond = look_beyond(candidate.regression.mapping, domain_);
-    candidate.record.chroma_shift = beyond.chroma_shift;
-    if (!beyond.fault.empty()) candidate.record.verdict = "breaks inside the domain: " + beyond.fault;
-  }
-
-  // Rejects candidates that `remapc emit` would refuse, if another one can be emitted.
-  void judge_by_lowering(std::span<Candidate> added) {
-    refusals_.resize(candidates_.size());
-    run_parallel(added.size(), options_.jobs, [&](std::size_t i) {
-      if (may_be_chosen(added[i]))
-        refusals_[judged_ + i] =
-            failure_of("cannot be emitted", [&] { lower(added[i].regression.mapping, domain_); });
-    });
-    bool any = false;
-    for (std::size_t i = 0; i < candidates_.size(); ++i)
-      any |= may_be_chosen(candidates_[i]) && refusals_[i].empty();
-    for (std::size_t i = 0; any && i < candidates_.size(); ++i)
-      if (may_be_chosen(candidates_[i])) candidates_[i].record.verdict = refusals_[i];
-  }
-
-  void judge_by_folds(std::span<Candidate> added, const FitProgress& progress) {
-    const std::vector<TableRow> drawn = draw_rows(rows_, kMostRows, options_.seed);
-    std::vector<Fold> folds;
-    for (std::size_t repeat = 0; repeat < kRepeats; ++repeat) {
-      // The seeds are far apart, so that seed and seed + 1 share no folds.
-      for (Fold& fold : split_folds(drawn, kFolds, options_.seed + 1000003 * (repeat + 1)))
-        folds.push_back(std::move(fold));
-    }
-    cross_validate(added, folds, error_weight, options_.jobs, progress);
-  }
-
-  void judge_by_edge(std::span<Candidate> added) {
-    const EdgeRows edge = edge_rows(draw_rows(rows_, kMostRows, options_.seed));
-    if (edge.outer.empty()) return;
-    run_parallel(added.size(), options_.jobs, [&](std::size_t task) {
-      Candidate& candidate = added[added.size() - 1 - task];
-      if (!may_be_chosen(candidate)) return;
-      candidate.record.verdict = failure_of("not fitted without the outermost rows", [&] {
-        const MappingKind mapping = candidate.regression.again(edge.inner);
-        const EdgeErrors errors = edge_errors(mapping, covered_domain(edge.inner), edge.outer);
-        candidate.record.edge_alpha_rms = errors.alpha_rms;
-        candidate.record.edge_specular_rms = errors.specular_rms;
-        candidate.record.raw_edge_alpha_rms = errors.raw_alpha_rms;
-        candidate.record.raw_edge_specular_rms = errors.raw_specular_rms;
-      });
-    });
-    refuse_bad_edges();
-  }
-
-  void refuse_bad_edges() {
-    double best_alpha = 1e300, best_specular = 1e300;
-    for (const Candidate& candidate : candidates_) {
-      if (!may_be_chosen(candidate)) continue;
-      best_alpha = std::min(best_alpha, candidate.record.edge_alpha_rms);
-      best_specular = std::min(best_specular, candidate.record.edge_specular_rms);
-    }
-    const auto bound = [](double best) { return std::max(kEdgeFactor * best, best + kEdgeMargin); };
-    for (Candidate& candidate : candidates_)
-      if (may_be_chosen(candidate) && !(candidate.record.edge_alpha_rms <= bound(best_alpha) &&
-                                        candidate.record.edge_specular_rms <= bound(best_specular)))
-        candidate.record.verdict = "worse at the edge";
-  }
-
-  Comparison decide() {
-    const std::size_t chosen = choose(&candidates_);
-    if (chosen == candidates_.size()) {
-      std::string reasons;
-      for (const auto& [record, regression] : candidates_)
-        reasons += "; " + record.name + ": " + record.verdict;
-      throw numeric_error("fit: no regression fits the table" + reasons);
-    }
-    candidates_[chosen].regression.method["chosen by"] =
-        std::to_string(kRepeats) + " x " + std::to_string(kFolds) + "-fold cross-validation on " +
-        std::to_string(std::min(rows_.size(), kMostRows)) + " training rows, seed " +
-        std::to_string(options_.seed);
-    return {std::move(candidates_), chosen};
-  }
-
-  const std::vector<TableRow>& rows_;
-  const Domain& domain_;
-  const RegressionOptions& options_;
-  const FitProgress& progress_;
-  std::vector<Candidate> candidates_;
-  std::vector<std::string> refusals_;  // of `remapc emit`, by candidate; empty: none
-  std::size_t judged_ = 0;             // candidates
-};
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (may_be_chosen(candidates[i]))
+      candidates[i].record.verdict = i == chosen ? "chosen"
+                                     : distance(candidates[i].record) <= 1.0
+                                         ? "more numbers for no other picture"
+                                         : "farther from the best";
+  comparison->chosen = chosen;
+}
 
 }  // namespace
 
-Comparison compare_regressions(const std::vector<TableRow>& rows, const Domain& domain,
-                               const RegressionOptions& options, const FitProgress& progress) {
-  return ComparisonRun(rows, domain, options, progress).compare();
+void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit) {
+  const TexelMap map = [fit](double alpha, double specular) { return evaluate_fit(*fit, alpha, specular); };
+  Residuals residuals = residuals_of(judging_rows(split), map);
+  fit->alpha_error = error_figures(std::move(residuals.alpha));
+  fit->specular_error = error_figures(std::move(residuals.specular));
+  if (pictures == nullptr) return;
+  const TexelMap copied = [](double alpha, double specular) { return MappedTexel{alpha, specular}; };
+  fit->pictures = {pictures->judged(map), pictures->judged(copied)};
+}
+
+Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
+                         const FitProgress& progress) {
+  const std::vector<FormSample> samples = samples_of(split.training);
+  const std::vector<FormShape> shapes = form_shapes();
+  Comparison comparison;
+  PictureErrors unit;
+  if (pictures != nullptr) {
+    const CompactForm by_rows = fit_form(samples, base.limits, base.domain, kUnitShape);
+    unit = pictures->chosen(
+        [&](double alpha, double specular) { return form_texel(by_rows, base.domain, alpha, specular); });
+  }
+  const auto enter = [&](const std::string& name, const auto& mapping_of) {
+    Candidate& candidate = comparison.candidates.emplace_back();
+    candidate.record.name = name;
+    candidate.record.verdict = failure_of("not fitted", [&] {
+      candidate.fit = base;
+      candidate.fit.mapping = mapping_of();
+      judge_fit(split, pictures, &candidate.fit);
+      candidate.record = record_of(name, split, candidate.fit);
+    });
+    if (progress)
+      progress(static_cast<double>(comparison.candidates.size()) / static_cast<double>(shapes.size()));
+  };
+  std::vector<CompactForm> sound, by_pictures;
+  for (const FormShape& shape : shapes) {
+    if (pictures != nullptr && term_count(shape) > kMostTerms) continue;
+    enter(shape_name(shape), [&] {
+      CompactForm form = fit_form(samples, base.limits, base.domain, shape, sound);
+      if (!is_sound(form, base.domain))
+        throw numeric_error("not positive, or it falls where the source rises");
+      sound.push_back(form);
+      if (pictures != nullptr) {
+        std::vector<CompactForm> starts = {form};
+        for (const CompactForm& smaller : by_pictures)
+          if (is_within(smaller, shape)) starts.push_back(padded(smaller, shape));
+        if (starts.size() > 2) starts = {form, starts.back()};
+        form = refined(starts, base.domain, *pictures, unit, samples);
+        by_pictures.push_back(form);
+      }
+      return within_limits(rounded_form(form), base.domain, base.limits);
+    });
+  }
+  choose(&comparison);
+  comparison.candidates[comparison.chosen].fit.method["chosen by"] =
+      pictures != nullptr ? "pictures of other materials under other lights" : "rows held out";
+  return comparison;
 }
 
 }  // namespace remap

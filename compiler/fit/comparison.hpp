@@ -1,34 +1,37 @@
-// `--model auto`: fits all regressions that apply, compares them on the same rows and chooses one.
+// Compares fits of one table, and chooses the one with the fewest numbers that pictures cannot tell from
+// more.
 #pragma once
 
 #include <vector>
 
-#include "fit/kinds.hpp"
-#include "table/choice.hpp"
+#include "lights/pair_pictures.hpp"
+#include "table/regression.hpp"
+#include "table/split.hpp"
 
 namespace remap {
+
+struct Candidate {
+  CandidateRecord record;  // the verdict is empty while it may be chosen
+  Fit fit;                 // with errors on the held-out rows; undefined if it failed
+};
 
 struct Comparison {
   std::vector<Candidate> candidates;  // in the order in which they are printed
   std::size_t chosen = 0;
 };
 
-// Fits the parametric form of the paper and the kinds of the list (kinds.hpp) to `rows`. The slower half of
-// the list is fitted only if none of the faster half may be chosen with relative errors of at most 1e-3 in
-// both outputs. Compares them:
-// - by twice five-fold cross-validation on the rows (on 2000 random rows if there are more); forms and
-//   hyper-parameters are chosen on all of `rows`, coefficients are refitted in each fold;
-// - on the outermost rows, after fitting without them (edge.hpp);
-// - by their values inside the domain (edge.hpp);
-// - by whether they can be lowered with the default tolerances (lower/lower.hpp).
+// Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base`: the fit but
+// for its mapping. Forms of pairs that `pictures` knows are then refined by pictures; null: rows are all
+// there is.
 //
-// A candidate is rejected if it cannot be fitted to the rows or to a fold, if it is not finite or negative
-// inside the domain, or if its error on the outermost rows under the domain rule exceeds both twice the best
-// error and the best error plus 2e-3. A candidate that cannot be lowered is rejected if another can. Among
-// the others, choose() (choice.hpp) decides by relative errors. Candidates that are rejected before the folds
-// are not refitted. Throws kNumeric with the reasons if all are rejected. The result depends only on rows,
-// domain and options.
-Comparison compare_regressions(const std::vector<TableRow>& rows, const Domain& domain,
-                               const RegressionOptions& options, const FitProgress& progress = {});
+// Of the candidates that are sound, the one with the fewest numbers is chosen whose judged errors are near
+// the best: with pictures both within 1 % (of the RMSE also within .05 points, an eighth of an 8-bit step),
+// else both relative errors on the held-out rows within .01, which pictures do not show, or within 1 %.
+// Throws kNumeric with the reasons if none is sound.
+Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
+                         const FitProgress& progress);
+
+// Sets the errors on the held-out rows and, where there are pictures, those.
+void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit);
 
 }  // namespace remap

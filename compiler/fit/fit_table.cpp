@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <sstream>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "fit/comparison.hpp"
-#include "fit/edge.hpp"
-#include "fit/regime_fit.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
@@ -33,6 +32,9 @@ void require_models(const Table& table) {
                         " (use an identifier that is not a roughness name)");
   }
 }
+
+// Below this share of the largest specular, which pictures do not show, learned fits go on in proportion.
+constexpr double kLeastShare = 0.02;
 
 // Parses the pairs of numbers of kSpheresComment and skips invalid ones.
 std::vector<SphereSimilarity> spheres_of(const Table& table) {
@@ -84,26 +86,27 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   std::vector<TableRow> answers = split.training;
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
-  const RegimeRows rows = regime_rows(split.training, answers);
-  const Domain inside = covered_domain(rows.inside);
-  const auto fit_of = [&](const Regression& regression) {
-    Fit one = fit;
-    one.mapping = regression.mapping;
-    one.method = regression.method;
-    one.regimes =
-        fit_regimes(rows, table.limits, one.mapping, fit.domain, options.regression.seed, &one.method);
-    const RowErrors errors = row_errors(one, split.held_out);
-    one.alpha_error = errors.alpha;
-    one.specular_error = errors.specular;
-    return one;
-  };
-  if (!options.kind.empty())
-    return {fit_of(fit_kind(options.kind).fit(rows.inside, inside, options.regression, progress)), {}};
-  const Comparison comparison = compare_regressions(rows.inside, inside, options.regression, progress);
-  for (const Candidate& candidate : comparison.candidates) fit.candidates.push_back(candidate.record);
-  FittedTable fitted{fit_of(comparison.candidates[comparison.chosen].regression), {}};
-  for (const Candidate& candidate : comparison.candidates)
-    if (candidate.regression.again) fitted.compared.push_back(fit_of(candidate.regression));
+  fit.limits = table.limits;
+  // An inverse has to lead back, not to look alike.
+  const bool is_inverse = fit.table.comments.contains("inverse_of");
+  const std::unique_ptr<PairPictures> pictures =
+      is_inverse ? nullptr
+                 : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.regression.jobs);
+  if (!options.kind.empty()) {
+    const Regression regression =
+        fit_kind(options.kind).fit(inside_rows(split.training), fit.domain, options.regression, progress);
+    fit.mapping = regression.mapping;
+    fit.method = regression.method;
+    if (!is_proportional(fit.mapping)) fit.domain.specular.min = kLeastShare * fit.domain.specular.max;
+    judge_fit(split, pictures.get(), &fit);
+    return {fit, {}};
+  }
+  const Comparison comparison = compare_forms(fit, split, pictures.get(), progress);
+  FittedTable fitted{comparison.candidates[comparison.chosen].fit, {}};
+  for (const Candidate& candidate : comparison.candidates) {
+    fitted.fit.candidates.push_back(candidate.record);
+    if (candidate.fit.id == fit.id) fitted.compared.push_back(candidate.fit);
+  }
   return fitted;
 }
 

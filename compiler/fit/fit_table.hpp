@@ -15,7 +15,7 @@ namespace remap {
 
 struct FitOptions {
   std::string id;                // empty: `<source>_to_<target>` from the table
-  std::string_view kind;         // of kFitKinds; empty: compare_regressions() (comparison.hpp) chooses
+  std::string_view kind;         // of kFitKinds; empty: compare_forms() (comparison.hpp) chooses
   RegressionOptions regression;  // its seed is also the seed of the split
   double held_out_fraction = 0.2;
   bool accept_light = false;  // light_remark() (table/light.hpp)

@@ -4,7 +4,6 @@
 
 #include "core/errors.hpp"
 #include "fit/parametric/parametric.hpp"
-#include "fit/parametric/series.hpp"
 #include "fit/svr/svr.hpp"
 
 namespace remap {
@@ -14,14 +13,9 @@ using Rows = std::vector<TableRow>;
 
 }  // namespace
 
-constinit const std::array<FitKind, 4> kFitKinds = {{
-    {"parametric",
-     [](const Rows& rows, const Domain& domain, const RegressionOptions& options,
-        const FitProgress& progress) {
-       return fit_parametric_best(rows, domain, {options.form, options.seed, options.jobs}, progress);
-     }},
-    {"series", [](const Rows& rows, const Domain& domain, const RegressionOptions& options,
-                  const FitProgress&) { return fit_series_kind(rows, domain, options.seed); }},
+constinit const std::array<FitKind, 3> kFitKinds = {{
+    {"parametric", [](const Rows& rows, const Domain& domain, const RegressionOptions& options,
+                      const FitProgress&) { return fit_parametric_kind(rows, domain, options.form); }},
     {"svr",
      [](const Rows& rows, const Domain&, const RegressionOptions& options, const FitProgress& progress) {
        return fit_svr(rows, {options.seed, options.jobs, {}, {}}, progress);

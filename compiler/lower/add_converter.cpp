@@ -39,7 +39,7 @@ std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, doubl
     const double in = static_cast<double>(s);
     double out = 0.0;
     const double width = evaluate_texel(fit, static_cast<double>(r), {&in, 1}, {&out, 1});
-    const double scale = std::max(1.0, in / specular.max);
+    const double scale = std::max(1.0, in / specular.max);  // factors are those at the edge
     texels.push_back({r, s, static_cast<float>(width), static_cast<float>(out),
                       bound(own_error(fit.target.roughness, width, alpha_error)),
                       bound(scale * specular_error + rounding_of(out))});
@@ -64,14 +64,16 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
                fit.target,
                own_roughness_range(fit),
                specular_range(fit),
-               two_digits(fit.has_errors(), fit.alpha_error.rms),
-               two_digits(fit.has_errors(), fit.specular_error.rms),
+               two_digits(fit.follows_rows(), fit.alpha_error.rms),
+               two_digits(fit.follows_rows(), fit.specular_error.rms),
                two_digits(has_pictures, has_pictures ? fit.image_similarity->image_error.rms : 0.0),
                three_digits(mean_ssim(fit)),
                InstructionSet::kBaseline,
                {}};
-  data.lowered = lowered;
-  data.golden = golden_texels(fit, lowered.alpha_bound(), lowered.specular_bound());
+  data.form = lowered.form;
+  data.alpha_bound = lowered.alpha_bound;
+  data.specular_bound = lowered.specular_bound;
+  data.golden = golden_texels(fit, lowered.alpha_bound, lowered.specular_bound);
   return data;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/number_text.hpp"
 #include "lower/covered_box.hpp"
+#include "lower/form_fit.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr int kAlphas = 401, kSpeculars = 64;  // of the grid on which the domain is found
 constexpr int kCoarse = 25;                    // alphas and speculars on which errors are propagated
 constexpr double kSameEdge = 1e-9;             // of a domain, relative
+// From its steps; pictures show no less.
+constexpr double kNearAlpha = 2e-3, kNearSpecular = 4e-3;
 
 double at(const Range& range, int i, int count) {
   return i + 1 == count ? range.max : range.min + (range.max - range.min) * i / (count - 1);
@@ -145,6 +148,7 @@ void carry_errors(const std::vector<Fit>& steps, Fit* chain) {
           states(steps, {at(chain->domain.alpha, i, kCoarse), chain->domain.specular.max * j / kCoarse});
       ErrorFigures alpha_here, specular_here;
       for (std::size_t s = 0; s < steps.size(); ++s) {
+        if (!steps[s].follows_rows()) continue;
         const Jacobian rest = s + 1 == steps.size() ? Jacobian{{{1.0, 0.0}, {0.0, 1.0}}}
                                                     : jacobian(steps, s + 1, passed[s + 1]);
         alpha.add(rest[0], steps[s].alpha_error, steps[s].specular_error, &alpha_here);
@@ -171,22 +175,28 @@ std::optional<ImageSimilarity> summed_similarity(const std::vector<Fit>& steps) 
   return sum;
 }
 
-std::vector<ChainStep> taken_apart(const std::vector<Fit>& steps) {
-  std::vector<ChainStep> all;
-  for (const Fit& fit : steps) {
-    if (const auto* chain = std::get_if<Chain>(&fit.mapping)) {
-      all.insert(all.end(), chain->steps.begin(), chain->steps.end());
-      continue;
+// The smallest form that gives what the steps give one after another; the largest where none comes near.
+CompactForm composed_form(const std::vector<Fit>& steps, const Fit& chain) {
+  std::vector<FormSample> samples;
+  double largest = 0.0;
+  for (int i = 0; i < kCoarse; ++i)
+    for (int j = 1; j <= kCoarse; ++j) {
+      const MappedTexel source{at(chain.domain.alpha, i, kCoarse), chain.domain.specular.max * j / kCoarse};
+      samples.push_back({source, states(steps, source).back(), false, false});
+      largest = std::max(largest, samples.back().target.specular);
     }
-    const auto narrowed = [](const auto& kind) -> RegressedKind {
-      if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, Chain>)
-        return Parametric{};  // taken apart above
-      else
-        return kind;
-    };
-    all.push_back({fit.id, std::visit(narrowed, fit.mapping)});
+  CompactForm form;
+  for (const FormShape& shape : form_shapes()) {
+    form = within_limits(fit_form(samples, chain.limits, chain.domain, shape), chain.domain, chain.limits);
+    if (!is_sound(form, chain.domain)) continue;
+    const bool is_near = std::ranges::all_of(samples, [&](const FormSample& sample) {
+      const MappedTexel found = form_texel(form, chain.domain, sample.source.alpha, sample.source.specular);
+      return std::fabs(found.alpha - sample.target.alpha) <= kNearAlpha &&
+             std::fabs(found.specular - sample.target.specular) <= kNearSpecular * largest;
+    });
+    if (is_near) return form;
   }
-  return all;
+  return form;
 }
 
 // One texel through the steps, each with its domain rule, in the models' own parameters.
@@ -211,7 +221,8 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   if (!is_valid_id(chain.id))
     throw Error(ErrorKind::kUsage, "chain: invalid id '" + chain.id + "' (use " + kIdRule + ")");
   chain.domain = chain_domain(steps);
-  chain.mapping = Chain{taken_apart(steps)};
+  chain.limits = steps.back().limits;
+  chain.mapping = composed_form(steps, chain);
   carry_errors(steps, &chain);
   chain.image_similarity = summed_similarity(steps);
   chain.tool_version = kVersion;
@@ -220,7 +231,7 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   chain.method["against its steps one after another"] =
       "alpha within " + digits(difference.alpha) + ", specular within " + digits(difference.grey_specular) +
       " for grey texels, " + digits(difference.color_specular) + " for colored ones; sampled";
-  chain.method["errors"] = "those of the steps, carried on to the end to first order";
+  chain.method["errors"] = "those of the steps that follow rows, carried on to the end to first order";
   std::string names;
   for (const Fit& step : steps) names += (names.empty() ? "" : ", then ") + step.id;
   chain.remarks.push_back("Composed of " + names + ".");

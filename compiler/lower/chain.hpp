@@ -9,16 +9,15 @@
 namespace remap {
 
 // The largest sampled differences over the chain's domain between a chain and its steps, each applied with
-// its own domain rule. Grey texels differ where a step maps specular below 0: the step clamps it to 0, the
-// chain does not. Colored texels also differ where alpha depends on specular: a step uses the alpha of the
-// largest channel for all channels, the chain that of each channel.
+// its own domain rule. Colored texels differ more where alpha depends on specular: a step takes the largest
+// channel of what it gets, the chain that of the source.
 struct ChainDifference {
   double alpha = 0.0;
   double grey_specular = 0.0;
   double color_specular = 0.0;
 };
 
-// The fit of kind `chain` that applies `steps` in order; steps that are chains are expanded. `id`: empty for
+// A fit of kind `compact` that gives what `steps` give in order. `id`: empty for
 // `<source>_to_<target>`. In its domain every step stays in its own domain. Its error figures are those of
 // the steps, propagated to the end to first order; its image error is their sum, because errors of matching
 // are systematic. Throws kUsage for fewer than 2 steps, a cycle or an invalid id; kInput if the parameters of

@@ -4,11 +4,9 @@
 #pragma once
 
 #include <cmath>
-#include <utility>
-#include <variant>
 #include <vector>
 
-#include "lower/regimes.hpp"
+#include "lower/mapping.hpp"
 #include "stages/network_outputs.hpp"
 
 namespace remap {
@@ -53,27 +51,20 @@ Scalar expansion_value(const KernelExpansion& expansion, const Scalar& alpha, co
   return scaled_back(expansion.output, gaussian_sum(expansion, inputs) + expansion.bias);
 }
 
-// By Clenshaw's recurrence; 2 x - 1 is the parameter in its range. `at(i)`: the coefficient of T_i.
-template <typename Scalar, typename Coefficient>
-Scalar chebyshev_sum(const Range& range, const Scalar& parameter, std::size_t count, const Coefficient& at) {
-  const double width = range.max - range.min;
-  const Scalar x = (parameter - range.min) * (2.0 / width) - 1.0;
-  Scalar next = parameter * 0.0, after = next;
-  for (std::size_t i = count; i-- > 1;) {
-    const Scalar sum = x * next * 2.0 - after + at(i);
-    after = next;
-    next = sum;
-  }
-  return x * next - after + at(0);
+// t of the form.
+template <typename Scalar>
+Scalar share_of_pole(double pole, const Scalar& specular) {
+  return reciprocal(specular + pole) * -pole + 1.0;
 }
 
-// Beyond the ranges of the series, its polynomial goes on.
 template <typename Scalar>
-Scalar series_value(const TexelSeries& series, const Scalar& alpha, const Scalar& specular) {
-  return chebyshev_sum(series.specular, specular, series.coefficients.size(), [&](std::size_t j) {
-    const std::vector<double>& row = series.coefficients[j];
-    return chebyshev_sum(series.alpha, alpha, row.size(), [&](std::size_t i) { return row[i]; });
-  });
+Scalar target_alpha(const CompactForm& form, const Scalar& alpha, const Scalar& specular) {
+  return factor_value(form.alpha, alpha, share_of_pole(static_cast<double>(form.pole), specular)) * alpha;
+}
+template <typename Scalar>
+Scalar target_specular(const CompactForm& form, const Scalar& alpha, const Scalar& specular) {
+  return factor_value(form.specular, alpha, share_of_pole(static_cast<double>(form.pole), specular)) *
+         specular;
 }
 
 template <typename Scalar>
@@ -94,11 +85,6 @@ Scalar target_alpha(const Svr& svr, const Scalar& alpha, const Scalar& specular)
 template <typename Scalar>
 Scalar target_alpha(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
   return network_value(mlp.alpha, alpha, specular);
-}
-
-template <typename Scalar>
-Scalar target_alpha(const Series& series, const Scalar& alpha, const Scalar& specular) {
-  return series_value(series.alpha, alpha, specular);
 }
 
 // A network of one output over one texel.
@@ -125,37 +111,6 @@ Scalar target_specular(const Svr& svr, const Scalar& alpha, const Scalar& specul
 template <typename Scalar>
 Scalar target_specular(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
   return network_value(mlp.specular, alpha, specular);
-}
-
-template <typename Scalar>
-Scalar target_specular(const Series& series, const Scalar& alpha, const Scalar& specular) {
-  return series_value(series.specular, alpha, specular);
-}
-
-// Applies all steps but the last.
-template <typename Scalar>
-void follow_chain(const Chain& chain, Scalar* alpha, Scalar* specular) {
-  for (std::size_t i = 0; i + 1 < chain.steps.size(); ++i) {
-    const auto [next_alpha, next_specular] = std::visit(
-        [&](const auto& kind) {
-          return std::pair(target_alpha(kind, *alpha, *specular), target_specular(kind, *alpha, *specular));
-        },
-        chain.steps[i].mapping);
-    *alpha = next_alpha;
-    *specular = next_specular;
-  }
-}
-template <typename Scalar>
-Scalar target_alpha(const Chain& chain, Scalar alpha, Scalar specular) {
-  follow_chain(chain, &alpha, &specular);
-  return std::visit([&](const auto& kind) { return target_alpha(kind, alpha, specular); },
-                    chain.steps.back().mapping);
-}
-template <typename Scalar>
-Scalar target_specular(const Chain& chain, Scalar alpha, Scalar specular) {
-  follow_chain(chain, &alpha, &specular);
-  return std::visit([&](const auto& kind) { return target_specular(kind, alpha, specular); },
-                    chain.steps.back().mapping);
 }
 
 }  // namespace remap

@@ -10,16 +10,35 @@
 
 #include "converter/converter_data.hpp"
 #include "lower/mapping.hpp"
-#include "lower/regimes.hpp"
 #include "remap/model.hpp"
 
 namespace remap {
 
-// The range of the table's data. Outside, alpha is clamped and specular is extrapolated in proportion.
+// The range of the table's data. The factors between source and target parameters hold beyond its edges as
+// they are there; only widths above it are clamped.
 struct Domain {
   Range alpha;     // of the source
   Range specular;  // of the source, linear, any channel
   bool operator==(const Domain&) const = default;
+};
+
+// The largest alpha and specular that a target model takes.
+struct Limits {
+  double alpha = 1.0;
+  std::optional<double> specular;  // none: not known
+  bool operator==(const Limits&) const = default;
+};
+
+// How far pictures of converted materials are from those of the source, and pictures of copied numbers.
+// Materials and lights had no part in the choice of the numbers (compiler/fit/pictures.hpp).
+struct PictureErrors {
+  double rmse = 0.0;      // of display values under environments, percent of the display's range
+  double relative = 0.0;  // of linear radiance under a point light, relative to the source's rms
+  bool operator==(const PictureErrors&) const = default;
+};
+struct JudgedPictures {
+  PictureErrors converted, copied;
+  bool operator==(const JudgedPictures&) const = default;
 };
 
 // Absolute errors of one output over the held-out rows.
@@ -48,26 +67,15 @@ struct TableRecord {
   bool operator==(const TableRecord&) const = default;
 };
 
-// Errors relative to the value, or to a fiftieth of 1 where that is more: what pictures show. Over the rows
-// that each fold of cross-validation holds out.
-struct RelativeError {
-  double rms = 0.0;
-  double standard_error = 0.0;  // over the folds
-  bool operator==(const RelativeError&) const = default;
-};
-
 // One row of the comparison by which `--model auto` decided (compiler/fit/comparison.hpp).
 struct CandidateRecord {
-  std::string name;                                 // kind, or named form of it
-  std::size_t number_count = 0;                     // of its coefficients: its complexity
-  ErrorFigures alpha, specular;                     // of cross-validation, all folds
-  RelativeError relative_alpha, relative_specular;  // by which candidates are compared
-  double edge_alpha_rms = 0.0;  // on the outermost rows, fitted without them, with the domain rule
-  double edge_specular_rms = 0.0;
-  double raw_edge_alpha_rms = 0.0;  // the same without the domain rule
-  double raw_edge_specular_rms = 0.0;
-  double chroma_shift = 0.0;  // largest change of chromaticity beyond the domain, without the domain rule
-  std::string verdict;        // `chosen`, or the reason against it
+  std::string name;              // kind, and its shape
+  std::size_t number_count = 0;  // of its coefficients: its complexity
+  ErrorFigures alpha, specular;  // on the held-out rows
+  // Root mean square on them relative to the value, or to a fiftieth of 1 where that is more.
+  double relative_alpha = 0.0, relative_specular = 0.0;
+  std::optional<PictureErrors> pictures;  // none: a renderer does not take part
+  std::string verdict;                    // `chosen`, or the reason against it
   bool operator==(const CandidateRecord&) const = default;
 };
 
@@ -91,13 +99,14 @@ struct Fit {
   ModelSide source;
   ModelSide target;
   Domain domain;
-  MappingKind mapping;                              // inside the target's range
-  Regimes regimes;                                  // at its limits
+  MappingKind mapping;
+  Limits limits;                                    // of the target
   std::map<std::string, std::string> method;        // of the regression: hyper-parameters, search, starts
   std::vector<CandidateRecord> candidates;          // of `auto`; else empty
   ErrorFigures alpha_error;                         // of the target's alpha
   ErrorFigures specular_error;                      // of the target's specular
   std::optional<ImageSimilarity> image_similarity;  // none for published formulas, without pictures
+  std::optional<JudgedPictures> pictures;           // none where the built-in renderer lacks a model
   std::vector<std::string> remarks;                 // lines of the card: sources, errata, limits of the pair
   Split split;
   TableRecord table;
@@ -106,6 +115,9 @@ struct Fit {
   std::optional<ConverterData> converter;
   // Whether the errors are known. Formulas from publications were not compared with rows.
   bool has_errors() const { return alpha_error != ErrorFigures{} || specular_error != ErrorFigures{}; }
+  // Whether these are errors: rows are matched under one light, and a form that pictures under many lights
+  // chose is not meant to follow them.
+  bool follows_rows() const { return has_errors() && !pictures; }
   bool operator==(const Fit&) const = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/number_text.hpp"
 #include "lower/fit_fields.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
@@ -42,24 +43,28 @@ Json to_json(const Mlp& mlp) {
   return {{"alpha", network_json(mlp.alpha)}, {"specular", network_json(mlp.specular)}};
 }
 
-Json to_json(const TexelSeries& series) {
-  Json rows = Json::list();
-  for (const auto& row : series.coefficients) rows.push_back(numbers_json(row));
-  return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}, {"coefficients", rows}};
-}
-
-Json to_json(const Series& series) {
-  return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}};
-}
-
-// A mapping with its kind.
-Json mapping_json(const MappingKind& mapping);
-
-Json to_json(const Chain& chain) {
-  Json steps = Json::list();
-  for (const auto& [id, mapping] : chain.steps)
-    steps.push_back({{"id", id}, {"mapping", mapping_json(widened(mapping))}});
-  return {{"steps", steps}};
+Json to_json(const CompactForm& form) {
+  const auto terms = [](const FactorTerms& factor) {
+    Json rows = Json::list();
+    for (const std::vector<float>& row : factor) {
+      Json numbers = Json::list();
+      for (const float term : row) numbers.push_back(finite(decimal_value(term)));
+      rows.push_back(std::move(numbers));
+    }
+    return rows;
+  };
+  const auto limit = [](const std::optional<float>& value) {
+    return value ? Json(finite(decimal_value(*value))) : Json();
+  };
+  return {{"pole", finite(decimal_value(form.pole))},
+          {"alpha", terms(form.alpha)},
+          {"specular", terms(form.specular)},
+          {"alpha_limit", limit(form.alpha_limit)},
+          {"specular_limit", limit(form.specular_limit)},
+          {"turn", finite(decimal_value(form.hinge.turn))},
+          {"turn_by_alpha", finite(decimal_value(form.hinge.turn_by_alpha))},
+          {"bend", finite(decimal_value(form.hinge.bend))},
+          {"spread", finite(decimal_value(form.hinge.spread))}};
 }
 
 Json mapping_json(const MappingKind& mapping) {
@@ -68,32 +73,23 @@ Json mapping_json(const MappingKind& mapping) {
   return json;
 }
 
-Json to_json(const Regimes& regimes) {
-  Json json = {{"alpha_limit", finite(regimes.alpha_limit)},
-               {"specular_limit", regimes.specular_limit ? Json(finite(*regimes.specular_limit)) : Json()}};
-  if (regimes.wide)
-    json["wide"] = {{"mapping_to", finite(regimes.wide->mapping_to)},
-                    {"specular", to_json(regimes.wide->specular)}};
-  if (regimes.bright) json["bright"] = {{"alpha", to_json(*regimes.bright)}};
-  return json;
+Json to_json(const Limits& limits) {
+  return {{"alpha", finite(limits.alpha)},
+          {"specular", limits.specular ? Json(finite(*limits.specular)) : Json()}};
 }
 
-Json to_json(const RelativeError& error) {
-  return {{"rms", finite(error.rms)}, {"standard_error", finite(error.standard_error)}};
+Json to_json(const PictureErrors& errors) {
+  return {{"rmse", finite(errors.rmse)}, {"relative", finite(errors.relative)}};
 }
 
 Json to_json(const CandidateRecord& candidate) {
   return {{"name", candidate.name},
           {"number_count", candidate.number_count},
           {"alpha", figures_json(candidate.alpha)},
-          {"relative_alpha", to_json(candidate.relative_alpha)},
+          {"relative_alpha", finite(candidate.relative_alpha)},
           {"specular", figures_json(candidate.specular)},
-          {"relative_specular", to_json(candidate.relative_specular)},
-          {"edge_alpha_rms", finite(candidate.edge_alpha_rms)},
-          {"edge_specular_rms", finite(candidate.edge_specular_rms)},
-          {"raw_edge_alpha_rms", finite(candidate.raw_edge_alpha_rms)},
-          {"raw_edge_specular_rms", finite(candidate.raw_edge_specular_rms)},
-          {"chroma_shift", finite(candidate.chroma_shift)},
+          {"relative_specular", finite(candidate.relative_specular)},
+          {"pictures", candidate.pictures ? to_json(*candidate.pictures) : Json()},
           {"verdict", candidate.verdict}};
 }
 
@@ -155,13 +151,43 @@ Network read_texel_network(const Field& field) {
   return read_network(field, 1);
 }
 
-TexelSeries read_series(const Field& field) {
-  return {read_range(field["alpha"]), read_range(field["specular"]),
-          field["coefficients"].list(1, [](const Field& row) { return row.numbers(1); })};
+float read_float(const Field& field) {
+  const float value = static_cast<float>(field.number());
+  field.require(std::isfinite(value), "a number that a float can hold");
+  return value;
 }
 
-RegressedKind read_regressed(const Field& field) {
+FactorTerms read_terms(const Field& field) {
+  return field.list(1, [](const Field& row) { return row.list(1, read_float); });
+}
+
+std::optional<double> read_limit(const Field& field) {
+  if (field.is_null()) return std::nullopt;
+  field.require(field.number() > 0.0, "a number above 0");
+  return field.number();
+}
+
+CompactForm read_compact(const Field& field) {
+  CompactForm form;
+  form.pole = read_float(field["pole"]);
+  field["pole"].require(form.pole > 0.0f, "a number above 0");
+  form.alpha = read_terms(field["alpha"]);
+  form.specular = read_terms(field["specular"]);
+  const auto limit = [&](const char* name) {
+    const std::optional<double> value = read_limit(field[name]);
+    return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
+  };
+  form.alpha_limit = limit("alpha_limit");
+  form.specular_limit = limit("specular_limit");
+  form.hinge = {read_float(field["turn"]), read_float(field["turn_by_alpha"]), read_float(field["bend"]),
+                read_float(field["spread"])};
+  field["bend"].require(form.hinge.bend >= 0.0f, "at least 0");
+  return form;
+}
+
+MappingKind read_mapping(const Field& field) {
   const std::string kind = field["kind"].text();
+  if (kind == "compact") return read_compact(field);
   if (kind == "parametric") return read_parametric(field);
   if (kind == "svr") return Svr{read_expansion(field["alpha"]), read_expansion(field["specular"])};
   if (kind == "mlp") {
@@ -170,56 +196,33 @@ RegressedKind read_regressed(const Field& field) {
                                             "the activation of the other network");
     return mlp;
   }
-  if (kind == "series") return Series{read_series(field["alpha"]), read_series(field["specular"])};
-  field["kind"].require(false, "parametric, svr, mlp or series");
+  field["kind"].require(false, "compact, parametric, svr or mlp");
   return {};
 }
 
-MappingKind read_mapping(const Field& field) {
-  if (field["kind"].text() != "chain") return widened(read_regressed(field));
-  return Chain{field["steps"].list(1, [](const Field& step) {
-    const std::string id = step["id"].text();
-    step["id"].require(is_valid_id(id), "the id of a fit");
-    return ChainStep{id, read_regressed(step["mapping"])};
-  })};
+Limits read_limits(const Field& field) {
+  field["alpha"].require(field["alpha"].number() > 0.0, "a number above 0");
+  return {field["alpha"].number(), read_limit(field["specular"])};
 }
 
-double read_positive(const Field& field) {
-  field.require(field.number() > 0.0, "a number above 0");
-  return field.number();
+PictureErrors read_pictures(const Field& field) {
+  return {field["rmse"].number(), field["relative"].number()};
 }
 
-Regimes read_regimes(const Field& field) {
-  Regimes regimes;
-  regimes.alpha_limit = read_positive(field["alpha_limit"]);
-  if (!field["specular_limit"].is_null()) regimes.specular_limit = read_positive(field["specular_limit"]);
-  if (field.contains("wide"))
-    regimes.wide = {read_positive(field["wide"]["mapping_to"]), read_series(field["wide"]["specular"])};
-  if (field.contains("bright")) {
-    field.require(regimes.specular_limit.has_value(), "a specular_limit beside the regime bright");
-    regimes.bright = read_series(field["bright"]["alpha"]);
-  }
-  return regimes;
-}
-
-// Fits of 0.1.0 have none.
-RelativeError read_relative(const Field& candidate, const std::string& name) {
-  if (!candidate.contains(name)) return {};
-  return {candidate[name]["rms"].number(), candidate[name]["standard_error"].number()};
+std::optional<JudgedPictures> read_judged(const Field& field) {
+  if (field.is_null()) return std::nullopt;
+  return JudgedPictures{read_pictures(field["converted"]), read_pictures(field["copied"])};
 }
 
 CandidateRecord read_candidate(const Field& field) {
+  const Field pictures = field["pictures"];
   return {field["name"].text(),
           static_cast<std::size_t>(field["number_count"].count()),
           read_figures(field["alpha"]),
           read_figures(field["specular"]),
-          read_relative(field, "relative_alpha"),
-          read_relative(field, "relative_specular"),
-          field["edge_alpha_rms"].number(),
-          field["edge_specular_rms"].number(),
-          field["raw_edge_alpha_rms"].number(),
-          field["raw_edge_specular_rms"].number(),
-          field["chroma_shift"].number(),
+          field["relative_alpha"].number(),
+          field["relative_specular"].number(),
+          pictures.is_null() ? std::nullopt : std::optional(read_pictures(pictures)),
           field["verdict"].text()};
 }
 
@@ -262,12 +265,15 @@ std::string fit_to_json(const Fit& fit) {
       {"target", side_json(fit.target)},
       {"domain", {{"alpha", to_json(fit.domain.alpha)}, {"specular", to_json(fit.domain.specular)}}},
       {"mapping", mapping_json(fit.mapping)},
-      {"regimes", to_json(fit.regimes)},
+      {"limits", to_json(fit.limits)},
       {"method", fit.method},
       {"candidates", candidates},
       {"error_on_held_out_rows",
        {{"alpha", figures_json(fit.alpha_error)}, {"specular", figures_json(fit.specular_error)}}},
       {"similarity", to_json(fit.image_similarity)},
+      {"pictures", fit.pictures ? Json({{"converted", to_json(fit.pictures->converted)},
+                                        {"copied", to_json(fit.pictures->copied)}})
+                                : Json()},
       {"remarks", fit.remarks},
       {"split", split_json(fit.split)},
       {"table", table_record_json(fit.table)},
@@ -287,15 +293,16 @@ Fit read_fit(const Field& root) {
   fit.target = read_side(root["target"]);
   fit.domain = {read_range(root["domain"]["alpha"]), read_range(root["domain"]["specular"])};
   root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
-  root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
+  root["domain"]["specular"].require(fit.domain.specular.min >= 0.0, "a range from 0 or more");
   fit.mapping = read_mapping(root["mapping"]);
-  if (root.contains("regimes")) fit.regimes = read_regimes(root["regimes"]);
+  fit.limits = read_limits(root["limits"]);
   if (const std::string fault = oversize(fit); !fault.empty()) root.fail(fault);
   fit.method = root["method"].text_dictionary();
   fit.candidates = root["candidates"].list(0, read_candidate);
   fit.alpha_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
   fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);
   fit.image_similarity = read_similarity(root["similarity"]);
+  fit.pictures = read_judged(root["pictures"]);
   fit.remarks = root["remarks"].texts();
   fit.split = read_split(root["split"]);
   fit.table = read_table_record(root["table"]);

@@ -10,33 +10,60 @@
 namespace remap {
 namespace {
 
-// The source alpha at which the mapping is evaluated.
-double mapping_alpha(const Fit& fit, double alpha) {
-  return fit.regimes.wide ? std::min(alpha, fit.regimes.wide->mapping_to) : alpha;
-}
-
-double clamped_value(const TexelSeries& series, double alpha, double specular) {
-  const auto clamped = [](const Range& range, double value) {
-    return std::clamp(value, range.min, range.max);
-  };
-  return series_value(series, clamped(series.alpha, alpha), clamped(series.specular, specular));
-}
-
-// The share of the regime that takes over where `value` passes `limit`.
-double share_beyond(double value, double limit) {
-  return std::clamp((value / limit - 1.0) / kSeam, 0.0, 1.0);
-}
-
-// Target specular without its limits.
-double free_specular(const Fit& fit, double wide, double alpha, double specular) {
-  const double inside =
-      std::visit([&](const auto& kind) { return target_specular(kind, mapping_alpha(fit, alpha), specular); },
-                 fit.mapping);
-  if (wide == 0.0 || !fit.regimes.wide) return inside;
-  return inside + wide * (clamped_value(fit.regimes.wide->specular, alpha, specular) - inside);
-}
-
 Range as_floats(const Range& range) { return {rounded_to_float(range.min), rounded_to_float(range.max)}; }
+
+// The factors of a mapping, and what its target does at its limits; infinite where there is none.
+struct Rule {
+  const MappingKind& mapping;
+  const Domain& domain;
+  double alpha_limit = INFINITY, specular_limit = INFINITY;
+  Hinge hinge;
+
+  // Of a texel in the domain, beside the edge of which a perfectly dark one lies.
+  double alpha_factor(double alpha, double specular) const {
+    return std::visit([&](const auto& kind) { return target_alpha(kind, alpha, specular); }, mapping) / alpha;
+  }
+  double specular_factor(double alpha, double specular) const {
+    const double s = std::max(specular, 1e-9 * domain.specular.max);
+    return std::visit([&](const auto& kind) { return target_specular(kind, alpha, s); }, mapping) / s;
+  }
+
+  // `speculars` in place: finite, from 0.
+  double operator()(double alpha, std::span<double> speculars) const {
+    const double inside = std::max(alpha, domain.alpha.min);
+    double top = domain.specular.min, cut = 0.0;
+    for (double& specular : speculars) {
+      const double covered = std::clamp(specular, domain.specular.min, domain.specular.max);
+      const double factor = std::max(specular_factor(inside, covered), 0.0);
+      top = std::max(top, covered);
+      cut = std::max(cut, covered * factor);
+      specular *= factor;
+    }
+    const double free = alpha * alpha_factor(inside, top);
+    const double excess = std::max(cut / specular_limit - 1.0, 0.0);
+    const double over = excess / (1.0 + static_cast<double>(hinge.bend) * excess);
+    const double turn = static_cast<double>(hinge.turn) + static_cast<double>(hinge.turn_by_alpha) * inside;
+    const double wide = std::max(free / alpha_limit - 1.0, 0.0);
+    for (double& specular : speculars)
+      specular = std::min(specular * (1.0 + static_cast<double>(hinge.spread) * wide), specular_limit);
+    return std::min(std::max(free + alpha * over * turn, 0.0), alpha_limit);
+  }
+};
+
+double limit_of(const std::optional<float>& limit) { return limit ? static_cast<double>(*limit) : INFINITY; }
+
+Rule rule_of(const Fit& fit) {
+  if (const auto* form = std::get_if<CompactForm>(&fit.mapping))
+    return {fit.mapping, fit.domain, limit_of(form->alpha_limit), limit_of(form->specular_limit),
+            form->hinge};
+  return {fit.mapping, fit.domain, fit.limits.alpha, fit.limits.specular.value_or(INFINITY), {}};
+}
+
+MappedTexel grey(const Rule& rule, double alpha, double specular) {
+  double value = specular;
+  const double width = rule(alpha, {&value, 1});
+  return {width, value};
+}
 
 }  // namespace
 
@@ -48,39 +75,19 @@ MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double sp
       mapping);
 }
 
-TexelWidth target_width(const Fit& fit, double alpha, double top) {
-  const Regimes& regimes = fit.regimes;
-  const double mapped = std::visit(
-      [&](const auto& kind) { return target_alpha(kind, mapping_alpha(fit, alpha), top); }, fit.mapping);
-  const double wide = share_beyond(mapped, regimes.alpha_limit);
-  const double width = std::min(mapped, regimes.alpha_limit);
-  if (!regimes.bright) return {width, wide, 0.0};
-  const double bright = share_beyond(free_specular(fit, wide, alpha, top), *regimes.specular_limit);
-  if (bright == 0.0) return {width, wide, 0.0};
-  const double free = std::min(clamped_value(*regimes.bright, alpha, top), regimes.alpha_limit);
-  return {width + bright * (free - width), wide, bright};
-}
-
-double target_channel(const Fit& fit, double wide, double alpha, double specular) {
-  const double mapped = std::max(free_specular(fit, wide, alpha, specular), 0.0);
-  return fit.regimes.specular_limit ? std::min(mapped, *fit.regimes.specular_limit) : mapped;
-}
-
 bool is_inside(const Fit& fit, double alpha, double specular) {
-  const MappedTexel mapped = evaluate_mapping(fit.mapping, mapping_alpha(fit, alpha), specular);
-  return mapped.alpha < fit.regimes.alpha_limit &&
-         !(fit.regimes.specular_limit && mapped.specular >= *fit.regimes.specular_limit);
-}
-
-Domain mapping_domain(const Fit& fit) {
-  Domain domain = fit.domain;
-  domain.alpha.max = mapping_alpha(fit, domain.alpha.max);
-  return domain;
+  const MappedTexel mapped = evaluate_mapping(fit.mapping, alpha, specular);
+  return mapped.alpha < fit.limits.alpha && !(fit.limits.specular && mapped.specular >= *fit.limits.specular);
 }
 
 MappedTexel evaluate_fit(const Fit& fit, double alpha, double specular) {
-  const TexelWidth width = target_width(fit, alpha, specular);
-  return {width.alpha, target_channel(fit, width.wide, alpha, specular)};
+  return grey(rule_of(fit), std::min(alpha, fit.domain.alpha.max), specular);
+}
+
+MappedTexel form_texel(const CompactForm& form, const Domain& domain, double alpha, double specular) {
+  const MappingKind mapping = form;
+  return grey({mapping, domain, limit_of(form.alpha_limit), limit_of(form.specular_limit), form.hinge}, alpha,
+              specular);
 }
 
 Range own_roughness_range(const Fit& fit) {
@@ -93,28 +100,23 @@ Range specular_range(const Fit& fit) { return as_floats(fit.domain.specular); }
 
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain) {
-  const Range own = own_roughness_range(fit), covered = specular_range(fit);
-  bool inside = own.contains(roughness);
-  double largest = 0.0;  // channels that are not finite take no part in the scale
-  for (const double value : specular) {
-    inside = inside && covered.contains(value);
-    if (std::isfinite(value)) largest = std::max(largest, value);
+  const FormEnds ends = ends_of(fit.source.roughness, fit.target.roughness, own_roughness_range(fit));
+  const Range covered = specular_range(fit);
+  bool inside =
+      Range{static_cast<double>(ends.width_min), static_cast<double>(ends.width_max)}.contains(roughness);
+  for (std::size_t c = 0; c < specular.size(); ++c) {
+    inside = inside && covered.contains(specular[c]);
+    specular_out[c] = std::isnan(specular[c]) ? 0.0 : std::max(specular[c], 0.0);
   }
   if (in_domain != nullptr) *in_domain = inside;
-  if (std::isnan(roughness)) {
-    std::fill(specular_out.begin(), specular_out.end(), std::numeric_limits<double>::quiet_NaN());
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const double alpha = to_alpha(fit.source.roughness, std::clamp(roughness, own.min, own.max));
-  const double scale = std::max(1.0, largest / covered.max);
-  const TexelWidth width = target_width(fit, alpha, largest / scale);
-  for (std::size_t c = 0; c < specular.size(); ++c) {
-    const bool passes = std::isnan(specular[c]) || specular[c] == std::numeric_limits<double>::infinity();
-    specular_out[c] =
-        passes ? specular[c]
-               : scale * target_channel(fit, width.wide, alpha, std::max(specular[c], 0.0) / scale);
-  }
-  return from_alpha(fit.target.roughness, width.alpha);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double own = std::clamp(std::isnan(roughness) ? 0.0 : roughness, static_cast<double>(ends.width_from),
+                                static_cast<double>(ends.width_to));
+  const double alpha = std::max(rule_of(fit)(to_alpha(fit.source.roughness, own), specular_out),
+                                static_cast<double>(ends.least_alpha));
+  for (std::size_t c = 0; c < specular.size(); ++c)
+    if (std::isnan(specular[c]) || std::isnan(roughness)) specular_out[c] = nan;
+  return std::isnan(roughness) ? nan : from_alpha(fit.target.roughness, alpha);
 }
 
 }  // namespace remap

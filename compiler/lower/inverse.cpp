@@ -41,7 +41,7 @@ double quantile(std::vector<double>* values, double share) {
 
 std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target) {
   const MappingKind& mapping = fit.mapping;
-  const Domain domain = mapping_domain(fit);
+  const Domain& domain = fit.domain;
   // The specular that is needed at an alpha, clamped to the domain; the last test rejects clamped ones.
   const auto specular_at = [&](double alpha) {
     const auto rising = [&](double specular) { return evaluate_mapping(mapping, alpha, specular).specular; };

@@ -31,11 +31,6 @@ std::size_t longest(const std::vector<std::vector<double>>& rows) {
   return length;
 }
 
-std::string oversize(const TexelSeries& series) {
-  const std::size_t found = std::max(series.coefficients.size(), longest(series.coefficients));
-  return excess(std::array{Count{found, kMostPolynomials, "Chebyshev polynomials of a parameter"}});
-}
-
 struct Oversize {
   std::string operator()(const Parametric& form) const {
     return excess(
@@ -50,16 +45,13 @@ struct Oversize {
   std::string operator()(const Mlp& mlp) const {
     return first_of(oversize(mlp.alpha), oversize(mlp.specular));
   }
-  std::string operator()(const Series& series) const {
-    return first_of(oversize(series.alpha), oversize(series.specular));
-  }
-  std::string operator()(const Chain& chain) const {
-    const std::size_t steps = chain.steps.size();
-    std::string found = excess(std::array{Count{steps, kMostSteps, "steps"},
-                                          Count{number_count(chain) * steps, kMostChainNumbers,
-                                                "numbers, counted once for each step, in its chain"}});
-    for (const ChainStep& step : chain.steps) found = first_of(found, std::visit(*this, step.mapping));
-    return found;
+  std::string operator()(const CompactForm& form) const {
+    std::size_t terms = 0;
+    for (const FactorTerms* factor : {&form.alpha, &form.specular})
+      for (const std::vector<float>& row : *factor) terms = std::max(terms, row.size());
+    return excess(
+        std::array{Count{std::max(form.alpha.size(), form.specular.size()), kMostPowersOfT, "powers of t"},
+                   Count{terms, kMostPowersOfAlpha, "powers of alpha"}});
   }
 };
 
@@ -80,10 +72,7 @@ std::string oversize(const Network& network) {
 }
 
 std::string oversize(const Fit& fit) {
-  std::string found = first_of(oversize(fit.domain), std::visit(Oversize{}, fit.mapping));
-  if (fit.regimes.wide) found = first_of(found, oversize(fit.regimes.wide->specular));
-  if (fit.regimes.bright) found = first_of(found, oversize(*fit.regimes.bright));
-  return found;
+  return first_of(oversize(fit.domain), std::visit(Oversize{}, fit.mapping));
 }
 
 }  // namespace remap

@@ -1,6 +1,6 @@
 // The largest fits that are read and written. Each limit is several times what any fit that ships or that a
 // regression of remapc finds has, and low enough that showing, emitting and converting by a fit at the limit
-// takes seconds: proving the bound of a header takes time for every number, and for chains for every step.
+// takes seconds.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,8 @@ namespace remap {
 inline constexpr std::size_t kMostSpecularPowers = 16, kMostAlphaPowers = 32, kMostTerms = 64;
 // Gaussians of each output.
 inline constexpr std::size_t kMostVectors = 4096;
-// Chebyshev polynomials of each parameter of a series.
-inline constexpr std::size_t kMostPolynomials = 24;
 // Of each network.
 inline constexpr std::size_t kMostLayers = 6, kMostNetworkNumbers = 20'000;
-// Of a chain. Steps of steps multiply: at most this many numbers times steps.
-inline constexpr std::size_t kMostSteps = 8, kMostChainNumbers = 20'000;
 // Of the source, alpha and specular. Physical ones end at 1, scales of some models at a few.
 inline constexpr double kLargestDomain = 1000.0;
 

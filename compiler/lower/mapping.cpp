@@ -15,12 +15,6 @@ std::size_t count_of(const KernelExpansion& expansion) {
   return expansion.vectors.size() + expansion.weights.size() + 2 * expansion.inputs.size() + 4;
 }
 
-std::size_t count_of(const TexelSeries& series) {
-  std::size_t count = 0;
-  for (const auto& row : series.coefficients) count += row.size();
-  return count;
-}
-
 // The constants that a curve needs: a term that is absent costs nothing.
 std::size_t count_of(const AlphaCurve& curve) {
   std::size_t count = 1;
@@ -34,19 +28,14 @@ struct Name {
   std::string operator()(const Parametric&) const { return "parametric"; }
   std::string operator()(const Svr&) const { return "svr"; }
   std::string operator()(const Mlp&) const { return "mlp"; }
-  std::string operator()(const Series&) const { return "series"; }
-  std::string operator()(const Chain&) const { return "chain"; }
+  std::string operator()(const CompactForm&) const { return "compact"; }
 };
 
 struct AlphaDependsOnSpecular {
   bool operator()(const Parametric& form) const { return form.alpha.size() > 1; }
   bool operator()(const Svr& svr) const { return svr.alpha.inputs.size() > 1; }
   bool operator()(const Mlp& mlp) const { return mlp.alpha.inputs.size() > 1; }
-  bool operator()(const Series& series) const { return series.alpha.coefficients.size() > 1; }
-  bool operator()(const Chain& chain) const {
-    return std::any_of(chain.steps.begin(), chain.steps.end(),
-                       [this](const ChainStep& step) { return std::visit(*this, step.mapping); });
-  }
+  bool operator()(const CompactForm& form) const { return form.alpha.size() > 1; }
 };
 
 struct IsProportional {
@@ -56,16 +45,7 @@ struct IsProportional {
   }
   bool operator()(const Svr&) const { return false; }
   bool operator()(const Mlp&) const { return false; }
-  bool operator()(const Series&) const { return false; }
-  // A width that depends on specular bends the specular of the next step.
-  bool operator()(const Chain& chain) const {
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-      if (!std::visit(*this, chain.steps[i].mapping)) return false;
-      if (i + 1 < chain.steps.size() && std::visit(AlphaDependsOnSpecular{}, chain.steps[i].mapping))
-        return false;
-    }
-    return true;
-  }
+  bool operator()(const CompactForm& form) const { return form.specular.size() == 1; }
 };
 
 struct NumberCount {
@@ -77,21 +57,10 @@ struct NumberCount {
   }
   std::size_t operator()(const Svr& svr) const { return count_of(svr.alpha) + count_of(svr.specular); }
   std::size_t operator()(const Mlp& mlp) const { return count_of(mlp.alpha) + count_of(mlp.specular); }
-  std::size_t operator()(const Series& series) const {
-    return count_of(series.alpha) + count_of(series.specular);
-  }
-  std::size_t operator()(const Chain& chain) const {
-    std::size_t count = 0;
-    for (const ChainStep& step : chain.steps) count += std::visit(*this, step.mapping);
-    return count;
-  }
+  std::size_t operator()(const CompactForm& form) const { return remap::number_count(form); }
 };
 
 }  // namespace
-
-MappingKind widened(const RegressedKind& mapping) {
-  return std::visit([](const auto& kind) { return MappingKind(kind); }, mapping);
-}
 
 std::string kind_name(const MappingKind& mapping) { return std::visit(Name{}, mapping); }
 

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "converter/compact_form.hpp"
 #include "remap/model.hpp"
 #include "remap/workflow.hpp"
 
@@ -77,40 +78,9 @@ struct Mlp {
   bool operator==(const Mlp&) const = default;
 };
 
-// The sum over j and i of coefficients[j][i] T_j(specular) T_i(alpha), T the Chebyshev polynomials (Trefethen
-// 2013, chapter 3) of the parameter mapped from its range to [-1, 1].
-struct TexelSeries {
-  Range alpha, specular;                          // of the source
-  std::vector<std::vector<double>> coefficients;  // at least one row of at least one
-  bool operator==(const TexelSeries&) const = default;
-};
-
-// Kind `series`: one series per output. With one row, target alpha does not depend on specular.
-struct Series {
-  TexelSeries alpha;
-  TexelSeries specular;
-  bool operator==(const Series&) const = default;
-};
-
-// The result of one regression.
-using RegressedKind = std::variant<Parametric, Svr, Mlp, Series>;
-
-// Kind `chain`: mappings applied in sequence. No domain rule applies between steps, because every step stays
-// in its own domain (chain.hpp).
-struct ChainStep {
-  std::string id;  // of the original fit
-  RegressedKind mapping;
-  bool operator==(const ChainStep&) const = default;
-};
-struct Chain {
-  std::vector<ChainStep> steps;  // at least 1
-  bool operator==(const Chain&) const = default;
-};
-
-// A new kind is a new alternative here; std::visit makes every consumer handle it.
-using MappingKind = std::variant<Parametric, Svr, Mlp, Series, Chain>;
-
-MappingKind widened(const RegressedKind& mapping);
+// A new kind is a new alternative here; std::visit makes every consumer handle it. CompactForm: kind
+// `compact`, the form that converters have; the others are lowered to it.
+using MappingKind = std::variant<CompactForm, Parametric, Svr, Mlp>;
 
 // The name in JSON, on the command line and on model cards.
 std::string kind_name(const MappingKind& mapping);

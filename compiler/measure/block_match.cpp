@@ -97,7 +97,7 @@ constexpr int kJointHalvings = 6;
 // Adds rows on both sides of every joint between regimes (RowStatus) of neighbouring samples, where fits
 // of the regimes have to meet.
 void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow>* rows) {
-  const TargetLimits limits = setup.limits();
+  const Limits limits = setup.limits();
   for (TableRow& row : *rows) row.status = status_at(row, limits);
   std::vector<TableRow> sorted = *rows;
   std::ranges::sort(sorted, {}, &TableRow::specular1);

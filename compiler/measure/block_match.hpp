@@ -33,7 +33,7 @@ struct SweepSetup {
   EffectiveWidths source_widths, target_widths;
 
   LightMatch light() const { return {irradiance_scale, diffuse.error, options.accept_light}; }
-  TargetLimits limits() const { return {target_widths.effective.max, target.linear_range().max}; }
+  Limits limits() const { return {target_widths.effective.max, target.linear_range().max}; }
 };
 
 // Whether rows carry diffuse: if the source has some, or if the target's is matched together with the rest.

@@ -49,7 +49,7 @@ void add_side(const std::string& role, const ProbedModel& probed_model, Comments
     comments->emplace_back(role + "_specular_knee", number_text(response.knee));
 }
 
-void add_limits(const TargetLimits& limits, Comments* comments) {
+void add_limits(const Limits& limits, Comments* comments) {
   comments->emplace_back(kAlphaLimitComment, number_text(rounded(limits.alpha, kLimitDigits)));
   comments->emplace_back(kSpecularLimitComment, number_text(rounded(*limits.specular, kLimitDigits)));
 }

@@ -17,7 +17,7 @@ namespace remap {
 void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments);
 
 // Adds the limits of the target, which must be known.
-void add_limits(const TargetLimits& limits, Comments* comments);
+void add_limits(const Limits& limits, Comments* comments);
 
 // Adds the widths of one side that change its pictures, if some do not.
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);

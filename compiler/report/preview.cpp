@@ -9,13 +9,13 @@
 
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
+#include "lights/lit_sphere.hpp"
 #include "lower/interpreter.hpp"
 #include "measure/parameter_roles.hpp"
 #include "measure/sweep.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
-#include "report/lit_sphere.hpp"
 #include "table/light.hpp"
 
 namespace remap {

@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "lights/environment.hpp"
 #include "lower/fit.hpp"
 #include "renderer/renderer.hpp"
-#include "report/environment.hpp"
 #include "report/sheet_labels.hpp"
 
 namespace remap {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "lights/environment.hpp"
+#include "lights/lit_sphere.hpp"
+#include "lights/radiance_pyramid.hpp"
 #include "lower/fit.hpp"
 #include "measure/sweep_options.hpp"
-#include "report/environment.hpp"
-#include "report/lit_sphere.hpp"
-#include "report/radiance_pyramid.hpp"
 
 namespace remap {
 

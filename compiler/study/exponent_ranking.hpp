@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "lights/environment.hpp"
 #include "lower/short_form.hpp"
 #include "renderer/image.hpp"
-#include "report/environment.hpp"
 #include "study/exponent_rules.hpp"
 #include "study/short_forms.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "lights/display_curve.hpp"
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
-#include "study/display_curve.hpp"
 #include "study/golden_section.hpp"
 
 namespace remap {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "lights/display_curve.hpp"
 #include "measure/objective.hpp"
 #include "renderer/image_similarity.hpp"
 #include "renderer/scene.hpp"
-#include "study/display_curve.hpp"
 #include "study/golden_section.hpp"
 
 namespace remap {

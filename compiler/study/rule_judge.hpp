@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "lights/lobe_pictures.hpp"
 #include "lower/short_form.hpp"
-#include "study/lobe_pictures.hpp"
 
 namespace remap {
 

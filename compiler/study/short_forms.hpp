@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
+#include "lights/environment.hpp"
+#include "lights/lit_sphere.hpp"
 #include "lower/fit.hpp"
 #include "lower/short_form.hpp"
-#include "report/environment.hpp"
-#include "report/lit_sphere.hpp"
 #include "study/conversions.hpp"
 
 namespace remap {

@@ -8,8 +8,8 @@
 #include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
-#include "report/environment.hpp"
-#include "report/lit_sphere.hpp"
+#include "lights/environment.hpp"
+#include "lights/lit_sphere.hpp"
 #include "study/study_report.hpp"
 
 namespace remap {

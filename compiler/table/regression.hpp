@@ -14,9 +14,6 @@ namespace remap {
 struct Regression {
   MappingKind mapping;
   std::map<std::string, std::string> method;  // recorded in the fit: hyper-parameters, search, starts
-  // Fits other rows with the same form, hyper-parameters and layers, by one thread and without a search. Does
-  // not check whether curves are sound. Thread-safe.
-  std::function<MappingKind(const std::vector<TableRow>&)> again;
 };
 
 // Called repeatedly with the share of the work done, 0 to 1, from any thread. An exception from it ends the

@@ -67,6 +67,13 @@ Residuals residuals_of(const std::vector<TableRow>& rows,
   return errors;
 }
 
+std::vector<TableRow> inside_rows(const std::vector<TableRow>& rows) {
+  std::vector<TableRow> inside;
+  for (const TableRow& row : rows)
+    if (row.status == RowStatus::kOk) inside.push_back(row);
+  return inside;
+}
+
 Residuals residuals_of(const std::vector<TableRow>& rows, const MappingKind& mapping) {
   return residuals_of(
       rows, [&](double alpha, double specular) { return evaluate_mapping(mapping, alpha, specular); });

@@ -30,6 +30,9 @@ struct RowSplit {
 // domain`. The split does not depend on the machine. Throws kUsage for a fraction outside [0, 0.9].
 RowSplit split_rows(const Table& table, const Domain& domain, std::uint64_t seed, double held_out_fraction);
 
+// The rows at which the target is at no limit.
+std::vector<TableRow> inside_rows(const std::vector<TableRow>& rows);
+
 // Errors of target alpha and target specular, one per row. `map`: gives the target's alpha and specular for
 // those of the source.
 struct Residuals {

@@ -199,7 +199,7 @@ Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
   return table_from_csv(parse_table_file(bytes, path), map);
 }
 
-RowStatus status_at(const TableRow& row, const TargetLimits& limits) {
+RowStatus status_at(const TableRow& row, const Limits& limits) {
   if (row.status != RowStatus::kClamped) return row.status;
   const bool is_wide = row.alpha2 >= limits.alpha * (1.0 - kSameLimit);
   const bool is_bright = limits.specular && row.specular2 >= *limits.specular * (1.0 - kSameLimit);

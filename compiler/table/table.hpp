@@ -15,7 +15,7 @@
 
 namespace remap {
 
-// How far a row can be trusted, and which regime of a fit (model/regimes.hpp) it belongs to. Tables call the
+// How far a row can be trusted, and at which limit of the target it is. Tables call the
 // last three clamped, too.
 enum class RowStatus {
   kOk,
@@ -44,12 +44,6 @@ struct TableRow {
   double diffuse2 = 0.0;  // target diffuse, linear; if has_diffuse
 };
 
-// The largest alpha and canonical specular that the target takes.
-struct TargetLimits {
-  double alpha = 1.0;              // 1 where a table does not tell
-  std::optional<double> specular;  // none where a table does not tell
-};
-
 struct Table {
   std::string name;  // file name, for messages
   Comments comments;
@@ -58,7 +52,7 @@ struct Table {
   bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
   bool has_error = true;     // else the errors of its rows are NaN, and not written
   std::vector<TableRow> rows;
-  TargetLimits limits;               // as the comments tell (find_limits)
+  Limits limits;                     // as the comments tell (find_limits)
   std::vector<std::string> remarks;  // what its reader assumed, for the user
 };
 
@@ -67,7 +61,7 @@ inline constexpr const char* kAlphaLimitComment = "target_alpha_limit";
 inline constexpr const char* kSpecularLimitComment = "target_specular_limit";
 
 // The status of a row that may be kClamped by the limit that it is at.
-RowStatus status_at(const TableRow& row, const TargetLimits& limits);
+RowStatus status_at(const TableRow& row, const Limits& limits);
 
 // Sets the limits of a table from its comments, and the statuses of its rows, if the limit of alpha is known.
 // Who makes a table with limits calls it; what is parsed has them. Throws kInput for a comment that is not a

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "converter/lowered.hpp"
+#include "converter/compact_form.hpp"
 #include "remap/converter.hpp"
 
 namespace remap {
@@ -23,7 +23,10 @@ struct GoldenTexel {
 struct ConverterData {
   // Figures of the fit have two digits, rounded up; SSIM has three. Ranges are rounded to float.
   ConverterInfo info;
-  Lowered lowered;                  // its polynomials, limits and regimes, with proven bounds
+  CompactForm form;
+  // How far it may be from the fit over the domain, in target alpha and target specular; 0 where the form is
+  // the fit.
+  double alpha_bound = 0.0, specular_bound = 0.0;
   std::vector<GoldenTexel> golden;  // over and beyond the domain, with its edges
   bool operator==(const ConverterData&) const = default;
 };

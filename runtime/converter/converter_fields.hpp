@@ -10,7 +10,7 @@
 namespace remap {
 
 // The version of fit files that this program reads and writes.
-inline constexpr int kFitFormatVersion = 3;
+inline constexpr int kFitFormatVersion = 4;
 
 // Throws kInput unless `root` begins a fit file of this version.
 void require_fit_file(const Field& root);

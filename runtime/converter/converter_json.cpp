@@ -11,38 +11,19 @@
 namespace remap {
 namespace {
 
-constexpr std::int64_t kFormatVersion = 1;
-constexpr std::int64_t kMostCells = 4096;
+constexpr std::int64_t kFormatVersion = 2;
 
 // The shortest decimal that reads back as this float.
 double decimal(float value) { return decimal_value(value); }
 
-// The coefficients of a cell and a power a line.
-std::string function_text(const LoweredFunction& function) {
-  const PiecewisePolynomial& polynomial = function.polynomial;
-  Json head = {{"pole", decimal(polynomial.pole)},
-               {"scale", decimal(polynomial.scale)},
-               {"start", decimal(polynomial.start)},
-               {"middle", decimal(polynomial.middle)},
-               {"cell_count", polynomial.cell_count},
-               {"degrees", polynomial.degrees},
-               {"bound", finite(function.bound)},
-               {"sampled", finite(function.sampled)},
-               {"rises_with_alpha", function.rises_with_alpha},
-               {"rises_with_specular", function.rises_with_specular}};
-  std::string text = head.dump();
-  text.back() = ',';
-  text += "\n        \"coefficients\": [";
-  const char* separator = "\n";
-  const float* next = polynomial.coefficients.data();
-  for (int cell = 0; cell < polynomial.cell_count; ++cell)
-    for (const int degree : polynomial.degrees) {
-      Json line = Json::list();
-      for (int k = 0; k <= degree; ++k) line.push_back(decimal(*next++));
-      text += separator + std::string(10, ' ') + line.dump();
-      separator = ",\n";
-    }
-  return text + "]}";
+Json terms_json(const FactorTerms& factor) {
+  Json rows = Json::list();
+  for (const std::vector<float>& row : factor) {
+    Json numbers = Json::list();
+    for (const float term : row) numbers.push_back(decimal(term));
+    rows.push_back(std::move(numbers));
+  }
+  return rows;
 }
 
 std::string golden_text(const std::vector<GoldenTexel>& golden) {
@@ -60,7 +41,7 @@ std::string golden_text(const std::vector<GoldenTexel>& golden) {
 }  // namespace
 
 std::string converter_to_json(const ConverterData& data) {
-  const Lowered& lowered = data.lowered;
+  const CompactForm& form = data.form;
   std::string text = "{\"id\": " + Json(data.info.id).dump();
   const auto add = [&text](const char* name, const std::string& value) {
     text += ",\n      \"" + std::string(name) + "\": " + value;
@@ -70,23 +51,19 @@ std::string converter_to_json(const ConverterData& data) {
   add("domain", domain_json(data.info).dump());
   add("rms_error", errors_json(data.info).dump());
   add("ssim", ssim_json(data.info).dump());
-  add("alpha", function_text(lowered.alpha));
-  add("specular", function_text(lowered.specular));
+  add("pole", Json(decimal(form.pole)).dump());
+  add("alpha", terms_json(form.alpha).dump());
+  add("specular", terms_json(form.specular).dump());
   const auto limit = [](const std::optional<float>& value) { return value ? Json(decimal(*value)) : Json(); };
-  const Json limits = {{"alpha", limit(lowered.alpha_limit)}, {"specular", limit(lowered.specular_limit)}};
+  const Json limits = {{"alpha", limit(form.alpha_limit)}, {"specular", limit(form.specular_limit)}};
   add("limits", limits.dump());
-  const Json seams = {{"alpha", finite(lowered.alpha_seam)}, {"specular", finite(lowered.specular_seam)}};
-  add("seams", seams.dump());
-  const auto add_series = [&](const char* name, Json ends, const LoweredSeries& series) {
-    ends["alpha_from"] = decimal(series.alpha_from);
-    ends["specular_from"] = decimal(series.specular_from);
-    std::string head = ends.dump();
-    head.back() = ',';
-    add(name, head + " \"polynomial\": " + function_text(series.function) + "}");
-  };
-  if (lowered.wide)
-    add_series("wide", {{"mapping_to", decimal(lowered.wide->mapping_to)}}, lowered.wide->specular);
-  if (lowered.bright) add_series("bright", Json::object(), *lowered.bright);
+  const Json hinge = {{"turn", decimal(form.hinge.turn)},
+                      {"turn_by_alpha", decimal(form.hinge.turn_by_alpha)},
+                      {"bend", decimal(form.hinge.bend)},
+                      {"spread", decimal(form.hinge.spread)}};
+  add("hinge", hinge.dump());
+  const Json within = {{"alpha", finite(data.alpha_bound)}, {"specular", finite(data.specular_bound)}};
+  add("within", within.dump());
   add("golden", golden_text(data.golden));
   return text + "}";
 }
@@ -99,50 +76,20 @@ float read_float(const Field& field) {
   return value;
 }
 
-int read_whole(const Field& field, std::int64_t least, std::int64_t most) {
-  const std::optional<std::int64_t> whole = field.json().whole();
-  field.require(whole && *whole >= least && *whole <= most,
-                "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
-  return static_cast<int>(*whole);
-}
-
-LoweredFunction read_function(const Field& field) {
-  LoweredFunction function;
-  PiecewisePolynomial& polynomial = function.polynomial;
-  polynomial.pole = read_float(field["pole"]);
-  polynomial.scale = read_float(field["scale"]);
-  polynomial.start = read_float(field["start"]);
-  polynomial.middle = read_float(field["middle"]);
-  polynomial.cell_count = read_whole(field["cell_count"], 1, kMostCells);
-  field["scale"].require(polynomial.cell_count > 1 || polynomial.scale == 1.0f, "1 for one cell");
-  const Field degrees = field["degrees"];
-  polynomial.degrees =
-      degrees.list(1, [](const Field& entry) { return read_whole(entry, -1, kHighestDegree); });
-  degrees.require(polynomial.degrees.size() <= kMostPowers && polynomial.degrees.back() >= 0,
-                  "up to " + std::to_string(kMostPowers) + " degrees, the last of them from 0");
-  const std::size_t powers = polynomial.degrees.size();
-  const Field lines = field["coefficients"];
-  const std::size_t line_count = powers * static_cast<std::size_t>(polynomial.cell_count);
-  for (std::size_t line = 0; line < line_count; ++line) {
-    const auto count = static_cast<std::size_t>(polynomial.degrees[line % powers] + 1);
-    const Field numbers = lines.at(line, line_count);
-    for (std::size_t k = 0; k < count; ++k)
-      polynomial.coefficients.push_back(read_float(numbers.at(k, count)));
-  }
-  function.bound = field["bound"].number();
-  function.sampled = field["sampled"].number();
-  function.rises_with_alpha = field.flag("rises_with_alpha");
-  function.rises_with_specular = field.flag("rises_with_specular");
-  return function;
+FactorTerms read_terms(const Field& field) {
+  FactorTerms factor = field.list(1, [](const Field& row) {
+    std::vector<float> numbers = row.list(1, read_float);
+    row.require(numbers.size() <= kMostPowersOfAlpha,
+                "up to " + std::to_string(kMostPowersOfAlpha) + " powers of alpha");
+    return numbers;
+  });
+  field.require(factor.size() <= kMostPowersOfT,
+                "up to " + std::to_string(kMostPowersOfT) + " powers of specular");
+  return factor;
 }
 
 std::optional<double> read_optional(const Field& field) {
   return field.is_null() ? std::nullopt : std::optional<double>(field.number());
-}
-
-LoweredSeries read_series(const Field& field) {
-  return {read_float(field["alpha_from"]), read_float(field["specular_from"]),
-          read_function(field["polynomial"])};
 }
 
 std::optional<float> read_limit(const Field& field) {
@@ -156,20 +103,19 @@ GoldenTexel read_golden(const Field& field) {
   return {number(0), number(1), number(2), number(3), number(4), number(5)};
 }
 
-Lowered read_lowered(const Field& field) {
-  Lowered lowered;
-  lowered.alpha = read_function(field["alpha"]);
-  lowered.specular = read_function(field["specular"]);
-  lowered.alpha_limit = read_limit(field["limits"]["alpha"]);
-  lowered.specular_limit = read_limit(field["limits"]["specular"]);
-  lowered.alpha_seam = field["seams"]["alpha"].number();
-  lowered.specular_seam = field["seams"]["specular"].number();
-  if (field.contains("wide"))
-    lowered.wide = {read_float(field["wide"]["mapping_to"]), read_series(field["wide"])};
-  if (field.contains("bright")) lowered.bright = read_series(field["bright"]);
-  field.require(!lowered.wide || lowered.alpha_limit, "a limit of alpha beside the wide regime");
-  field.require(!lowered.bright || lowered.specular_limit, "a limit of specular beside the bright regime");
-  return lowered;
+CompactForm read_form(const Field& field) {
+  CompactForm form;
+  form.pole = read_float(field["pole"]);
+  field["pole"].require(form.pole > 0.0f, "a number above 0");
+  form.alpha = read_terms(field["alpha"]);
+  form.specular = read_terms(field["specular"]);
+  form.alpha_limit = read_limit(field["limits"]["alpha"]);
+  form.specular_limit = read_limit(field["limits"]["specular"]);
+  const Field hinge = field["hinge"];
+  form.hinge = {read_float(hinge["turn"]), read_float(hinge["turn_by_alpha"]), read_float(hinge["bend"]),
+                read_float(hinge["spread"])};
+  hinge["bend"].require(form.hinge.bend >= 0.0f, "at least 0");
+  return form;
 }
 
 }  // namespace
@@ -187,7 +133,9 @@ ConverterData read_converter(const Field& field) {
   data.info.specular_rms_error = read_optional(field["rms_error"]["specular"]);
   data.info.image_rms_error = read_optional(field["rms_error"]["image"]);
   data.info.ssim = read_optional(field["ssim"]);
-  data.lowered = read_lowered(field);
+  data.form = read_form(field);
+  data.alpha_bound = field["within"]["alpha"].number();
+  data.specular_bound = field["within"]["specular"].number();
   data.golden = field["golden"].list(1, read_golden);
   return data;
 }

@@ -1,12 +1,13 @@
 #include "stages/brdf_stage.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <utility>
 
+#include "converter/compact_form.hpp"
 #include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "stages/kernels.hpp"
@@ -19,19 +20,15 @@ void require_evaluable(const ConverterData& data) {
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::kNumeric, data.info.id + ": " + what);
   };
-  std::vector<const PiecewisePolynomial*> polynomials = {&data.lowered.alpha.polynomial,
-                                                         &data.lowered.specular.polynomial};
-  if (data.lowered.wide) polynomials.push_back(&data.lowered.wide->specular.function.polynomial);
-  if (data.lowered.bright) polynomials.push_back(&data.lowered.bright->function.polynomial);
-  for (const PiecewisePolynomial* polynomial : polynomials)
-    if (polynomial->degrees.size() > kMostPowers)
-      refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + " (at most " +
-             std::to_string(kMostPowers - 1) + " is supported)");
-  for (const PiecewisePolynomial* polynomial : polynomials)
-    for (const int degree : polynomial->degrees)
-      if (degree > kHighestDegree)
-        refuse("a degree in alpha is " + std::to_string(degree) + " (at most " +
-               std::to_string(kHighestDegree) + " is supported)");
+  for (const FactorTerms* factor : {&data.form.alpha, &data.form.specular}) {
+    if (factor->size() > kMostPowersOfT)
+      refuse("has " + std::to_string(factor->size()) + " powers of specular (at most " +
+             std::to_string(kMostPowersOfT) + " are supported)");
+    for (const std::vector<float>& row : *factor)
+      if (row.size() > kMostPowersOfAlpha)
+        refuse("has " + std::to_string(row.size()) + " powers of alpha (at most " +
+               std::to_string(kMostPowersOfAlpha) + " are supported)");
+  }
   if (!(data.info.specular.min >= 0.0 && data.info.specular.max > 0.0 && data.info.roughness.min >= 0.0))
     refuse("the domain is empty or negative (specular must reach above 0, roughness must not be negative)");
 }
@@ -48,17 +45,44 @@ ConverterInfo info_of(const ConverterData& data, InstructionSet set) {
   return info;
 }
 
-LoweredForm form_of(const Lowered& lowered) {
-  if (lowered.has_limits()) return LoweredForm::kRegimes;
-  const std::vector<int>& degrees = lowered.specular.polynomial.degrees;
-  const bool is_factor = degrees.size() == 2 && degrees[0] < 0;
-  return is_factor && lowered.alpha.polynomial.degrees.size() == 1 ? LoweredForm::kProportional
-                                                                   : LoweredForm::kTerms;
+// The terms in rows of one length; returns the longest row.
+std::size_t pad(const FactorTerms& factor, FormPass::Terms& rows) {
+  std::size_t longest = 0;
+  for (std::size_t j = 0; j < factor.size(); ++j) {
+    std::ranges::copy(factor[j], rows[j].begin());
+    longest = std::max(longest, factor[j].size());
+  }
+  return longest;
 }
 
-// Where the rows of `owned` begin a regime.
-RegimePolynomials rows_of(const LoweredSeries& series, std::optional<OwnedPolynomialRows>* owned) {
-  return {series.alpha_from, series.specular_from, owned->emplace(series.function.polynomial).rows()};
+FormPass pass_of(const ConverterData& data) {
+  const CompactForm& form = data.form;
+  const FormEnds ends = ends_of(data.info.source.roughness, data.info.target.roughness, data.info.roughness);
+  FormPass pass;
+  pass.source = data.info.source.roughness;
+  pass.target = data.info.target.roughness;
+  pass.width_min = ends.width_min;
+  pass.width_max = ends.width_max;
+  pass.width_from = ends.width_from;
+  pass.width_to = ends.width_to;
+  pass.alpha_min = ends.alpha_min;
+  pass.least_alpha = ends.least_alpha;
+  pass.specular_min = static_cast<float>(data.info.specular.min);
+  pass.specular_max = static_cast<float>(data.info.specular.max);
+  pass.pole = form.pole;
+  constexpr float kNone = std::numeric_limits<float>::infinity();
+  pass.alpha_limit = form.alpha_limit.value_or(kNone);
+  pass.specular_limit = form.specular_limit.value_or(kNone);
+  pass.inverse_alpha_limit = 1.0f / pass.alpha_limit;
+  pass.inverse_specular_limit = 1.0f / pass.specular_limit;
+  pass.turn = form.hinge.turn;
+  pass.turn_by_alpha = form.hinge.turn_by_alpha;
+  pass.bend = form.hinge.bend;
+  pass.spread = form.hinge.spread;
+  pass.is_limited = form.alpha_limit || form.specular_limit;
+  pass.powers = std::max(form.alpha.size(), form.specular.size());
+  pass.terms = std::max(pad(form.alpha, pass.alpha_terms), pad(form.specular, pass.specular_terms));
+  return pass;
 }
 
 bool is_close(float value, float expected, float within) { return std::fabs(value - expected) <= within; }
@@ -66,28 +90,7 @@ bool is_close(float value, float expected, float within) { return std::fabs(valu
 class BrdfStage final : public Stage {
  public:
   BrdfStage(const ConverterData& data, InstructionSet set)
-      : alpha_(data.lowered.alpha.polynomial),
-        specular_(data.lowered.specular.polynomial),
-        golden_(data.golden),
-        kernel_(kernels(set).convert) {
-    constexpr float kNone = std::numeric_limits<float>::max();  // larger than any number that a mapping gives
-    pass_.source = data.info.source.roughness;
-    pass_.target = data.info.target.roughness;
-    pass_.roughness_min = static_cast<float>(data.info.roughness.min);
-    pass_.roughness_max = static_cast<float>(data.info.roughness.max);
-    pass_.specular_min = static_cast<float>(data.info.specular.min);
-    pass_.specular_max = static_cast<float>(data.info.specular.max);
-    pass_.inverse_specular_max = static_cast<float>(1.0 / data.info.specular.max);
-    const Lowered& lowered = data.lowered;
-    pass_.form = form_of(lowered);
-    pass_.alpha = alpha_.rows();
-    pass_.specular = specular_.rows();
-    pass_.alpha_limit = lowered.alpha_limit.value_or(kNone);
-    pass_.specular_limit = lowered.specular_limit.value_or(kNone);
-    pass_.mapping_to = lowered.wide ? lowered.wide->mapping_to : kNone;
-    if (lowered.wide) pass_.wide = rows_of(lowered.wide->specular, &wide_);
-    if (lowered.bright) pass_.bright = rows_of(*lowered.bright, &bright_);
-  }
+      : pass_(pass_of(data)), golden_(data.golden), kernel_(kernels(set).convert) {}
 
   bool has_domain() const noexcept override { return true; }
 
@@ -120,8 +123,7 @@ class BrdfStage final : public Stage {
     Row roughness, specular;
     for (std::size_t i = 0; i < kCount; ++i) {
       const float share = static_cast<float>(i) / (kCount - 1), other = static_cast<float>(i % 17) / 16.0f;
-      roughness[i] =
-          pass_.roughness_min + (1.2f * share - 0.1f) * (pass_.roughness_max - pass_.roughness_min);
+      roughness[i] = pass_.width_min + (1.2f * share - 0.1f) * (pass_.width_max - pass_.width_min);
       specular[i] = pass_.specular_max * 1.2f * other;
     }
     const auto run = [&](const auto& kernel, std::size_t channels) {
@@ -144,10 +146,8 @@ class BrdfStage final : public Stage {
     return true;
   }
 
-  OwnedPolynomialRows alpha_, specular_;
-  std::optional<OwnedPolynomialRows> wide_, bright_;
+  FormPass pass_;
   std::vector<GoldenTexel> golden_;
-  LoweredPass pass_;  // points into the polynomials
   decltype(Kernels::convert) kernel_;
 };
 

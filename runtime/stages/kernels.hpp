@@ -5,9 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
-#include "converter/lowered.hpp"
+#include "converter/compact_form.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
 #include "stages/conversion_constants.hpp"
@@ -21,59 +20,22 @@
 
 namespace remap {
 
-// What may be read behind the numbers of a polynomial, which are taken four at a time.
-inline constexpr std::size_t kPaddedNumbers = 3;
-
-// A piecewise polynomial as rows of texels read it.
-struct PolynomialRows {
-  float pole = 0.0f, scale = 1.0f, start = 0.0f, middle = 0.0f;  // as in PiecewisePolynomial
-  int cell_count = 1;
-  int power_count = 1;
-  const int* degrees = nullptr;    // one a power
-  const float* numbers = nullptr;  // for each coefficient of a cell, those of all cells
-  const float* by_cell = nullptr;  // the same, cell by cell, with kPaddedNumbers behind them
-  int cell_stride = 1;
-};
-
-// The polynomial of a regime, and where its domain begins.
-struct RegimePolynomials {
-  float alpha_from = 0.0f, specular_from = 0.0f;
-  PolynomialRows polynomial;
-};
-
-// The loops of a pass, from the fastest.
-enum class LoweredForm {
-  kProportional,  // target specular is a factor times specular, target alpha free of it
-  kTerms,
-  kRegimes,  // a limit of the target may hold what a polynomial gives
-};
-
-// What a kernel is told of a converter.
-struct LoweredPass {
+// What a kernel is told of a converter (converter/compact_form.hpp).
+struct FormPass {
+  using Terms = std::array<std::array<float, kMostPowersOfAlpha>, kMostPowersOfT>;
   RoughnessConvention source = RoughnessConvention::kAlpha;
   RoughnessConvention target = RoughnessConvention::kAlpha;
-  float roughness_min = 0.0f, roughness_max = 0.0f;  // of the source's own width parameter
-  float specular_min = 0.0f, specular_max = 0.0f;    // from 0; to more than 0
-  float inverse_specular_max = 1.0f;
-  LoweredForm form = LoweredForm::kTerms;
-  PolynomialRows alpha;
-  PolynomialRows specular;
-  // Of kRegimes: the largest float where there is no limit, without degrees where there is no regime
-  // (converter/lowered.hpp).
-  float alpha_limit = 0.0f, specular_limit = 0.0f, mapping_to = 0.0f;
-  RegimePolynomials wide, bright;
-};
-
-// A polynomial that owns its numbers.
-class OwnedPolynomialRows {
- public:
-  explicit OwnedPolynomialRows(const PiecewisePolynomial& polynomial);
-  // Valid as long as this object stays where it is.
-  PolynomialRows rows() const;
-
- private:
-  PiecewisePolynomial shape_;  // with padded coefficients
-  std::vector<float> numbers_;
+  float width_min = 0.0f, width_max = 0.0f;    // the domain, in the source's own width parameter
+  float width_from = 0.0f, width_to = 0.0f;    // to which widths are clamped
+  float alpha_min = 0.0f, least_alpha = 0.0f;  // of the source in the domain; of the target
+  float specular_min = 0.0f, specular_max = 0.0f;
+  float pole = 1.0f;
+  float alpha_limit = 0.0f, specular_limit = 0.0f;  // infinite, and their inverses 0, where there is none
+  float inverse_alpha_limit = 0.0f, inverse_specular_limit = 0.0f;
+  float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
+  bool is_limited = false;
+  std::size_t powers = 1, terms = 1;  // of both factors, which are padded with zeros
+  Terms alpha_terms{}, specular_terms{};
 };
 
 // Rows of `count` texels. An output row may be exactly its input row.
@@ -102,8 +64,8 @@ struct DiagnosisRows {
 
 // Kernels take rows of any length. An output row may be exactly the input row of the same parameter.
 struct Kernels {
-  // By a lowered mapping. Returns the number of texels out of domain.
-  std::size_t (*convert)(const LoweredPass& pass, const TexelRows& rows) noexcept;
+  // By a compact form. Returns the number of texels out of domain.
+  std::size_t (*convert)(const FormPass& pass, const TexelRows& rows) noexcept;
 
   // From metallic to specular by equation (2), and back by the projection.
   void (*to_specular)(const workflow_code::Conventions& use, std::size_t count,

@@ -16,6 +16,7 @@
 namespace remap::warp_code {
 // Each depends on those before it.
 // clang-format off
+#include "stages/code/bits.inc"
 #include "stages/code/floats.inc"
 #include "stages/code/rows.inc"
 #include "stages/code/appearance.inc"

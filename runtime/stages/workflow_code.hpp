@@ -18,6 +18,7 @@
 namespace remap::workflow_code {
 // Each depends on those before it.
 // clang-format off
+#include "stages/code/bits.inc"
 #include "stages/code/floats.inc"
 #include "stages/code/conventions.inc"
 #include "stages/code/rows.inc"

@@ -22,11 +22,11 @@ std::string errors_text(const ConverterInfo& info) {
     return error ? figure_text(*error) : "unknown";
   };
   const std::string fit = info.roughness_rms_error && info.specular_rms_error
-                              ? "rms " + figure_text(*info.roughness_rms_error) + " in alpha and " +
+                              ? ", fit rms " + figure_text(*info.roughness_rms_error) + " in alpha and " +
                                     figure_text(*info.specular_rms_error) + " in " + info.target.specular
-                              : "unknown";
+                              : "";
   const std::string ssim = info.ssim ? ", SSIM " + number_text(rounded(*info.ssim, 3)) : "";
-  return "image " + text(info.image_rms_error) + ssim + ", fit " + fit;
+  return "image " + text(info.image_rms_error) + ssim + fit;
 }
 
 std::string models_text(const ConverterPath& path) {

@@ -26,7 +26,7 @@ expect "texremap convert --layout = " "as-inputs separate orm arm specgloss gltf
 expect "texremap convert --to mitsuba/ward-" "mitsuba/ward-balanced mitsuba/ward-duer"
 expect "remapc sweep --source mitsuba/as-i" "mitsuba/as-ior"
 expect "remapc show mitsuba_ward_to_mitsuba_as_" "mitsuba_ward_to_mitsuba_as_sztrajman_2019"
-expect "remapc fit --model s" "series svr"
+expect "remapc fit --model s" "svr"
 expect "texremap convert --roughness " ""      # files, which bash adds
 expect "texremap convert assets" ""            # files
 expect "texremap convert --threads 4 --qui" "--quiet"

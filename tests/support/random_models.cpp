@@ -1,12 +1,8 @@
 #include "support/random_models.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <random>
-
-#include "lower/interpreter.hpp"
 
 namespace remap {
 namespace {
@@ -155,26 +151,9 @@ Network random_network(Random* random, const Domain& domain, bool both, Activati
   return network;
 }
 
-// Coefficients that fall as those of smooth functions do, slowly or fast.
-TexelSeries random_series(Random* random, const Domain& domain, bool both) {
-  const double fall = random->between(0.2, 0.9);
-  TexelSeries series{domain.alpha, domain.specular, {}};
-  const std::size_t degree = random->count(0, 12), powers = both ? random->count(1, 4) : 0;
-  for (std::size_t j = 0; j <= powers; ++j) {
-    std::vector<double>& row = series.coefficients.emplace_back();
-    for (std::size_t i = 0; i <= degree; ++i)
-      row.push_back(random->normal() * std::pow(fall, static_cast<double>(i + 2 * j)));
-  }
-  return series;
-}
-
-RegressedKind random_regressed(const std::string& kind, Random* random, const Domain& domain) {
+MappingKind random_regressed(const std::string& kind, Random* random, const Domain& domain) {
   if (kind == "parametric") return random_parametric(random);
   const bool both = random->chance(0.3);  // whether target alpha depends on specular
-  if (kind == "series") {
-    TexelSeries alpha = random_series(random, domain, both);
-    return Series{alpha, random_series(random, domain, random->chance(0.9))};
-  }
   if (kind == "svr") {
     KernelExpansion alpha = random_expansion(random, domain, both);
     return Svr{alpha, random_expansion(random, domain, random->chance(0.9))};
@@ -184,53 +163,18 @@ RegressedKind random_regressed(const std::string& kind, Random* random, const Do
   return Mlp{alpha, random_network(random, domain, random->chance(0.9), activation)};
 }
 
-// What a mapping reaches over a domain, on a grid, and a tenth more: what the next step of a chain has to
-// take. None where that is no domain: widths of 0 and less, and values without bounds.
-std::optional<Domain> reached(const RegressedKind& mapping, const Domain& domain) {
-  constexpr int kAlphas = 40, kSpeculars = 8;
-  Domain hull{{INFINITY, -INFINITY}, {0.0, -INFINITY}};
-  for (int i = 0; i <= kAlphas; ++i)
-    for (int j = 0; j <= kSpeculars; ++j) {
-      const MappedTexel mapped = evaluate_mapping(
-          widened(mapping), domain.alpha.min + (domain.alpha.max - domain.alpha.min) * i / kAlphas,
-          domain.specular.max * j / kSpeculars);
-      hull.alpha = {std::min(hull.alpha.min, mapped.alpha), std::max(hull.alpha.max, mapped.alpha)};
-      hull.specular.max = std::max(hull.specular.max, mapped.specular);
-    }
-  const double margin = 0.1 * (hull.alpha.max - hull.alpha.min);
-  hull.alpha = {hull.alpha.min - margin, hull.alpha.max + margin};
-  hull.specular.max *= 1.1;
-  const bool usable = hull.alpha.min > 1e-4 && hull.alpha.max > hull.alpha.min && hull.alpha.max < 100.0 &&
-                      hull.specular.max > 1e-6 && hull.specular.max < 1e4;
-  return usable ? std::optional(hull) : std::nullopt;
-}
-
-// Two or three models, each over what the one before it reaches.
-Chain random_chain(Random* random, const Domain& domain) {
-  const std::array kinds = {"parametric", "svr", "mlp", "series"};
-  Chain chain;
-  const std::size_t count = random->count(2, 3);
-  for (std::optional<Domain> given = domain; chain.steps.size() < count;) {
-    const RegressedKind step = random_regressed(kinds[random->count(0, kinds.size() - 1)], random, *given);
-    const std::optional<Domain> next = reached(step, *given);
-    if (!next && chain.steps.size() + 1 < count) continue;  // a dead end: draw another
-    chain.steps.push_back({"step_" + std::to_string(chain.steps.size()), step});
-    given = next;
-  }
-  return chain;
-}
-
 }  // namespace
 
-std::vector<std::string> random_kinds() { return {"parametric", "svr", "mlp", "chain", "series"}; }
+std::vector<std::string> random_kinds() { return {"parametric", "svr", "mlp"}; }
 
 RandomModel random_model(const std::string& kind, std::uint64_t seed) {
   const std::vector<std::string> kinds = random_kinds();
   const auto number = std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
   Random random(seed * 3 + static_cast<std::uint64_t>(number));
-  const Domain domain = random_domain(&random);
-  if (kind == "chain") return {random_chain(&random, domain), domain};
-  return {widened(random_regressed(kind, &random, domain)), domain};
+  Domain domain = random_domain(&random);
+  // Most do not vanish with specular.
+  domain.specular.min = std::max(domain.specular.min, 0.02 * domain.specular.max);
+  return {random_regressed(kind, &random, domain), domain};
 }
 
 }  // namespace remap

@@ -15,9 +15,8 @@ struct RandomModel {
   Domain domain;
 };
 
-// Kinds: `parametric`, `svr`, `mlp`, `series`, and `chain` of two or three of them. The same seed gives the
-// same model. Coefficients, rates, weights and widths spread over orders of magnitude; some domains are tiny,
-// begin next to alpha 0 or not at specular 0.
+// Kinds: `parametric`, `svr`, `mlp`. The same seed gives the same model. Coefficients, rates, weights and
+// widths spread over orders of magnitude; some domains are tiny, begin next to alpha 0 or at bright specular.
 RandomModel random_model(const std::string& kind, std::uint64_t seed);
 std::vector<std::string> random_kinds();
 

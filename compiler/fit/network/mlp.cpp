@@ -56,9 +56,6 @@ Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
   method["weight_decay"] = number_text(options.weight_decay);
   record("alpha", alpha, method);
   record("specular", specular, method);
-  MlpOptions used = options;
-  used.jobs = 1;
-  regression.again = [used](const std::vector<TableRow>& some) { return fit_mlp(some, used).mapping; };
   return regression;
 }
 

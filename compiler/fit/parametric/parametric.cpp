@@ -143,4 +143,10 @@ Parametric fit_parametric(const std::vector<TableRow>& rows, const Domain& domai
   return fit;
 }
 
+Regression fit_parametric_kind(const std::vector<TableRow>& rows, const Domain& domain,
+                               const std::string& form) {
+  const std::string name = form.empty() ? "paper" : form;
+  return {fit_parametric(rows, domain, find_form(name)), {{"form", name}}};
+}
+
 }  // namespace remap

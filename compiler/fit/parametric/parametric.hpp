@@ -1,8 +1,7 @@
-// The parametric regression of section 7 (Sztrajman et al. 2019) and its extensions: roughness as a
-// polynomial, specular as curves of exponentials.
+// The parametric regression of section 7 (Sztrajman et al. 2019): roughness as a polynomial, specular as a
+// curve of exponentials.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "fit/parametric/parametric_form.hpp"
@@ -18,18 +17,9 @@ namespace remap {
 Parametric fit_parametric(const std::vector<TableRow>& rows, const Domain& domain,
                           const ParametricForm& form);
 
-struct ParametricOptions {
-  std::string form;  // a name of find_form(); empty: choose one
-  std::uint64_t seed = 1;
-  unsigned jobs = 0;  // threads; 0: one per core. The result does not depend on it
-};
-
-// Chooses a form for each output by ten-fold cross-validation within the rows: the form with the fewest
-// coefficients within one standard error of the best (choice.hpp). Forms that the rows do not determine or
-// that are not sound are excluded. `method` records the choice and the errors. Throws the errors of
-// fit_parametric() for the paper's form if no form remains.
-Regression fit_parametric_best(const std::vector<TableRow>& rows, const Domain& domain,
-                               const ParametricOptions& options, const FitProgress& progress = {});
+// `form`: a name of find_form(); empty: that of the paper.
+Regression fit_parametric_kind(const std::vector<TableRow>& rows, const Domain& domain,
+                               const std::string& form);
 
 // The parts of the regression, for the code that chooses or refits a form; fit_specular_terms() is another.
 

@@ -39,13 +39,7 @@ struct ParametricForm {
   const SpecularForm* specular = nullptr;
 };
 
-// `paper` for the form of the paper, otherwise `<roughness>/<specular>`.
-std::string form_name(const ParametricForm& form);
-
-// Returns the form with this name; `paper+pole` is `quartic/slope+pole`. Throws kUsage for an unknown name.
+// `paper`, or `paper+pole` with the term c5 / alpha of the authors' scripts. Throws kUsage for another name.
 ParametricForm find_form(const std::string& name);
-
-// Lists all forms for help texts, one per line.
-std::string form_list();
 
 }  // namespace remap

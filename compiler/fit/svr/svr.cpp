@@ -161,8 +161,6 @@ Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
   svr.alpha = fit_output(alpha, &used.alpha, options, rising.part(0.0, share_of_alpha), regression.method);
   svr.specular =
       fit_output(specular, &used.specular, options, rising.part(share_of_alpha, 0.95), regression.method);
-  used.jobs = 1;
-  regression.again = [used](const std::vector<TableRow>& some) { return fit_svr(some, used).mapping; };
   regression.mapping = std::move(svr);
   if (progress) rising.part(0.95, 1.0)(1.0);
   return regression;

@@ -48,13 +48,12 @@ TEST_CASE("chain: closed form of two polynomials") {
   CHECK(chain.id == "x_a_to_x_c");
   CHECK(chain.source.model == "x/a");
   CHECK(chain.target.model == "x/c");
-  CHECK(kind_name(chain.mapping) == "chain");
-  CHECK(is_proportional(chain.mapping));
+  CHECK(kind_name(chain.mapping) == "compact");
   for (const double alpha : {0.02, 0.3, 1.0}) {
     const double middle = 0.6 * alpha + 0.2 * alpha * alpha;
     const MappedTexel texel = evaluate_mapping(chain.mapping, alpha, 0.4);
-    CHECK(texel.alpha == Approx(0.9 * middle + 0.05 * middle * middle).epsilon(1e-14));
-    CHECK(texel.specular == Approx(0.16).epsilon(1e-14));
+    CHECK(texel.alpha == Approx(0.9 * middle + 0.05 * middle * middle).epsilon(3e-4));
+    CHECK(texel.specular == Approx(0.16).epsilon(1e-6));
   }
 }
 
@@ -89,14 +88,14 @@ TEST_CASE("chain: what cannot be composed is refused with the place") {
   CHECK_THROWS_WITH(compose({a, b}, "not an id"), Catch::Contains("identifier"));
 }
 
-TEST_CASE("chain: chains are taken apart") {
+TEST_CASE("chain: a chain of chains gives what all steps give") {
   const Fit a = fit_of("x/a", "x/b", straight(0.9, 0.0, 0.9)),
             b = fit_of("x/b", "x/c", straight(0.9, 0.0, 0.9)),
             c = fit_of("x/c", "x/d", straight(0.9, 0.0, 0.9));
   const Fit chain = compose({compose({a, b}), c});
-  REQUIRE(std::get<Chain>(chain.mapping).steps.size() == 3);
-  CHECK(std::get<Chain>(chain.mapping).steps[1].id == "x_b_to_x_c");
-  CHECK(evaluate_mapping(chain.mapping, 0.5, 1.0).specular == Approx(0.729));
+  REQUIRE(std::holds_alternative<CompactForm>(chain.mapping));
+  CHECK(evaluate_mapping(chain.mapping, 0.5, 1.0).specular == Approx(0.729).epsilon(1e-4));
+  CHECK(evaluate_mapping(chain.mapping, 0.5, 1.0).alpha == Approx(0.5 * 0.729).epsilon(1e-4));
 }
 
 TEST_CASE("chain: errors of the steps are carried on, image errors add up") {
@@ -118,8 +117,8 @@ TEST_CASE("chain: against its steps, with the rules of their domains") {
   CHECK(alpha_depends_on_specular(chain.mapping));
   CHECK_FALSE(is_proportional(chain.mapping));
   const ChainDifference difference = difference_from_steps(chain, {a, b});
-  CHECK(difference.alpha < 1e-7);  // floats at the edges of domains
-  CHECK(difference.grey_specular < 1e-7);
+  CHECK(difference.alpha < 4e-3);  // a step of an 8-bit map
+  CHECK(difference.grey_specular < 1e-4);
   // The width of a dark channel lags behind that of the largest: 0.05 of specular at a slope of 0.2 or so.
   CHECK(difference.color_specular > 1e-4);
   CHECK(difference.color_specular < 0.05);

@@ -7,7 +7,6 @@
 #include "lower/lower.hpp"
 #include "remap/error.hpp"
 #include "support/example_fit.hpp"
-#include "support/made_regimes.hpp"
 #include "support/replaced.hpp"
 
 using namespace remap;
@@ -28,7 +27,7 @@ Fit sample_fit() {
   candidate.name = "svr";
   candidate.number_count = 33;
   candidate.alpha = {1e-3, 2e-3, 1.0 / 7.0};
-  candidate.chroma_shift = 0.01;
+  candidate.relative_alpha = 0.01;
   candidate.verdict = "no better, and more numbers";
   fit.candidates = {candidate};
   fit.alpha_error = {1e-4, 2e-4, 3e-4};
@@ -59,25 +58,26 @@ Fit mlp_fit() {
   return fit;
 }
 
-Fit series_fit() {
+Fit compact_fit() {
   Fit fit = sample_fit();
-  const TexelSeries of_alpha{{1.0 / 30.0, 0.9}, {0.0, 0.7}, {{0.5, 0.4, -1.0 / 7.0}}};
-  fit.mapping = Series{of_alpha, {{0.01, 1.0}, {0.0, 1.0}, {{0.5, 1e-17}, {0.1}}}};
-  return fit;
-}
-
-Fit regime_fit() {
-  Fit fit = made_regimes::fit();
-  fit.split = sample_fit().split;
-  fit.candidates = sample_fit().candidates;
-  fit.candidates.front().relative_alpha = {1.0 / 7.0, 1e-3};
+  CompactForm form;
+  form.pole = 0.3f;
+  form.alpha = {{1.1f, -0.2f}, {0.05f}};
+  form.specular = {{0.9f, 1e-7f, 0.25f}, {0.125f, 3.0f}};
+  form.alpha_limit = 0.9f;
+  form.specular_limit = 1.0f;
+  form.hinge = {-0.5f, 0.25f, 0.5f, 0.1f};
+  fit.mapping = form;
+  fit.limits = {0.9, 1.0};
+  fit.pictures = JudgedPictures{{5.5, 0.125}, {9.0, 1.0 / 3.0}};
+  fit.candidates.front().pictures = PictureErrors{5.5, 0.1};
   return fit;
 }
 
 }  // namespace
 
 TEST_CASE("fit file: what is written is read back bit for bit, of every kind") {
-  for (const Fit& fit : {sample_fit(), svr_fit(), mlp_fit(), series_fit(), regime_fit()}) {
+  for (const Fit& fit : {sample_fit(), svr_fit(), mlp_fit(), compact_fit()}) {
     const std::string json = fit_to_json(fit);
     CHECK(fit_from_json(json, "x.json") == fit);
     CHECK(fit_to_json(fit_from_json(json, "x.json")) == json);
@@ -86,14 +86,14 @@ TEST_CASE("fit file: what is written is read back bit for bit, of every kind") {
 
 TEST_CASE("fit file: the converter is read back bit for bit; one of another mapping is refused") {
   const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
-  for (Fit fit : {example_fit(), made_regimes::fit()}) {
+  for (Fit fit : {example_fit(), compact_fit()}) {
     const std::string unlowered = fit_to_json(fit);
     CHECK_THROWS_WITH(read(replaced(unlowered, "\"converter\"", "\"converted\"")),
                       Catch::Contains("holds no converter") && Catch::Contains("run remapc fit again"));
     add_converter(&fit);
     const std::string json = fit_to_json(fit);
     CHECK(read(json) == fit);
-    CHECK(read(json).converter->lowered.wide == fit.converter->lowered.wide);
+    CHECK(read(json).converter->form == fit.converter->form);
     Fit other = fit;
     other.domain.alpha.max *= 0.99;
     other.converter.reset();
@@ -120,15 +120,14 @@ TEST_CASE("fit file: complaints about support vectors and networks name the fiel
                     Catch::Contains("has no field \"weights\""));
 }
 
-TEST_CASE("fit file: complaints about series and regimes name the field") {
+TEST_CASE("fit file: complaints about forms and limits name the field") {
   const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
-  const std::string series = fit_to_json(series_fit()), regimes = fit_to_json(regime_fit());
-  CHECK_THROWS_WITH(read(replaced(series, "\"coefficients\"", "\"terms\"")),
-                    Catch::Contains("x.json.mapping.alpha: has no field \"coefficients\""));
-  CHECK_THROWS_WITH(read(replaced(regimes, "\"alpha_limit\": 0.9", "\"alpha_limit\": 0.0")),
-                    Catch::Contains("x.json.regimes.alpha_limit: expected a number above 0"));
-  CHECK_THROWS_WITH(read(replaced(regimes, "\"specular_limit\": 1.0", "\"specular_limit\": null")),
-                    Catch::Contains("specular_limit"));
+  const std::string compact = fit_to_json(compact_fit());
+  CHECK_THROWS_WITH(read(replaced(compact, "\"pole\": 0.3", "\"pole\": 0.0")),
+                    Catch::Contains("x.json.mapping.pole: expected a number above 0"));
+  CHECK_THROWS_WITH(read(replaced(compact, "\"specular_limit\": 1.0", "\"specular_limit\": -1.0")),
+                    Catch::Contains("x.json.mapping.specular_limit: expected a number above 0"));
+  CHECK_THROWS_WITH(read(replaced(compact, "\"limits\"", "\"limit\"")), Catch::Contains("limits"));
 }
 
 TEST_CASE("fit file: complaints name the file and the field") {
@@ -137,8 +136,8 @@ TEST_CASE("fit file: complaints name the file and the field") {
   CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: invalid JSON"));
   CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: expected "));
   CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("not a fit file"));
-  CHECK_THROWS_WITH(read(replaced(json, "\"version\": 3", "\"version\": 2")),
-                    Catch::Contains("format version 2; this program reads version 3"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"version\": 4", "\"version\": 2")),
+                    Catch::Contains("format version 2; this program reads version 4"));
   CHECK_THROWS_WITH(read(replaced(json, "\"seed\"", "\"sed\"")), "x.json.split: has no field \"seed\"");
   CHECK_THROWS_WITH(read(replaced(json, "\"a_b_to_c_d\"", "\"a b\"")),
                     Catch::StartsWith("x.json.id: expected a C++ identifier"));

@@ -34,12 +34,6 @@ Svr svr(std::size_t vectors) {
   return {expansion, expansion};
 }
 
-Series series(std::size_t rows, std::size_t columns) {
-  const TexelSeries one{
-      {0.0, 1.0}, {0.0, 1.0}, std::vector<std::vector<double>>(rows, std::vector<double>(columns, 0.01))};
-  return {one, one};
-}
-
 Mlp mlp(std::size_t layers, std::size_t units) {
   Network network{Activation::kTanh, {{}}, {{}}, {}};
   for (std::size_t i = 0, width = 1; i < layers; ++i) {
@@ -48,10 +42,6 @@ Mlp mlp(std::size_t layers, std::size_t units) {
     width = own;
   }
   return {network, network};
-}
-
-Chain chain(std::size_t steps, const RegressedKind& mapping) {
-  return {std::vector<ChainStep>(steps, ChainStep{"a", mapping})};
 }
 
 }  // namespace
@@ -66,31 +56,24 @@ TEST_CASE("limits: a fit at its limit is written and read, one beyond it is refu
   CHECK(refusal(parametric(1, 1, 65)) == "has 65 terms of specular; at most 64 are possible");
   CHECK(refusal(svr(kMostVectors)).empty());
   CHECK(refusal(svr(4097)) == "has 4097 support vectors; at most 4096 are possible");
-  CHECK(refusal(series(kMostPolynomials, kMostPolynomials)).empty());
-  CHECK(refusal(series(1, 25)) == "has 25 Chebyshev polynomials of a parameter; at most 24 are possible");
-  CHECK(refusal(series(25, 1)) == "has 25 Chebyshev polynomials of a parameter; at most 24 are possible");
   CHECK(refusal(mlp(kMostLayers, 60)).empty());
   CHECK(refusal(mlp(3000, 1)) == "has 3000 layers; at most 6 are possible");
   CHECK(refusal(mlp(3, 150)) == "has 23105 numbers in a network; at most 20000 are possible");
-  CHECK(refusal(chain(kMostSteps, parametric(1, 4, 1))).empty());
-  CHECK(refusal(chain(1000, parametric(1, 4, 1))) == "has 1000 steps; at most 8 are possible");
-  CHECK(refusal(chain(8, series(20, 20))).starts_with("has 51200 numbers, counted once for each step"));
-  CHECK(refusal(chain(1, series(25, 1))).starts_with("has 25 Chebyshev"));
+  CompactForm form;
+  form.alpha.resize(16, {1.0f});
+  CHECK(refusal(form).empty());
+  form.alpha.resize(17, {1.0f});
+  CHECK(refusal(form) == "has 17 powers of t; at most 16 are possible");
+  form.alpha = {std::vector<float>(33, 1.0f)};
+  CHECK(refusal(form) == "has 33 powers of alpha; at most 32 are possible");
 }
 
-TEST_CASE("limits: domains and regimes") {
+TEST_CASE("limits: domains") {
   Fit fit = example_fit();
   fit.domain.specular.max = kLargestDomain;
   CHECK(oversize(fit).empty());
   fit.domain.alpha.max = 1e308;
   CHECK(oversize(fit) == "has a domain to 1e+308; at most 1000 is possible");
-  fit = example_fit();
-  fit.regimes.wide = {1.0, series(1, 25).alpha};
-  CHECK(oversize(fit).starts_with("has 25 Chebyshev"));
-  fit = example_fit();
-  fit.regimes.specular_limit = 1.0;
-  fit.regimes.bright = series(25, 1).alpha;
-  CHECK(oversize(fit).starts_with("has 25 Chebyshev"));
 }
 
 TEST_CASE("limits: remarks and other lines of a fit file") {

@@ -46,7 +46,7 @@ TEST_CASE("workflow fit: a file that is wrong is refused with the place") {
   refuses("\"workflow\": \"specular\"", "\"workflow\": \"metallic\"", "expected \"specular\" on this side");
   refuses("\"glossiness\"", "\"exponent\"", "choose roughness, glossiness or alpha");
   refuses("\"a_to_b\"", "\"a to b\"", "expected a C++ identifier");
-  refuses("\"version\": 3", "\"version\": 9", "format version 9");
+  refuses("\"version\": 4", "\"version\": 9", "format version 9");
 }
 
 TEST_CASE("workflow fit: where width and specular are expected the error says what can be done") {

@@ -63,20 +63,6 @@ TEST_CASE("reach: the least error is that of the sweep, which finds it another w
   }
 }
 
-// Every pair of the hub at full length: `remap-study reach`.
-TEST_CASE("reach: shipped converters leave at most 1 % over the whole range", "[study][slow][campaign]") {
-  ReachOptions options;
-  options.materials = is_full_campaign() ? 16 : 5;
-  options.resolution = 128;
-  for (const std::string id : {"as_to_mitsuba_ward", "ggx_to_mitsuba_ward", "phong_to_mitsuba_ward"})
-    options.fits.push_back(load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_" + id + ".json"));
-  for (const FitReach& reach : study_reach(*make_builtin_renderer(), options)) {
-    INFO(options.fits[reach.fit].id << ": " << reach.worst().alpha << " " << reach.worst().specular);
-    CHECK(reach.worst().excess() < 0.01);
-    CHECK(reach.mean_excess() < 0.002);
-  }
-}
-
 TEST_CASE("reach: the report has a row for each material and the mean of all", "[study]") {
   const ReachOptions options = small_reach(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1));
   const std::vector<FitReach> result = study_reach(*make_builtin_renderer(), options);

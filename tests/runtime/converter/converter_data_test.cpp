@@ -51,9 +51,9 @@ TEST_CASE("converter data: a damaged file is refused with the place") {
     damaged.replace(damaged.find(from), from.size(), to);
     CHECK_THROWS_WITH(converters_from_json(damaged, "list"), Catch::StartsWith("list" + place));
   };
-  refused("\"version\": 1", "\"version\": 2", ".version");
+  refused("\"version\": 2", "\"version\": 3", ".version");
   refused("\"ssim\": 0", "\"ssim\": \"0\", \"of\": 0", ".converters[0].ssim");
-  refused("\"cell_count\":32", "\"cell_count\":63", ".converters[0].alpha.coefficients");
-  refused("\"cell_count\":32", "\"cell_count\":0", ".converters[0].alpha.cell_count");
+  refused("\"pole\": ", "\"pole\": -", ".converters[0].pole");
+  refused("\"turn\":", "\"turned\":", ".converters[0].hinge");
   refused("\"roughness\":\"exponent\"", "\"roughness\":\"width\"", ".converters[0].target.roughness");
 }

@@ -8,7 +8,6 @@
 
 #include "compiler/fit/made_table.hpp"
 #include "core/files.hpp"
-#include "fit/edge.hpp"
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
 #include "table/domain.hpp"
@@ -22,6 +21,8 @@ namespace {
 double paper_slope(const std::array<double, 5>& c, double a) {
   return c[0] + c[1] * std::exp(-c[2] * a) + c[3] * std::exp(-c[4] * a * a);
 }
+
+constexpr Domain kDomain{{0.02, 1.0}, {0.0, 0.9}};
 
 }  // namespace
 
@@ -56,68 +57,6 @@ TEST_CASE("parametric: flat, straight and steep slopes converge") {
        {AlphaCurve{0.7, 0.0, 0.0, 0.0, 0.0, 0.0}, AlphaCurve{0.3, 0.5, 0.0, 0.0, 0.0, 0.0},
         AlphaCurve{0.3, 40.0, 80.0, 0.0, 0.0, 0.0}, AlphaCurve{1.0, 0.0, 0.0, -150.0, 300.0, 0.0}})
     CHECK(fit_of(table_of(paper_form(curve, truth))).specular_error.max < 2e-6);
-}
-
-TEST_CASE("parametric: every form recovers the surface that a table was made from") {
-  // Terms that each form has beyond the paper's; the errors show whether they were recovered.
-  const std::vector<double> quartic = {1.04, -0.388, -0.332, 0.25};
-  const AlphaCurve slope{1.02, -0.4, 1.7, -1.1, 3.3, 0.0};
-  const AlphaCurve polar{1.02, -0.4, 1.7, -1.1, 3.3, 0.002};
-  const AlphaCurve offset{0.01, 0.002, 0.5, -0.004, 2.0, 0.0};
-  const AlphaCurve curvature{-0.1, 0.05, 1.0, 0.04, 6.0, 0.0};
-  const std::vector<double> sextic = {1.0, 0.08, -1.96, 2.7, -1.67, 0.4};
-  const std::vector<std::pair<std::string, Parametric>> truths = {
-      {"paper+pole", {{quartic}, {{1, polar}}}},
-      {"sextic/affine", {{sextic}, {{0, offset}, {1, slope}}}},
-      {"quartic/affine+pole", {{quartic}, {{0, offset}, {1, polar}}}},
-      {"quartic-s/quadratic", {{quartic, {-0.01, 0.02, 0.01}}, {{1, slope}, {2, curvature}}}},
-      {"quartic/quadratic+pole", {{quartic}, {{1, polar}, {2, curvature}}}},
-      {"sextic-s2/full",
-       {{sextic, {-0.01, 0.02, 0.01}, {0.0, 0.01, -0.02}}, {{0, offset}, {1, slope}, {2, curvature}}}},
-      {"quartic/double", {{quartic}, {{1, slope}, {1, {0.0, 0.3, 12.0, 0.4, 40.0, 0.0}}}}},
-  };
-  for (const auto& [form, truth] : truths) {
-    INFO(form);
-    const Fit fit = fit_of(table_of(truth), 1, form);
-    CHECK(fit.method.at("form") == (form == "paper+pole" ? "quartic/slope+pole" : form));
-    CHECK(fit.alpha_error.max < 1e-9);
-    // The penalty that keeps coefficients small is worth 1e-6 (specular_terms.cpp). Where a form has many
-    // curves over the same alphas, they can replace each other.
-    const bool many = truth.specular.size() > 2 || form == "quartic/double";
-    CHECK(fit.specular_error.max < (many ? 2e-4 : 5e-6));
-  }
-}
-
-TEST_CASE("parametric: a slope that is quadratic in specular beats the form of the paper") {
-  // 0.16 reflectivity^2, as three.js has it, times a slope over alpha.
-  Table table = table_of(kStraight);
-  for (TableRow& row : table.rows)
-    row.specular2 = 0.16 * row.specular1 * row.specular1 * (1.0 + 0.3 * row.alpha1) + 0.01 * row.specular1;
-  CHECK(fit_of(table, 1, "paper").specular_error.rms > 5e-3);
-  CHECK(fit_of(table, 1, "quartic/quadratic").specular_error.max < 1e-6);
-}
-
-TEST_CASE("parametric: curves that could cancel each other keep coefficients of order ten") {
-  Table table = table_of(kStraight, 0.02, 1.0, 40);
-  for (TableRow& row : table.rows)
-    row.specular2 = row.specular1 * (0.73 / (1.0 + 1.5 * row.alpha1 * row.alpha1));
-  const Fit fit = fit_of(table, 1, "quartic/double");
-  CHECK(fit.specular_error.rms < 1e-4);
-  for (const SpecularTerm& term : std::get<Parametric>(fit.mapping).specular) {
-    CHECK(std::fabs(term.factor.start) < 10.0);
-    CHECK(std::fabs(term.factor.ramp * rise(term.factor.ramp_rate, 1.0)) < 50.0);
-    CHECK(std::fabs(term.factor.bump * rise(term.factor.bump_rate, 1.0)) < 50.0);
-  }
-}
-
-TEST_CASE("parametric: for each output, the simplest form as good as the best is chosen", "[slow]") {
-  const std::vector<double> quartic = {1.04, -0.388, -0.332, 0.25};
-  const AlphaCurve slope{1.02, -0.4, 1.7, -1.1, 3.3, 0.0};
-  CHECK(fit_of(table_of(paper_form(quartic, slope)), 1, "").method.at("form") == "paper");
-  const Parametric rim{{quartic}, {{0, {0.01, 0.002, 0.5, -0.004, 2.0, 0.0}}, {1, slope}}};
-  CHECK(fit_of(table_of(rim), 1, "").method.at("form") == "quartic/affine");
-  const Parametric leaning{{quartic, {-0.01, 0.02, 0.01}}, {{1, slope}}};
-  CHECK(fit_of(table_of(leaning), 1, "").method.at("form") == "quartic-s/slope");
 }
 
 TEST_CASE("parametric: errors on unseen rows of the published table", "[needs][slow]") {
@@ -158,17 +97,6 @@ TEST_CASE("parametric: errors on unseen rows of the published table", "[needs][s
   CHECK(paper.quartic[3] == Approx(0.249).margin(0.03));
   // The authors' scripts reach 5.9e-4 with c5 / alpha, without the smallest alpha; this is with it.
   CHECK(mean_of("paper+pole", kSeeds).specular <= 6.8e-4);
-  const Mean chosen = mean_of("", 3);
-  CHECK(chosen.alpha < 2e-4);
-  CHECK(chosen.specular < 4e-4);
-}
-
-TEST_CASE("parametric: the committed table of `natural` is followed to 5e-4") {
-  const Table table =
-      read_table(std::filesystem::path(REMAP_SOURCE_DIR) / "fits/tables/mitsuba_ward_to_mitsuba_as.csv");
-  const Fit fit = fit_of(table, 1, "");
-  CHECK(fit.alpha_error.rms < 5e-4);
-  CHECK(fit.specular_error.rms < 1e-4);
 }
 
 TEST_CASE("parametric: a curve that bends inside the domain is refused with the alpha at which it does") {
@@ -182,30 +110,17 @@ TEST_CASE("parametric: a curve that bends inside the domain is refused with the 
   CHECK_NOTHROW(fit_parametric(table.rows, {{0.02, 0.45}, specular}, paper));
 }
 
-TEST_CASE(
-    "parametric: a specular that falls, and a factor that is not positive, are refused with the place") {
+TEST_CASE("parametric: a factor that is not positive is refused with the place") {
   Table table = table_of(kStraight);
-  const Domain domain = covered_domain(table.rows);
-  // The curve rises to specular 0.6 and falls beyond.
-  for (TableRow& row : table.rows) row.specular2 = row.specular1 * (1.2 - row.specular1);
-  CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("quartic/quadratic")),
-                    Catch::Contains("specular2 does not increase") && Catch::Contains("specular1 0.8999"));
   for (TableRow& row : table.rows) row.specular2 = 0.0;
-  CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("paper")),
+  CHECK_THROWS_WITH(fit_parametric(table.rows, kDomain, find_form("paper")),
                     Catch::Contains("k(alpha) is not positive"));
 }
 
 TEST_CASE("parametric: too few different samples are refused with their number") {
   Table table = table_of(kStraight, 0.02, 1.0, 5);
-  const Domain domain = covered_domain(table.rows);
-  CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("paper")),
+  CHECK_THROWS_WITH(fit_parametric(table.rows, kDomain, find_form("paper")),
                     Catch::Contains("too few distinct alpha1 (5,"));
-  table = table_of(kStraight);
-  for (TableRow& row : table.rows) row.specular1 = 0.5;
-  CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("quartic/affine")),
-                    Catch::Contains("too few distinct specular1 (1,"));
-  CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("quartic-s/slope")),
-                    Catch::Contains("too few distinct samples"));
 }
 
 TEST_CASE("parametric: unusual tables are fitted, or refused with the reason", "[slow]") {
@@ -214,11 +129,11 @@ TEST_CASE("parametric: unusual tables are fitted, or refused with the reason", "
   SECTION("duplicated rows") {
     const std::vector<TableRow> once = table.rows;
     table.rows.insert(table.rows.end(), once.begin(), once.end());
-    CHECK(fit_of(table, 1, "").specular_error.max < 1e-6);
+    CHECK(fit_of(table).specular_error.max < 1e-6);
   }
   SECTION("one specular") {
     for (TableRow& row : table.rows) row.specular2 *= 0.5 / row.specular1, row.specular1 = 0.5;
-    CHECK(fit_of(table, 1, "").method.at("form") == "paper");
+    CHECK(fit_of(table).method.at("form") == "paper");
   }
   SECTION("an outlier moves the fit by no more than its share") {
     table.rows[70].specular2 *= 1.5;
@@ -235,6 +150,6 @@ TEST_CASE("parametric: unusual tables are fitted, or refused with the reason", "
   SECTION("100000 rows") {
     table = table_of(truth, 0.02, 1.0, 16667);
     CHECK(table.rows.size() > 100000);
-    CHECK(fit_of(table, 1, "").specular_error.max < 1e-6);
+    CHECK(fit_of(table).specular_error.max < 1e-6);
   }
 }

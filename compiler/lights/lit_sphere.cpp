@@ -1,0 +1,289 @@
+#include "lights/lit_sphere.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/parallel.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_similarity.hpp"
+#include "renderer/scene.hpp"
+
+namespace remap {
+namespace {
+
+using std::numbers::pi;
+
+Direction operator*(double factor, const Direction& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
+Direction operator+(const Direction& a, const Direction& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+double dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Direction normalised(const Direction& a) { return (1.0 / std::sqrt(dot(a, a))) * a; }
+
+// A normal with two tangents.
+struct Frame {
+  Direction tangent, bitangent, normal;
+  Direction to_world(double x, double y, double z) const {
+    return x * tangent + (y * bitangent + z * normal);
+  }
+};
+
+// Returns an arbitrary frame, because lobes are isotropic. The normal of a visible point has z > 0.
+Frame frame_about(const Direction& n) {
+  const Direction tangent = normalised({n.z, 0.0, -n.x});
+  return {tangent,
+          {n.y * tangent.z - n.z * tangent.y, n.z * tangent.x - n.x * tangent.z,
+           n.x * tangent.y - n.y * tangent.x},
+          n};
+}
+
+// A pseudo-random number in [0, 1) for a key (finalizer of splitmix64, Steele et al. 2014).
+double hashed(std::uint64_t key) {
+  key += 0x9e3779b97f4a7c15u;
+  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
+  key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<double>((key ^ (key >> 31)) >> 11) * 0x1p-53;
+}
+
+double radical_inverse(std::uint32_t i) {
+  i = (i << 16) | (i >> 16);
+  i = ((i & 0x00ff00ffu) << 8) | ((i & 0xff00ff00u) >> 8);
+  i = ((i & 0x0f0f0f0fu) << 4) | ((i & 0xf0f0f0f0u) >> 4);
+  i = ((i & 0x33333333u) << 2) | ((i & 0xccccccccu) >> 2);
+  i = ((i & 0x55555555u) << 1) | ((i & 0xaaaaaaaau) >> 1);
+  return i * 0x1p-32;
+}
+
+enum Technique { kNarrowLobe, kWideLobe, kHemisphere, kTechniqueCount };
+constexpr std::array<double, kTechniqueCount> kTechniqueShare = {0.4, 0.4, 0.2};
+constexpr std::size_t kHalves = 2;
+
+// The mixture from which directions are drawn at every pixel.
+struct Mixture {
+  std::array<double, 2> alphas{};                       // of the GGX lobes
+  std::array<std::uint32_t, kTechniqueCount> counts{};  // samples of each technique in a half
+  double half_count = 0.0;                              // their sum
+
+  // The expected density of samples of one half at a direction, per steradian.
+  double density(const LocalGeometry& g) const {
+    double sum = counts[kHemisphere] / (2.0 * pi);
+    for (std::size_t lobe = 0; lobe < alphas.size(); ++lobe)
+      sum += counts[lobe] * microfacet_distribution(Brdf::kGgx, alphas[lobe], g.cos_half) *
+             smith_shadowing(Brdf::kGgx, alphas[lobe], g.cos_view) / (4.0 * g.cos_view);
+    return sum;
+  }
+};
+
+Mixture mixture_for(std::span<const SphereMaterial> materials, int samples) {
+  Mixture mixture;
+  const auto [low, high] = std::ranges::minmax_element(materials, {}, &SphereMaterial::alpha);
+  mixture.alphas = {low->alpha, high->alpha};
+  for (std::size_t t = 0; t < kTechniqueCount; ++t) {
+    mixture.counts[t] =
+        std::max(1u, static_cast<std::uint32_t>(std::lround(kTechniqueShare[t] * samples / kHalves)));
+    mixture.half_count += mixture.counts[t];
+  }
+  return mixture;
+}
+
+// Computes the geometry of a light direction for evaluate_lobe. Returns false if light or view is below the
+// horizon.
+bool is_lit(const Direction& normal, const Direction& view, const Direction& light, LocalGeometry* g) {
+  const double cos_light = dot(normal, light), cos_view = dot(normal, view), cos_between = dot(light, view);
+  if (cos_light <= 0.0 || cos_view <= 0.0 || 2.0 + 2.0 * cos_between <= 0.0) return false;
+  *g = local_geometry(cos_light, cos_view, cos_between);
+  return true;
+}
+
+// Draws the directions of one pixel.
+class PixelSampler {
+ public:
+  PixelSampler(const Mixture& mixture, const SurfacePoint& point, std::uint64_t key)
+      : mixture_(mixture),
+        frame_(frame_about({point.x, point.y, point.z})),
+        view_(normalised({-point.x, -point.y, kCameraDistance - point.z})),
+        key_(key) {}
+
+  const Direction& normal() const { return frame_.normal; }
+  const Direction& view() const { return view_; }
+
+  // Sample `i` of a technique: a Hammersley point set with a random shift for each pixel, technique and half
+  // (Cranley and Patterson 1976).
+  Direction direction(Technique technique, std::size_t half, std::uint32_t i) const {
+    const std::uint64_t key = 2 * ((key_ * kTechniqueCount + technique) * kHalves + half);
+    double u = (i + 0.5) / mixture_.counts[technique] + hashed(key);
+    double v = radical_inverse(i) + hashed(key + 1);
+    u -= std::floor(u), v -= std::floor(v);
+    const double azimuth = 2.0 * pi * v;
+    if (technique == kHemisphere) {
+      const double sine = std::sqrt(1.0 - u * u);
+      return frame_.to_world(sine * std::cos(azimuth), sine * std::sin(azimuth), u);
+    }
+    const Direction half_vector = visible_normal(mixture_.alphas[technique], u, azimuth);
+    return 2.0 * dot(view_, half_vector) * half_vector + (-1.0) * view_;
+  }
+
+ private:
+  // A visible normal of the GGX distribution, from a stretched spherical cap (Dupuy and Benyoub 2023).
+  Direction visible_normal(double alpha, double u, double azimuth) const {
+    const Direction stretched = normalised({alpha * dot(view_, frame_.tangent),
+                                            alpha * dot(view_, frame_.bitangent), dot(view_, frame_.normal)});
+    const double z = (1.0 - u) * (1.0 + stretched.z) - stretched.z;
+    const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
+    const Direction h = normalised({alpha * (sine * std::cos(azimuth) + stretched.x),
+                                    alpha * (sine * std::sin(azimuth) + stretched.y), z + stretched.z});
+    return frame_.to_world(h.x, h.y, h.z);
+  }
+
+  const Mixture& mixture_;
+  Frame frame_;
+  Direction view_;
+  std::uint64_t key_;
+};
+
+// The data that all pixels of one rendering share.
+struct Rendering {
+  const RadiancePyramid& environments;
+  std::span<const SphereMaterial> materials;
+  Mixture mixture;
+};
+
+// Radiance towards the camera for light of radiance 1 from a solid angle of 1 steradian.
+double reflected(const SphereMaterial& material, const LocalGeometry& geometry) {
+  const Lobe lobe = evaluate_lobe(material.model.brdf, material.model.fresnel, material.alpha, geometry);
+  return (lobe.base + material.specular * lobe.slope + material.diffuse / pi) * geometry.cos_light;
+}
+
+void add_lamps(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
+               SpherePictures* pictures) {
+  for (std::size_t e = 0; 3 * e < rendering.environments.channel_count(); ++e)
+    for (const Lamp& lamp : rendering.environments.lamps(e)) {
+      LocalGeometry geometry;
+      if (!is_lit(sampler.normal(), sampler.view(), lamp.direction, &geometry)) continue;
+      for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
+        const double factor = reflected(rendering.materials[m], geometry);
+        for (std::size_t half = 0; half < kHalves; ++half)
+          for (std::size_t c = 0; c < 3; ++c)
+            pictures->values(m, half, pixel)[3 * e + c] += static_cast<float>(factor * lamp.flux[c]);
+      }
+    }
+}
+
+void add_samples(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
+                 SpherePictures* pictures) {
+  std::vector<float> radiance(rendering.environments.channel_count());
+  for (std::size_t half = 0; half < kHalves; ++half)
+    for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})
+      for (std::uint32_t i = 0; i < rendering.mixture.counts[technique]; ++i) {
+        const Direction light = sampler.direction(technique, half, i);
+        LocalGeometry geometry;
+        if (!is_lit(sampler.normal(), sampler.view(), light, &geometry)) continue;
+        const double solid_angle = 1.0 / rendering.mixture.density(geometry);
+        rendering.environments.look_up(light, solid_angle / kHalves, radiance.data());
+        for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
+          const auto factor = static_cast<float>(reflected(rendering.materials[m], geometry) * solid_angle);
+          float* values = pictures->values(m, half, pixel);
+          for (std::size_t c = 0; c < radiance.size(); ++c) values[c] += factor * radiance[c];
+        }
+      }
+}
+
+}  // namespace
+
+SpherePictures::SpherePictures(std::size_t material_count, std::size_t channel_count, int resolution)
+    : material_count_(material_count), channel_count_(channel_count), resolution_(resolution) {
+  const std::vector<float> cosines = view_cosines(resolution, 1);
+  for (std::size_t i = 0; i < cosines.size(); ++i)
+    if (cosines[i] > 0.0f) pixels_.push_back(static_cast<std::uint32_t>(i));
+  values_.resize(material_count * kHalves * pixels_.size() * channel_count_);
+}
+
+// Pixels are the outermost dimension, because a thread works on one pixel at a time.
+std::size_t SpherePictures::offset(std::size_t material, std::size_t half, std::size_t pixel) const {
+  return ((pixel * kHalves + half) * material_count_ + material) * channel_count_;
+}
+
+float* SpherePictures::values(std::size_t material, std::size_t half, std::size_t pixel) {
+  return &values_[offset(material, half, pixel)];
+}
+
+std::vector<float> SpherePictures::half_radiance(std::size_t material, std::size_t environment,
+                                                 std::size_t half) const {
+  std::vector<float> picture;
+  picture.reserve(3 * pixels_.size());
+  for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel)
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.push_back(values_[offset(material, half, pixel) + 3 * environment + c]);
+  return picture;
+}
+
+std::vector<float> SpherePictures::radiance(std::size_t material, std::size_t environment) const {
+  std::vector<float> picture = half_radiance(material, environment, 0);
+  const std::vector<float> other = half_radiance(material, environment, 1);
+  for (std::size_t i = 0; i < picture.size(); ++i) picture[i] = 0.5f * (picture[i] + other[i]);
+  return picture;
+}
+
+SpherePictures render_spheres(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
+                              const SphereSampling& sampling) {
+  if (sampling.resolution < 4 || sampling.resolution > 1024)
+    throw Error(ErrorKind::kUsage,
+                "resolution: " + std::to_string(sampling.resolution) + " is out of range (4 to 1024)");
+  if (sampling.samples < 16 || sampling.samples > 1 << 20)
+    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(sampling.samples) +
+                                       " is out of range (16 to " + std::to_string(1 << 20) + ")");
+  if (materials.empty()) throw Error(ErrorKind::kUsage, "spheres: at least one material is required");
+
+  SpherePictures pictures(materials.size(), environments.channel_count(), sampling.resolution);
+  const Rendering rendering{environments, materials, mixture_for(materials, sampling.samples)};
+  const std::vector<std::uint32_t>& pixels = pictures.pixels();
+  const auto side = static_cast<std::uint32_t>(sampling.resolution);
+  run_parallel(side, sampling.jobs, [&](std::size_t row) {
+    if (sampling.cancelled != nullptr && *sampling.cancelled)
+      throw Error(ErrorKind::kInterrupted, "study: interrupted; nothing was written");
+    const auto begin = std::lower_bound(pixels.begin(), pixels.end(), row * side);
+    const auto end = std::lower_bound(pixels.begin(), pixels.end(), (row + 1) * side);
+    for (auto pixel = begin; pixel != end; ++pixel) {
+      SurfacePoint point;
+      sphere_point(sampling.resolution, *pixel % side + 0.5, static_cast<double>(row) + 0.5, &point);
+      const PixelSampler sampler(rendering.mixture, point, sampling.shares_directions ? 0 : *pixel);
+      const auto place = static_cast<std::size_t>(pixel - pixels.begin());
+      add_lamps(rendering, sampler, place, &pictures);
+      add_samples(rendering, sampler, place, &pictures);
+    }
+    if (sampling.progress) sampling.progress();
+  });
+  return pictures;
+}
+
+std::vector<float> display_values(std::span<const float> radiance) {
+  std::vector<float> values;
+  values.reserve(radiance.size());
+  for (const float value : radiance) values.push_back(display_value(static_cast<double>(value)));
+  return values;
+}
+
+DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std::uint32_t> pixels,
+                                 int resolution) {
+  const auto side = static_cast<std::size_t>(resolution);
+  DisplayedSphere sphere{std::move(colors), std::vector<float>(side * side, 0.0f)};
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    sphere.luma[pixels[i]] = static_cast<float>(luminance(&sphere.colors[3 * i]));
+  return sphere;
+}
+
+DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
+                                 int resolution) {
+  return displayed_colors(display_values(radiance), pixels, resolution);
+}
+
+double sphere_similarity(const DisplayedSphere& a, const DisplayedSphere& b,
+                         std::span<const std::uint32_t> pixels, int resolution) {
+  const std::vector<float> map = similarity_map(a.luma, b.luma, resolution, resolution);
+  double sum = 0.0;
+  for (const std::uint32_t pixel : pixels) sum += static_cast<double>(map[pixel]);
+  return sum / static_cast<double>(pixels.size());
+}
+
+}  // namespace remap

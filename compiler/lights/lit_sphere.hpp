@@ -1,0 +1,93 @@
+// Renders the sphere of the sweep scene under environments in place of a point light, and compares such
+// pictures in display values.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "lights/radiance_pyramid.hpp"
+#include "renderer/brdf.hpp"
+
+namespace remap {
+
+// A model of the built-in renderer with its parameters. Specular is linear: a scale or F0. Diffuse is the
+// reflectance of an additional Lambertian lobe.
+struct SphereMaterial {
+  BrdfModel model;
+  double alpha = 0.0;
+  double specular = 0.0;
+  double diffuse = 0.0;
+  bool operator==(const SphereMaterial&) const = default;
+};
+
+struct SphereSampling {
+  int resolution = 128;            // width and height of the pictures in pixels
+  int samples = 1024;              // light directions per pixel
+  unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
+  std::function<void()> progress;  // called for each of `resolution` pixel rows, from any thread
+  const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
+  // All pixels share their directions: a few give a smooth picture. Its error is smooth, too, and differs
+  // from pixel to pixel otherwise.
+  bool shares_directions = false;
+};
+
+// Linear RGB pictures of materials under each environment, at the pixels that show the sphere. The directions
+// are in two halves with separate results, whose difference gives the sampling error.
+class SpherePictures {
+ public:
+  SpherePictures(std::size_t material_count, std::size_t channel_count, int resolution);
+
+  int resolution() const { return resolution_; }
+  // Row-major indices of the pixels whose centers show the sphere.
+  const std::vector<std::uint32_t>& pixels() const { return pixels_; }
+
+  // Three values for each of pixels(): the mean of both halves, or one half (0 or 1).
+  std::vector<float> radiance(std::size_t material, std::size_t environment) const;
+  std::vector<float> half_radiance(std::size_t material, std::size_t environment, std::size_t half) const;
+
+  // All channels of a pixel, which is an index into pixels().
+  float* values(std::size_t material, std::size_t half, std::size_t pixel);
+
+ private:
+  std::size_t offset(std::size_t material, std::size_t half, std::size_t pixel) const;
+
+  std::size_t material_count_, channel_count_;
+  int resolution_;
+  std::vector<std::uint32_t> pixels_;
+  std::vector<float> values_;
+};
+
+// Renders `materials` under all environments. All materials share the same directions, so that the noise of
+// two materials mostly cancels in their difference. The directions are a mixture of GGX half vectors of the
+// least and the largest alpha and of a cosine lobe, weighted by the balance heuristic (Veach and Guibas
+// 1995). Radiance is averaged over the solid angle of each sample. Throws kUsage for a resolution or sample
+// count out of range, and kInterrupted.
+SpherePictures render_spheres(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
+                              const SphereSampling& sampling);
+
+// Converts linear values to display values (renderer/image_similarity.hpp).
+std::vector<float> display_values(std::span<const float> radiance);
+
+// A picture in display values. The shape may be another than the sphere.
+struct DisplayedSphere {
+  std::vector<float> colors;  // RGB of the pixels that show the sphere
+  std::vector<float> luma;    // of the whole picture, row-major; 0 outside the sphere
+};
+
+// `radiance`: linear RGB of `pixels`, which are row-major indices into a picture of `resolution` x
+// `resolution`.
+DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
+                                 int resolution);
+
+// The same for `colors` in display values.
+DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std::uint32_t> pixels,
+                                 int resolution);
+
+// The mean structural similarity of luma over the pixels of the sphere; 1 for equal pictures.
+double sphere_similarity(const DisplayedSphere& a, const DisplayedSphere& b,
+                         std::span<const std::uint32_t> pixels, int resolution);
+
+}  // namespace remap

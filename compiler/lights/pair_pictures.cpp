@@ -1,0 +1,246 @@
+#include "lights/pair_pictures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "lights/display_curve.hpp"
+#include "lights/lobe_pictures.hpp"
+#include "renderer/brdf.hpp"
+#include "renderer/renderer.hpp"
+
+namespace remap {
+namespace {
+
+constexpr int kResolution = 32, kSamples = 256, kMapHeight = 64;
+constexpr std::size_t kWidthCount = 40;
+constexpr Range kWidths{0.01, 1.0};
+constexpr double kLeastWidth = 0.05;  // narrower highlights are smaller than a pixel
+constexpr std::array kChoosingSpeculars = {0.04, 0.2, 0.6, 1.0}, kJudgingSpeculars = {0.1, 0.3, 0.5, 0.9};
+// Of a per cent of the error under point lights, where one under environments counts 1: so that forms are no
+// worse than regressions of the rows in either, by the lights that choose (docs/decisions/079-one-form.md).
+constexpr double kPointWeight = 0.5;
+constexpr double kWidthStep = 0.04;  // of differences, relative
+
+// Turned about the vertical axis by a share of a circle.
+Environment turned(const Environment& environment, double share) {
+  Environment result = environment;
+  const Image& map = environment.map;
+  const auto width = static_cast<std::size_t>(map.width), channels = static_cast<std::size_t>(map.channels);
+  const auto shift = static_cast<std::size_t>(share * static_cast<double>(width));
+  for (std::size_t y = 0; y < static_cast<std::size_t>(map.height); ++y)
+    for (std::size_t x = 0; x < width; ++x)
+      for (std::size_t c = 0; c < channels; ++c)
+        result.map.values[(y * width + (x + shift) % width) * channels + c] =
+            map.values[(y * width + x) * channels + c];
+  return result;
+}
+
+// Pictures of all models that were asked for under the lights of one half.
+class Half {
+ public:
+  Half(std::vector<Environment> environments, const std::vector<double>& angles, unsigned jobs)
+      : lights_(std::move(environments), {kResolution, kSamples, jobs, {}, nullptr}, angles) {}
+
+  const StudyLights& lights() const { return lights_; }
+  const LobePictures& of(const std::string& model) {
+    const std::lock_guard lock(mutex_);
+    std::unique_ptr<LobePictures>& pictures = pictures_[model];
+    if (!pictures) pictures = std::make_unique<LobePictures>(lights_, model, widths_of(model));
+    return *pictures;
+  }
+  // Of equal ratios, within the range of the model.
+  static std::vector<double> widths_of(const std::string& model) {
+    static const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
+    const Range range = renderer->model(model).alpha;
+    const double low = std::max(kWidths.min, range.min), high = std::min(kWidths.max, range.max);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < kWidthCount; ++i)
+      values.push_back(std::min(
+          high, low * std::pow(high / low, static_cast<double>(i) / static_cast<double>(kWidthCount - 1))));
+    return values;
+  }
+
+ private:
+  StudyLights lights_;
+  std::mutex mutex_;
+  std::map<std::string, std::unique_ptr<LobePictures>> pictures_;
+};
+
+struct Halves {
+  explicit Halves(unsigned jobs)
+      : choosing({sky(), studio()}, {35.0, 65.0}, jobs),
+        judging({overcast(), turned(sky(), 0.4), turned(studio(), 0.3)}, {60.0}, jobs) {}
+  static Environment sky() { return builtin_environments(kMapHeight)[0]; }
+  static Environment overcast() { return builtin_environments(kMapHeight)[1]; }
+  static Environment studio() { return builtin_environments(kMapHeight)[2]; }
+
+  Half choosing, judging;
+};
+
+Halves& halves(unsigned jobs) {
+  static Halves both(jobs);
+  return both;
+}
+
+using Picture = std::vector<float>;
+
+// A material of the source under each light: display values under environments, linear ones under points.
+struct Shown {
+  MappedTexel source;
+  std::vector<Picture> pictures;
+  std::vector<double> power;  // of the linear ones: their sum of squares
+};
+
+class Judge {
+ public:
+  Judge(const StudyLights& lights, const LobePictures& source, const LobePictures& target,
+        const std::vector<MappedTexel>& materials)
+      : lights_(lights), target_(target) {
+    for (const MappedTexel& material : materials) {
+      Shown& shown = shown_.emplace_back();
+      shown.source = material;
+      for (std::size_t light = 0; light < lights.count(); ++light) {
+        Picture picture = picture_of(source, light, material);
+        double power = 0.0;
+        for (const float value : picture) power += static_cast<double>(value) * static_cast<double>(value);
+        shown.power.push_back(power);
+        if (light < lights.environment_count()) picture = display_values(picture);
+        shown.pictures.push_back(std::move(picture));
+      }
+    }
+  }
+
+  const std::vector<Shown>& shown() const { return shown_; }
+
+  // The error under a light, in percent or relative, with its slopes where `error` is not null.
+  double error_under(std::size_t light, const Shown& shown, const MappedTexel& texel, double unit,
+                     TexelError* sum) const {
+    const bool is_environment = light < lights_.environment_count();
+    const Picture here = picture_of(target_, light, texel);
+    Picture wide, narrow, brighter;
+    const double step = kWidthStep * texel.alpha, more = 0.05;
+    if (sum != nullptr) {
+      wide = picture_of(target_, light, {texel.alpha + step, texel.specular});
+      narrow = picture_of(target_, light, {texel.alpha - step, texel.specular});
+      brighter = picture_of(target_, light, {texel.alpha, texel.specular + more});
+    }
+    const DisplayCurve& curve = display_curve();
+    double square = 0.0, by_alpha = 0.0, by_specular = 0.0, alpha_2 = 0.0, both = 0.0, specular_2 = 0.0;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      const auto [value, slope] = is_environment ? curve(here[i]) : std::pair(here[i], 1.0f);
+      const auto off = static_cast<double>(value - shown.pictures[light][i]);
+      square += off * off;
+      if (sum == nullptr) continue;
+      const double a = static_cast<double>(slope) * static_cast<double>(wide[i] - narrow[i]) / (2.0 * step);
+      const double s = static_cast<double>(slope) * static_cast<double>(brighter[i] - here[i]) / more;
+      by_alpha += off * a;
+      by_specular += off * s;
+      alpha_2 += a * a;
+      both += a * s;
+      specular_2 += s * s;
+    }
+    // The root of a mean of squares; its slope is that of the squares over twice itself.
+    const double count =
+        is_environment ? static_cast<double>(here.size()) / 1e4 : std::max(shown.power[light], 1e-12);
+    const double error = std::sqrt(square / count);
+    if (sum == nullptr) return error;
+    const double scale = unit / (count * std::max(error, 1e-6));
+    sum->value += unit * error;
+    sum->by_alpha += scale * by_alpha;
+    sum->by_specular += scale * by_specular;
+    sum->by_alpha_2 += scale * alpha_2;
+    sum->by_both += scale * both;
+    sum->by_specular_2 += scale * specular_2;
+    return error;
+  }
+
+  std::size_t environments() const { return lights_.environment_count(); }
+  std::size_t lights() const { return lights_.count(); }
+
+ private:
+  Picture picture_of(const LobePictures& model, std::size_t light, const MappedTexel& texel) const {
+    Picture picture(3 * lights_.pixels().size(), 0.0f);
+    model.add(light, texel.alpha, {texel.specular, texel.specular, texel.specular}, false, picture);
+    return picture;
+  }
+
+  const StudyLights& lights_;
+  const LobePictures& target_;
+  std::vector<Shown> shown_;
+};
+
+// Every other width, and speculars of its own, for each half.
+template <typename Speculars>
+std::vector<MappedTexel> materials(const std::string& source, const Domain& domain, bool is_choosing,
+                                   const Speculars& speculars) {
+  std::vector<MappedTexel> all;
+  const std::vector<double> widths = Half::widths_of(source);
+  for (std::size_t i = is_choosing ? 0 : 1; i < widths.size(); i += 2)
+    for (const double specular : speculars)
+      if (widths[i] >= kLeastWidth && domain.alpha.contains(widths[i]))
+        all.push_back({widths[i], specular * domain.specular.max});
+  return all;
+}
+
+class BuiltinPair final : public PairPictures {
+ public:
+  BuiltinPair(const std::string& source, const std::string& target, const Domain& domain, unsigned jobs)
+      : choosing_(halves(jobs).choosing.lights(), halves(jobs).choosing.of(source),
+                  halves(jobs).choosing.of(target), materials(source, domain, true, kChoosingSpeculars)),
+        judging_(halves(jobs).judging.lights(), halves(jobs).judging.of(source),
+                 halves(jobs).judging.of(target), materials(source, domain, false, kJudgingSpeculars)) {
+    for (const Shown& shown : choosing_.shown()) sources_.push_back(shown.source);
+  }
+
+  const std::vector<MappedTexel>& sources() const override { return sources_; }
+
+  TexelErrors choosing_errors(const PictureErrors& unit_errors) const override {
+    return [this, unit_errors](const std::vector<MappedTexel>& targets) {
+      std::vector<TexelError> errors(targets.size());
+      const auto environments = static_cast<double>(choosing_.environments());
+      const double points = static_cast<double>(choosing_.lights()) - environments;
+      for (std::size_t m = 0; m < targets.size(); ++m)
+        for (std::size_t light = 0; light < choosing_.lights(); ++light) {
+          const double unit = light < choosing_.environments()
+                                  ? 1.0 / (unit_errors.rmse * environments)
+                                  : kPointWeight / (unit_errors.relative * points);
+          choosing_.error_under(light, choosing_.shown()[m], targets[m], unit, &errors[m]);
+        }
+      return errors;
+    };
+  }
+
+  PictureErrors chosen(const TexelMap& map) const override { return means(choosing_, map); }
+  PictureErrors judged(const TexelMap& map) const override { return means(judging_, map); }
+
+ private:
+  static PictureErrors means(const Judge& judge, const TexelMap& map) {
+    PictureErrors errors;
+    for (const Shown& shown : judge.shown()) {
+      const MappedTexel target = map(shown.source.alpha, shown.source.specular);
+      for (std::size_t light = 0; light < judge.lights(); ++light)
+        (light < judge.environments() ? errors.rmse : errors.relative) +=
+            judge.error_under(light, shown, target, 0.0, nullptr);
+    }
+    const auto count = static_cast<double>(judge.shown().size());
+    errors.rmse /= count * static_cast<double>(judge.environments());
+    errors.relative /= count * static_cast<double>(judge.lights() - judge.environments());
+    return errors;
+  }
+
+  Judge choosing_, judging_;
+  std::vector<MappedTexel> sources_;
+};
+
+}  // namespace
+
+std::unique_ptr<PairPictures> pair_pictures(const std::string& source, const std::string& target,
+                                            const Domain& domain, unsigned jobs) {
+  if (!is_linear_lobe(source) || !is_linear_lobe(target)) return nullptr;
+  return std::make_unique<BuiltinPair>(source, target, domain, jobs);
+}
+
+}  // namespace remap

@@ -1,0 +1,51 @@
+// Environments prepared for lookups over cones of directions: a pyramid of grids, each half as large as the
+// one before.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "lights/environment.hpp"
+
+namespace remap {
+
+// A bright spot of an environment that is small enough to be treated as one direction.
+struct Lamp {
+  Direction direction;
+  Rgb flux{};  // radiance times solid angle
+};
+
+// Filtered importance sampling (Krivanek and Colbert 2008): a sample that represents a solid angle reads the
+// average radiance over about that solid angle. The channels of all environments are adjacent, because every
+// sample reads all of them.
+class RadiancePyramid {
+ public:
+  // Resamples maps of any size to `height` rows and twice as many columns; each texel is the mean over its
+  // directions. `height`: a power of two, at least 8.
+  explicit RadiancePyramid(std::span<const Environment> environments, int height = 256);
+
+  // Three for each environment, in their order.
+  std::size_t channel_count() const { return channel_count_; }
+
+  // At most 128 spots of 1.4 degrees (for 256 rows), with their radiance above four times the mean of the
+  // map.
+  const std::vector<Lamp>& lamps(std::size_t environment) const { return lamps_[environment]; }
+
+  // Writes the radiance without lamps from `direction`, averaged over about `solid_angle` (steradian, > 0),
+  // to `radiance`, one float per channel. Interpolation is trilinear and exact for constant environments.
+  void look_up(const Direction& direction, double solid_angle, float* radiance) const;
+
+ private:
+  struct Level {
+    int width = 0, height = 0;
+    std::vector<float> texels;  // row-major, channel_count_ values each
+  };
+  void add_bilinear(const Level& level, const MapPosition& position, float share, float* radiance) const;
+
+  std::size_t channel_count_;
+  std::vector<Level> levels_;  // from fine to coarse
+  std::vector<std::vector<Lamp>> lamps_;
+};
+
+}  // namespace remap

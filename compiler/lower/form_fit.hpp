@@ -1,0 +1,66 @@
+// Finds the numbers of a compact form: by rows, or by any errors that depend on what the form gives for rows.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "converter/compact_form.hpp"
+#include "lower/fit.hpp"
+
+namespace remap {
+
+// What a source texel becomes, and whether the target is at a limit there.
+struct FormSample {
+  MappedTexel source, target;
+  bool alpha_at_limit = false, specular_at_limit = false;
+};
+
+// The terms t^j alpha^i of both factors with j < powers and i < terms - j. Without powers above 1, t does not
+// count.
+struct FormShape {
+  std::size_t powers = 1, terms = 1;
+  bool operator==(const FormShape&) const = default;
+};
+
+// From few numbers on. Factors of alpha alone serve lobes without Fresnel, whose scale is a power of alpha.
+std::vector<FormShape> form_shapes();
+std::size_t term_count(const FormShape& shape);  // of each factor
+std::string shape_name(const FormShape& shape);
+bool is_within(const CompactForm& form, const FormShape& shape);
+CompactForm padded(CompactForm form, const FormShape& shape);  // with terms that are 0
+
+// The numbers of a form in a row, as a search changes them: the pole as its logarithm, P, Q, and the hinge
+// where there are limits.
+std::vector<double> numbers_of(const CompactForm& form);
+CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers);
+
+// The form of least squares of relative errors (error_weight of table/regression.hpp) on the samples. Throws
+// kNumeric where the samples do not determine it. Limits are part of the form where samples are at one.
+// The best of the `sound` forms within the shape is another start, where the first is not sound or limits
+// make it depend on the start.
+CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
+                     const FormShape& shape, const std::vector<CompactForm>& sound = {});
+
+// What a search minimises: for each texel, the gradient and the curvature (an approximation of it that has no
+// negative eigenvalue) of its error by target alpha and target specular.
+struct TexelError {
+  double value = 0.0;
+  double by_alpha = 0.0, by_specular = 0.0;
+  double by_alpha_2 = 0.0, by_both = 0.0, by_specular_2 = 0.0;
+};
+using TexelErrors = std::function<std::vector<TexelError>(const std::vector<MappedTexel>& targets)>;
+
+// Gauss and Newton's method over all numbers at once, damped (Levenberg 1944), from each start: the sum of
+// the errors never rises. The best result, a sound one where there is one.
+CompactForm refined_form(const std::vector<CompactForm>& starts, const Domain& domain,
+                         const std::vector<MappedTexel>& sources, const TexelErrors& errors, int iterations);
+
+// Whether P and Q are positive and finite over the domain, the hinge leaves a width, and below the limits
+// target alpha never falls where source alpha rises, nor target specular where source specular does: on a
+// dense grid.
+bool is_sound(const CompactForm& form, const Domain& domain);
+
+// The form, held at those limits that it passes somewhere in the domain.
+CompactForm within_limits(CompactForm form, const Domain& domain, const Limits& limits);
+
+}  // namespace remap

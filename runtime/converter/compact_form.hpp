@@ -1,0 +1,69 @@
+// The form of every converter of width and specular: two factors of few terms, and a hinge where the target
+// model is at a limit.
+//
+//   t  = s / (s + pole)                          s: source specular, a: source alpha
+//   A  = a P(a, t of the largest channel)        P, Q: sums of products t^j a^i
+//   u  = s Q(a, t)                               for each channel
+//   x  = max(0, largest u / specular limit - 1)
+//   a2 = min(alpha limit,    A + a (turn + turn_by_alpha a) x / (1 + bend x))
+//   s2 = min(specular limit, u (1 + spread max(0, A / alpha limit - 1)))
+//
+// The factors of a texel beyond the domain are those of the nearest texel in it, so that 0 stays 0 and both
+// parameters go on in proportion. Source widths wider than the domain are clamped to its end.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "remap/model.hpp"
+
+namespace remap {
+
+// The most powers of t and of alpha, 0 included.
+inline constexpr std::size_t kMostPowersOfT = 16, kMostPowersOfAlpha = 32;
+
+// [power of t][power of alpha]; at least one row, no empty row.
+using FactorTerms = std::vector<std::vector<float>>;
+
+struct Hinge {
+  float turn = 0.0f, turn_by_alpha = 0.0f;  // of alpha, where specular is cut off,
+  float bend = 0.0f;                        // at least 0: less and less the more is cut off
+  float spread = 0.0f;                      // of specular, where alpha is cut off
+  bool operator==(const Hinge&) const = default;
+};
+
+struct CompactForm {
+  float pole = 1.0f;  // above 0
+  FactorTerms alpha = {{1.0f}}, specular = {{1.0f}};
+  std::optional<float> alpha_limit, specular_limit;  // of the target, above 0; none where they do not bind
+  Hinge hinge;                                       // 0 without limits
+  bool operator==(const CompactForm&) const = default;
+};
+
+// The numbers of P, Q, the pole and the hinge; limits are those of the target model.
+std::size_t number_count(const CompactForm& form);
+
+// The value of a factor. `Scalar` is double, or anything that adds and multiplies with doubles.
+template <typename Scalar>
+Scalar factor_value(const FactorTerms& terms, const Scalar& alpha, const Scalar& t) {
+  Scalar sum = alpha * 0.0;
+  for (std::size_t j = terms.size(); j-- > 0;) {
+    Scalar row = alpha * 0.0;
+    for (std::size_t i = terms[j].size(); i-- > 0;) row = row * alpha + static_cast<double>(terms[j][i]);
+    sum = sum * t + row;
+  }
+  return sum;
+}
+
+// The ends between which a form is evaluated, as floats.
+struct FormEnds {
+  float width_min = 0.0f, width_max = 0.0f;  // the domain, in the source's own width parameter
+  float width_from = 0.0f, width_to = 0.0f;  // to which widths are clamped: to perfectly sharp on one side
+  float alpha_min = 0.0f;                    // the sharpest source in the domain
+  float least_alpha = 0.0f;                  // of the target: exponents end somewhere
+};
+// `width`: the domain.
+FormEnds ends_of(RoughnessConvention source, RoughnessConvention target, const Range& width);
+
+}  // namespace remap
