@@ -60,8 +60,7 @@ std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samp
   return all;
 }
 
-// The best of the `starts`, refined by the pictures and by rows. `unit`: what
-// the rows leave of both errors.
+// The best of the `starts`, refined by the pictures and by rows. `unit`: what the rows leave of both errors.
 CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain,
                     const PairPictures& pictures, const PictureErrors& unit,
                     const std::vector<FormSample>& samples) {
@@ -73,16 +72,8 @@ CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain
   const TexelErrors errors = [&](const std::vector<MappedTexel>& targets) {
     std::vector<TexelError> all =
         by_pictures({targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(shown)});
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const MappedTexel &wanted = rows[r].sample.target, &found = targets[shown + r];
-      const double weight = rows[r].weight;
-      const double a = error_weight(wanted.alpha), s = error_weight(wanted.specular);
-      const double off_alpha = a * (found.alpha - wanted.alpha),
-                   off_specular = s * (found.specular - wanted.specular);
-      all.push_back({weight * (off_alpha * off_alpha + off_specular * off_specular),
-                     2.0 * weight * a * off_alpha, 2.0 * weight * s * off_specular, 2.0 * weight * a * a, 0.0,
-                     2.0 * weight * s * s});
-    }
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      all.push_back(row_error(targets[shown + r], rows[r].sample.target, rows[r].weight));
     return all;
   };
   return refined_form(starts, domain, sources, errors, kIterations);
@@ -243,9 +234,10 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
       sound.push_back(form);
       if (pictures != nullptr) {
         std::vector<CompactForm> starts = {form};
-        for (const CompactForm& smaller : by_pictures)
-          if (is_within(smaller, shape)) starts.push_back(padded(smaller, shape));
-        if (starts.size() > 2) starts = {form, starts.back()};
+        const auto smaller =
+            std::find_if(by_pictures.rbegin(), by_pictures.rend(),
+                         [&](const CompactForm& refined_before) { return is_within(refined_before, shape); });
+        if (smaller != by_pictures.rend()) starts.push_back(padded(*smaller, shape));
         form = refined(starts, base.domain, *pictures, unit, samples);
         by_pictures.push_back(form);
       }

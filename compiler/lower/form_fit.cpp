@@ -210,18 +210,7 @@ std::pair<CompactForm, double> refined_from(const CompactForm& start, const Doma
 std::vector<TexelError> row_errors(const std::vector<FormSample>& samples,
                                    const std::vector<MappedTexel>& targets) {
   std::vector<TexelError> errors(targets.size());
-  for (std::size_t r = 0; r < targets.size(); ++r) {
-    const MappedTexel& wanted = samples[r].target;
-    const double a = weight_of(wanted.alpha), s = weight_of(wanted.specular);
-    const double off_alpha = targets[r].alpha - wanted.alpha,
-                 off_specular = targets[r].specular - wanted.specular;
-    errors[r] = {a * a * off_alpha * off_alpha + s * s * off_specular * off_specular,
-                 2.0 * a * a * off_alpha,
-                 2.0 * s * s * off_specular,
-                 2.0 * a * a,
-                 0.0,
-                 2.0 * s * s};
-  }
+  for (std::size_t r = 0; r < targets.size(); ++r) errors[r] = row_error(targets[r], samples[r].target, 1.0);
   return errors;
 }
 
@@ -240,11 +229,12 @@ CompactForm refined_by_rows(const std::vector<CompactForm>& starts, const Domain
 // The form within the shape that follows the samples best; null if there is none.
 const CompactForm* best_within(const std::vector<CompactForm>& forms, const FormShape& shape,
                                const Domain& domain, const std::vector<FormSample>& samples) {
+  const std::vector<MappedTexel> sources = sources_of(samples);
   const CompactForm* best = nullptr;
   double least = INFINITY;
   for (const CompactForm& form : forms) {
     if (!is_within(form, shape)) continue;
-    const double error = sum_of(row_errors(samples, targets_of(form, domain, sources_of(samples))));
+    const double error = sum_of(row_errors(samples, targets_of(form, domain, sources)));
     if (error < least) {
       least = error;
       best = &form;
@@ -276,6 +266,18 @@ CompactForm padded(CompactForm form, const FormShape& shape) {
       (*factor)[j].resize(std::max((*factor)[j].size(), shape.terms - j), 0.0f);
   }
   return form;
+}
+
+TexelError row_error(const MappedTexel& found, const MappedTexel& wanted, double weight) {
+  const double a = weight_of(wanted.alpha), s = weight_of(wanted.specular);
+  const double off_alpha = a * (found.alpha - wanted.alpha),
+               off_specular = s * (found.specular - wanted.specular);
+  return {weight * (off_alpha * off_alpha + off_specular * off_specular),
+          2.0 * weight * a * off_alpha,
+          2.0 * weight * s * off_specular,
+          2.0 * weight * a * a,
+          0.0,
+          2.0 * weight * s * s};
 }
 
 std::size_t term_count(const FormShape& shape) { return products(shape).size(); }

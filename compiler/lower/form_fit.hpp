@@ -48,6 +48,8 @@ struct TexelError {
   double by_alpha = 0.0, by_specular = 0.0;
   double by_alpha_2 = 0.0, by_both = 0.0, by_specular_2 = 0.0;
 };
+// `weight` times the squared relative errors of `found` against the target of a row.
+TexelError row_error(const MappedTexel& found, const MappedTexel& wanted, double weight);
 using TexelErrors = std::function<std::vector<TexelError>(const std::vector<MappedTexel>& targets)>;
 
 // Gauss and Newton's method over all numbers at once, damped (Levenberg 1944), from each start: the sum of
