@@ -583,10 +583,10 @@ struct gltf_specgloss_to_gltf {
   // Converts `count` texels. Output may be exactly elements of input. Texels do not see each other: any split gives the same
   // bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend on it NaN. Returns the number of texels
   // that had such values.
-  template <class T = float>
-  static std::size_t evaluate_batch(std::size_t count, const InputTexels<const T>& in,
-                                    const OutputTexels<T>& out) noexcept {
-    return gltf_specgloss_to_gltf_detail::convert_texels<7, 5, T>(
+  template <class In = const float, class Out = std::remove_const_t<In>>
+  static std::size_t evaluate_batch(std::size_t count, const InputTexels<In>& in,
+                                    const OutputTexels<Out>& out) noexcept {
+    return gltf_specgloss_to_gltf_detail::convert_texels<7, 5, Out>(
         count, {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width}, {in.diffuse_stride, in.diffuse_stride, in.diffuse_stride, in.specular_stride, in.specular_stride, in.specular_stride, in.width_stride},
         {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width}, {out.base_color_stride, out.base_color_stride, out.base_color_stride, out.metallic_stride, out.width_stride}, gltf_specgloss_to_gltf_detail::evaluate_rows);
   }

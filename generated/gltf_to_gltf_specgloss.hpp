@@ -324,10 +324,10 @@ struct gltf_to_gltf_specgloss {
   // Converts `count` texels. Output may be exactly elements of input. Texels do not see each other: any split gives the same
   // bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend on it NaN. Returns the number of texels
   // that had such values.
-  template <class T = float>
-  static std::size_t evaluate_batch(std::size_t count, const InputTexels<const T>& in,
-                                    const OutputTexels<T>& out) noexcept {
-    return gltf_to_gltf_specgloss_detail::convert_texels<5, 7, T>(
+  template <class In = const float, class Out = std::remove_const_t<In>>
+  static std::size_t evaluate_batch(std::size_t count, const InputTexels<In>& in,
+                                    const OutputTexels<Out>& out) noexcept {
+    return gltf_to_gltf_specgloss_detail::convert_texels<5, 7, Out>(
         count, {in.base_color[0], in.base_color[1], in.base_color[2], in.metallic, in.width}, {in.base_color_stride, in.base_color_stride, in.base_color_stride, in.metallic_stride, in.width_stride},
         {out.diffuse[0], out.diffuse[1], out.diffuse[2], out.specular[0], out.specular[1], out.specular[2], out.width}, {out.diffuse_stride, out.diffuse_stride, out.diffuse_stride, out.specular_stride, out.specular_stride, out.specular_stride, out.width_stride}, gltf_to_gltf_specgloss_detail::evaluate_rows);
   }

@@ -185,9 +185,9 @@ struct mitsuba_beckmann_to_cycles_5_beckmann {
   }
 
   // The same bits of `count` texels. Output may be exactly the elements of input. Returns how many were out of domain.
-  template <std::size_t Channels = 3, class T = float>
-  static std::size_t evaluate_batch(std::size_t count, const Texels<const T, Channels>& in,
-                                    const Texels<T, Channels>& out) noexcept {
+  template <std::size_t Channels = 3, class In = const float, class Out = std::remove_const_t<In>>
+  static std::size_t evaluate_batch(std::size_t count, const Texels<In, Channels>& in,
+                                    const Texels<Out, Channels>& out) noexcept {
     float widths[kBlock], channels[Channels][kBlock];
     std::array<const float*, Channels> from{};
     std::array<float*, Channels> to{};

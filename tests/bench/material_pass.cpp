@@ -17,8 +17,8 @@ std::size_t BENCH_NAME(std::size_t count, const float* const* in, float* const* 
   using converter = BENCH_NAMESPACE::BENCH_HEADER;
   converter::InputTexels<const float> from{};  // pointers, then strides of 1
   converter::OutputTexels<> to{};
-  std::memcpy(&from, in, sizeof(converter::Input) / sizeof(float) * sizeof(float*));
-  std::memcpy(&to, out, sizeof(converter::Output) / sizeof(float) * sizeof(float*));
+  std::memcpy(static_cast<void*>(&from), in, sizeof(converter::Input) / sizeof(float) * sizeof(float*));
+  std::memcpy(static_cast<void*>(&to), out, sizeof(converter::Output) / sizeof(float) * sizeof(float*));
   return converter::evaluate_batch(count, from, to);
 }
 

@@ -58,7 +58,7 @@ std::size_t rows(std::size_t count, const float* width, const std::array<const f
 
 template <class Header, class T>
 std::size_t texels(std::size_t count, const Buffers<T>& in, const Buffers<T>& out) {
-  return Header::template evaluate_batch<3, T>(
+  return Header::template evaluate_batch<3, const T>(
       count, {in.width, {in.red, in.red + 1, in.red + 2}, in.width_stride, in.stride},
       {out.width, {out.red, out.red + 1, out.red + 2}, out.width_stride, out.stride});
 }

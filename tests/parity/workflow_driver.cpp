@@ -34,7 +34,7 @@ Struct made_of(const Element* elements) {
 template <class Texels, std::size_t Rows, class Pointer>
 Texels rows_of(const Pointer* rows) {
   Texels made{};
-  std::memcpy(&made, rows, Rows * sizeof *rows);
+  std::memcpy(static_cast<void*>(&made), rows, Rows * sizeof *rows);
   return made;
 }
 
@@ -44,7 +44,7 @@ void place(T* color, T* rest, Texels* texels) {
   T* pointers[Rows];
   std::size_t strides[3] = {3, 4, 4};
   for (std::size_t r = 0; r < Rows; ++r) pointers[r] = r < 3 ? color + r : rest + (r - 3);
-  std::memcpy(texels, pointers, sizeof pointers);
+  std::memcpy(static_cast<void*>(texels), pointers, sizeof pointers);
   std::memcpy(reinterpret_cast<char*>(texels) + sizeof pointers, strides, sizeof strides);
 }
 
