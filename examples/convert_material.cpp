@@ -6,12 +6,11 @@
 
 int main() {
   using ward_to_as = remap::mitsuba_ward_to_mitsuba_as;
-  const float alpha = 0.2f;
-  const std::array<float, 3> copper = {0.72f, 0.48f, 0.36f};  // linear red, green, blue
+  const ward_to_as::Texel<3> copper{0.2f, {0.72f, 0.48f, 0.36f}};  // alpha; linear red, green, blue
 
-  const auto as = ward_to_as::evaluate(alpha, copper);
-  std::printf("%s: alpha %.7g, specular %.7g %.7g %.7g\n", ward_to_as::kSourceModel, double{alpha},
-              double{copper[0]}, double{copper[1]}, double{copper[2]});
+  const auto as = ward_to_as::evaluate(copper);
+  std::printf("%s: alpha %.7g, specular %.7g %.7g %.7g\n", ward_to_as::kSourceModel, double{copper.width},
+              double{copper.specular[0]}, double{copper.specular[1]}, double{copper.specular[2]});
   std::printf("%s: alpha %.7g, f0 %.7g %.7g %.7g\n", ward_to_as::kTargetModel, double{as.width},
               double{as.specular[0]}, double{as.specular[1]}, double{as.specular[2]});
 }

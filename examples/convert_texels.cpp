@@ -21,8 +21,8 @@ class Byte {
 
 template <class Converter, class T, std::size_t Count>
 void convert(T (&rgba)[Count]) {
-  const std::size_t outside = Converter::template evaluate_texels<T>(Count / 4, {{rgba + 3, 4}, {rgba, 4}},
-                                                                     {{rgba + 3, 4}, {rgba, 4}});
+  const std::size_t outside = Converter::template evaluate_batch<3, T>(
+      Count / 4, {rgba + 3, {rgba, rgba + 1, rgba + 2}, 4, 4}, {rgba + 3, {rgba, rgba + 1, rgba + 2}, 4, 4});
   std::printf("%s: %s %.3f, %s %.3f %.3f %.3f; %zu out of domain\n", Converter::kTargetModel,
               Converter::kTargetWidth, double{static_cast<float>(rgba[3])}, Converter::kTargetSpecular,
               double{static_cast<float>(rgba[0])}, double{static_cast<float>(rgba[1])},

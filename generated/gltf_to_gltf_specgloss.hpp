@@ -16,14 +16,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
+namespace remap {
 #if defined(__clang__)  // silences the warning about loops that cannot be vectorised
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wpass-failed"
 #endif
-
-namespace remap {
 namespace gltf_to_gltf_specgloss_detail {
 
 namespace detail = gltf_to_gltf_specgloss_detail;
@@ -242,21 +242,20 @@ inline std::size_t evaluate_rows(std::size_t count, const std::array<const float
   });
 }
 
-template <class T>
-struct Strided {
-  T* first;
-  std::size_t stride;
-
-  Strided operator[](std::size_t channel) const noexcept { return {first + channel, stride}; }
-};
-
-// Texels whose channels become planar rows together.
+// Texels that become rows together.
 inline constexpr std::size_t kTexels = 128;
 
-// Texels anywhere by `convert`, which takes planar rows and returns how many were outside.
+// Texels anywhere by `convert`, which takes rows and returns how many were outside.
 template <std::size_t kIn, std::size_t kOut, class T, class Convert>
-inline std::size_t convert_texels(std::size_t count, const std::array<Strided<const T>, kIn>& in,
-                                  const std::array<Strided<T>, kOut>& out, const Convert& convert) noexcept {
+inline std::size_t convert_texels(std::size_t count, const std::array<const T*, kIn>& in,
+                                  const std::array<std::size_t, kIn>& in_strides, const std::array<T*, kOut>& out,
+                                  const std::array<std::size_t, kOut>& out_strides, const Convert& convert) noexcept {
+  if constexpr (std::is_same_v<T, float>) {
+    bool are_rows = true;
+    for (const std::size_t stride : in_strides) are_rows = are_rows && stride == 1;
+    for (const std::size_t stride : out_strides) are_rows = are_rows && stride == 1;
+    if (are_rows) return convert(count, in, out);
+  }
   float rows[kIn < kOut ? kOut : kIn][kTexels];
   std::array<const float*, kIn> from{};
   std::array<float*, kOut> to{};
@@ -266,23 +265,25 @@ inline std::size_t convert_texels(std::size_t count, const std::array<Strided<co
   for (std::size_t start = 0; start < count; start += kTexels) {
     const std::size_t size = count - start < kTexels ? count - start : kTexels;
     for (std::size_t r = 0; r < kIn; ++r)
-      for (std::size_t i = 0; i < size; ++i)
-        rows[r][i] = static_cast<float>(in[r].first[(start + i) * in[r].stride]);
+      for (std::size_t i = 0; i < size; ++i) rows[r][i] = static_cast<float>(in[r][(start + i) * in_strides[r]]);
     outside += convert(size, from, to);
     for (std::size_t r = 0; r < kOut; ++r)
-      for (std::size_t i = 0; i < size; ++i)
-        out[r].first[(start + i) * out[r].stride] = static_cast<T>(rows[r][i]);
+      for (std::size_t i = 0; i < size; ++i) out[r][(start + i) * out_strides[r]] = static_cast<T>(rows[r][i]);
   }
   return outside;
 }
 
 }  // namespace gltf_to_gltf_specgloss_detail
 
+#if defined(__clang__)
+#pragma clang diagnostic pop
+#endif
+
 // A type without values: templates take it as an argument. Headers of one kind have the same members.
 struct gltf_to_gltf_specgloss {
   static constexpr const char* kId = "gltf_to_gltf_specgloss";
   static constexpr const char* kSourceModel = "gltf";
-  static constexpr const char* kSourceWidth = "roughness";  // what Input::width is
+  static constexpr const char* kSourceWidth = "roughness";
   static constexpr const char* kTargetModel = "gltf-specgloss";
   static constexpr const char* kTargetWidth = "glossiness";
   static constexpr const char* kFormula = "equation-2";
@@ -303,47 +304,32 @@ struct gltf_to_gltf_specgloss {
     float width;  // 1 - square root of the microfacet width, 0 to 1
   };
 
-  // The first value of each member in a buffer of texels, whose channels follow one another, and the elements from one
-  // texel to the next: {rgba, 4}. T is float, or any type that static_cast converts to float and back.
-  template <class T>
-  using Strided = gltf_to_gltf_specgloss_detail::Strided<T>;
-
-  // The same, a row of texels for each channel.
-  struct InputRows {
-    std::array<const float*, 3> base_color;
-    const float* metallic;
-    const float* width;
-  };
-  struct OutputRows {
-    std::array<float*, 3> diffuse;
-    std::array<float*, 3> specular;
-    float* width;
-  };
-
-  // Texels of a buffer, or of several.
-  template <class T>
-  struct InputTexels {
-    Strided<const T> base_color, metallic, width;
-  };
-  template <class T>
-  struct OutputTexels {
-    Strided<T> diffuse, specular, width;
-  };
-
-  // Rows of `count` texels. An output row may be exactly any input row; no other rows may overlap. Texels do not see each
-  // other: any split into rows gives the same bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend
-  // on it NaN. Returns the number of texels that had such values.
-  static std::size_t evaluate_batch(std::size_t count, const InputRows& in, const OutputRows& out) noexcept {
-    return gltf_to_gltf_specgloss_detail::evaluate_rows(count, {in.base_color[0], in.base_color[1], in.base_color[2], in.metallic, in.width},
-                                      {out.diffuse[0], out.diffuse[1], out.diffuse[2], out.specular[0], out.specular[1], out.specular[2], out.width});
-  }
-
-  // The same bits of texels that are interleaved, or strided in another way. Output may be exactly elements of input.
+  // Texels in memory: rows of their own, or elements of buffers, with the elements from one texel to the next. T is float, or any
+  // type that static_cast converts to float and back.
   template <class T = float>
-  static std::size_t evaluate_texels(std::size_t count, const InputTexels<T>& in, const OutputTexels<T>& out) noexcept {
-    return gltf_to_gltf_specgloss_detail::convert_texels<5, 7, T>(
-        count, {in.base_color[0], in.base_color[1], in.base_color[2], in.metallic, in.width},
-        {out.diffuse[0], out.diffuse[1], out.diffuse[2], out.specular[0], out.specular[1], out.specular[2], out.width}, gltf_to_gltf_specgloss_detail::evaluate_rows);
+  struct InputTexels {
+    std::array<T*, 3> base_color;
+    T* metallic;
+    T* width;
+    std::size_t base_color_stride = 1, metallic_stride = 1, width_stride = 1;
+  };
+  template <class T = float>
+  struct OutputTexels {
+    std::array<T*, 3> diffuse;
+    std::array<T*, 3> specular;
+    T* width;
+    std::size_t diffuse_stride = 1, specular_stride = 1, width_stride = 1;
+  };
+
+  // Converts `count` texels. Output may be exactly elements of input. Texels do not see each other: any split gives the same
+  // bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend on it NaN. Returns the number of texels
+  // that had such values.
+  template <class In = const float, class Out = std::remove_const_t<In>>
+  static std::size_t evaluate_batch(std::size_t count, const InputTexels<In>& in,
+                                    const OutputTexels<Out>& out) noexcept {
+    return gltf_to_gltf_specgloss_detail::convert_texels<5, 7, Out>(
+        count, {in.base_color[0], in.base_color[1], in.base_color[2], in.metallic, in.width}, {in.base_color_stride, in.base_color_stride, in.base_color_stride, in.metallic_stride, in.width_stride},
+        {out.diffuse[0], out.diffuse[1], out.diffuse[2], out.specular[0], out.specular[1], out.specular[2], out.width}, {out.diffuse_stride, out.diffuse_stride, out.diffuse_stride, out.specular_stride, out.specular_stride, out.specular_stride, out.width_stride}, gltf_to_gltf_specgloss_detail::evaluate_rows);
   }
 
   // One texel: rows of one.
@@ -406,9 +392,5 @@ struct gltf_to_gltf_specgloss {
 };
 
 }  // namespace remap
-
-#if defined(__clang__)
-#pragma clang diagnostic pop
-#endif
 
 #endif  // REMAP_GENERATED_GLTF_TO_GLTF_SPECGLOSS_HPP

@@ -19,365 +19,245 @@
 #endif
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-
-#if defined(__clang__)  // silences the warning about loops that cannot be vectorised
-#pragma clang diagnostic push
-#pragma clang diagnostic ignored "-Wpass-failed"
-#endif
+#include <type_traits>
+#include <utility>
 
 namespace remap {
-namespace mitsuba_ward_balanced_to_mitsuba_ward_duer_detail {
-
-namespace detail = mitsuba_ward_balanced_to_mitsuba_ward_duer_detail;
-
-inline std::uint32_t bits(float value) noexcept {
-  std::uint32_t result = 0;
-  std::memcpy(&result, &value, sizeof result);
-  return result;
-}
-
-inline float float_from_bits(std::uint32_t value) noexcept {
-  float result = 0.0f;
-  std::memcpy(&result, &value, sizeof result);
-  return result;
-}
-
-// The numbers of this converter. Target alpha is source alpha times a polynomial of alpha and t = s / (s + pole), s the
-// largest channel of specular; target specular is source specular times another, channel by channel.
-struct Form {
-  static constexpr float width_min = 0.01f, width_max = 1.0f;    // what was measured,
-  static constexpr float width_from = 0.0f, width_to = 1.0f;  // and where widths are clamped
-  static constexpr float specular_min = 0.0f, specular_max = 1.0f;
-  static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;
-  static constexpr float pole = 1.0f;
-  static constexpr bool is_limited = true;
-  // The target's limits. What one cuts off changes the other parameter.
-  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
-  static constexpr float inverse_alpha_limit = 1.0f, inverse_specular_limit = 1.0f;
-  static constexpr float turn = -0.2375f, turn_by_alpha = -0.86161f, bend = 4.0f, spread = 0.0f;
-
-  // The coefficients of powers of t.
-  static constexpr std::size_t kAlphaPowers = 1, kSpecularPowers = 1;
-  static void alpha_factor(float alpha, float (&c)[kAlphaPowers]) noexcept {
-    c[0] = 0.10518f * alpha + 0.99229f;
-  }
-  static void specular_factor(float alpha, float (&c)[kSpecularPowers]) noexcept {
-    c[0] = 0.27092f * alpha + 0.97853f;
-  }
-
-  // A row of widths as the models state them, and of alpha.
-  template <std::size_t Size>
-  static void to_alpha(float (&)[Size]) noexcept {
-  }
-  template <std::size_t Size>
-  static void from_alpha(float (&)[Size]) noexcept {
-  }
-};
-
-// Texels are converted in blocks of rows, whose length is a constant: compilers make vectors of such loops, whatever
-// their flags. Floats from 0 compare as integers do, NaN above all others.
-inline std::int32_t order(float value) noexcept { return static_cast<std::int32_t>(bits(value)); }
-inline float of_order(std::int32_t value) noexcept { return float_from_bits(static_cast<std::uint32_t>(value)); }
-inline float least(float a, float b) noexcept { return of_order(order(a) < order(b) ? order(a) : order(b)); }
-inline float most(float a, float b) noexcept { return of_order(order(a) > order(b) ? order(a) : order(b)); }
-
-// All bits where a value is not a number, and a value with these bits.
-inline std::uint32_t nan_bits(float value) noexcept {
-  return order(float_from_bits(bits(value) & 0x7fffffffu)) > 0x7f800000 ? 0xffffffffu : 0u;
-}
-inline float with_bits(float value, std::uint32_t more) noexcept { return float_from_bits(bits(value) | more); }
-inline float without_bits(float value, std::uint32_t some) noexcept { return float_from_bits(bits(value) & ~some); }
-
-// Sign bit: whether a value lies outside of a range from 0. -0 lies inside.
-inline std::uint32_t outside_of(float value, float low, float high) noexcept {
-  const std::uint32_t given = bits(value + 0.0f);
-  return given | (given - bits(low)) | (bits(high) - given);
-}
-
-// c[0] + c[1] x + ...
-template <std::size_t Count>
-inline float sum_of_powers(const float (&c)[Count], float x) noexcept {
-  float sum = c[Count - 1];
-  for (std::size_t j = Count - 1; j-- > 0;) sum = sum * x + c[j];
-  return sum;
-}
-
-// Converts rows in place: the source's width becomes the target's, and so does specular, channel by channel. `outside`: with
-// its sign bit whether the texel lies out of the domain.
-template <std::size_t Channels, std::size_t Size, class Form>
-inline void convert_block(const Form& form, float (&width)[Size], float (&specular)[Channels][Size],
-                          std::uint32_t (&outside)[Size]) noexcept {
-  float factors[Form::kSpecularPowers][Size], top[Size] = {}, cut[Size] = {};
-  [[maybe_unused]] float more[Size];
-  std::uint32_t nan[Size];
-  for (std::size_t i = 0; i < Size; ++i) {
-    nan[i] = nan_bits(width[i]);
-    outside[i] = outside_of(width[i], form.width_min, form.width_max);
-    width[i] = least(most(without_bits(width[i], nan[i]), form.width_from), form.width_to);
-  }
-  form.to_alpha(width);
-  for (std::size_t i = 0; i < Size; ++i) {
-    float c[Form::kSpecularPowers];
-    form.specular_factor(most(width[i], form.alpha_min), c);
-    for (std::size_t j = 0; j < Form::kSpecularPowers; ++j) factors[j][i] = c[j];
-  }
-  for (float (&row)[Size] : specular)
-    for (std::size_t i = 0; i < Size; ++i) {
-      const std::uint32_t channel_nan = nan_bits(row[i]);
-      outside[i] |= outside_of(row[i], form.specular_min, form.specular_max);
-      const float s = most(without_bits(row[i], channel_nan), 0.0f);
-      const float inside = least(most(s, form.specular_min), form.specular_max);
-      const float t = inside / (inside + form.pole);
-      float c[Form::kSpecularPowers];
-      for (std::size_t j = 0; j < Form::kSpecularPowers; ++j) c[j] = factors[j][i];
-      const float factor = sum_of_powers(c, t);
-      row[i] = with_bits(s * factor, channel_nan);
-      top[i] = most(top[i], t);
-      cut[i] = most(cut[i], inside * factor);
-    }
-  for (std::size_t i = 0; i < Size; ++i) {
-    const float alpha = width[i], inside = most(alpha, form.alpha_min);
-    float c[Form::kAlphaPowers];
-    form.alpha_factor(inside, c);
-    const float free = alpha * sum_of_powers(c, top[i]);
-    if constexpr (Form::is_limited) {
-      const float excess = most(cut[i] * form.inverse_specular_limit - 1.0f, 0.0f);
-      const float over = excess / (1.0f + form.bend * excess);
-      const float turned = free + alpha * over * (form.turn + form.turn_by_alpha * inside);
-      more[i] = 1.0f + form.spread * most(free * form.inverse_alpha_limit - 1.0f, 0.0f);
-      width[i] = least(most(turned, form.least_alpha), form.alpha_limit);
-    } else {
-      width[i] = most(free, form.least_alpha);
-    }
-  }
-  form.from_alpha(width);
-  for (std::size_t i = 0; i < Size; ++i) width[i] = with_bits(width[i], nan[i]);
-  for (float (&row)[Size] : specular)
-    for (std::size_t i = 0; i < Size; ++i) {
-      const std::uint32_t no_number = nan[i] | nan_bits(row[i]);
-      if constexpr (Form::is_limited) row[i] = least(row[i] * more[i], form.specular_limit);
-      row[i] = with_bits(row[i], no_number);
-    }
-}
-
-// A row of a block stays in the first-level cache between the loops over it.
-inline constexpr std::size_t kBlock = 128;
-
-template <std::size_t Channels>
-inline std::size_t convert_rows(std::size_t count, const float* width, const float* const* specular, float* width_out,
-                                float* const* specular_out) noexcept {
-  float widths[kBlock] = {}, channels[Channels][kBlock] = {};
-  std::uint32_t outside[kBlock];
-  std::size_t sum = 0;
-  for (std::size_t start = 0; start < count; start += kBlock) {
-    const std::size_t size = count - start < kBlock ? count - start : kBlock;
-    std::memcpy(widths, width + start, size * sizeof(float));
-    for (std::size_t c = 0; c < Channels; ++c) std::memcpy(channels[c], specular[c] + start, size * sizeof(float));
-    convert_block(Form(), widths, channels, outside);
-    std::memcpy(width_out + start, widths, size * sizeof(float));
-    for (std::size_t c = 0; c < Channels; ++c) std::memcpy(specular_out[c] + start, channels[c], size * sizeof(float));
-    for (std::size_t i = 0; i < size; ++i) sum += outside[i] >> 31;
-  }
-  return sum;
-}
-
-template <std::size_t Channels>
-inline void convert_texel(float width, const float* specular, float& width_out,
-                          std::array<float, Channels>& specular_out) noexcept {
-  float widths[1] = {width}, channels[Channels][1];
-  std::uint32_t outside[1];
-  for (std::size_t c = 0; c < Channels; ++c) channels[c][0] = specular[c];
-  convert_block(Form(), widths, channels, outside);
-  width_out = widths[0];
-  for (std::size_t c = 0; c < Channels; ++c) specular_out[c] = channels[c][0];
-}
-
-template <class T>
-struct Strided {
-  T* first;
-  std::size_t stride;
-
-  Strided operator[](std::size_t channel) const noexcept { return {first + channel, stride}; }
-};
-
-// Texels whose channels become planar rows together.
-inline constexpr std::size_t kTexels = 128;
-
-// Texels anywhere by `convert`, which takes planar rows and returns how many were outside.
-template <std::size_t kIn, std::size_t kOut, class T, class Convert>
-inline std::size_t convert_texels(std::size_t count, const std::array<Strided<const T>, kIn>& in,
-                                  const std::array<Strided<T>, kOut>& out, const Convert& convert) noexcept {
-  float rows[kIn < kOut ? kOut : kIn][kTexels];
-  std::array<const float*, kIn> from{};
-  std::array<float*, kOut> to{};
-  for (std::size_t r = 0; r < kIn; ++r) from[r] = rows[r];
-  for (std::size_t r = 0; r < kOut; ++r) to[r] = rows[r];
-  std::size_t outside = 0;
-  for (std::size_t start = 0; start < count; start += kTexels) {
-    const std::size_t size = count - start < kTexels ? count - start : kTexels;
-    for (std::size_t r = 0; r < kIn; ++r)
-      for (std::size_t i = 0; i < size; ++i)
-        rows[r][i] = static_cast<float>(in[r].first[(start + i) * in[r].stride]);
-    outside += convert(size, from, to);
-    for (std::size_t r = 0; r < kOut; ++r)
-      for (std::size_t i = 0; i < size; ++i)
-        out[r].first[(start + i) * out[r].stride] = static_cast<T>(rows[r][i]);
-  }
-  return outside;
-}
-
-}  // namespace mitsuba_ward_balanced_to_mitsuba_ward_duer_detail
 
 // A type without values: templates take it as an argument. Headers of one kind have the same members.
 struct mitsuba_ward_balanced_to_mitsuba_ward_duer {
   static constexpr const char* kId = "mitsuba_ward_balanced_to_mitsuba_ward_duer";
   static constexpr const char* kSourceModel = "mitsuba/ward-balanced";
-  static constexpr const char* kSourceWidth = "alpha";  // what Input::width is
+  static constexpr const char* kSourceWidth = "alpha";
   static constexpr const char* kTargetModel = "mitsuba/ward-duer";
   static constexpr const char* kTargetWidth = "alpha";
   static constexpr const char* kSourceSpecular = "specular";
   static constexpr const char* kTargetSpecular = "specular";
 
-  struct Input {
-    float width;  // microfacet width, (0, 1]
-    float specular;  // specular reflectance, linear
-  };
-  struct Output {
-    float width;  // microfacet width, (0, 1]
-    float specular;  // specular reflectance, linear
+  // The numbers of this converter, and what it does.
+  struct Form {
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
+    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    static constexpr float width_min = 0.01f, width_max = 1.0f;
+    static constexpr float specular_min = 0.0f, specular_max = 1.0f;
+    static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
+    static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;  // of the source, of the target
+    static constexpr float pole = 1.0f;
+    // The target's limits. What one cuts off changes the other parameter.
+    static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+    static constexpr float turn = -0.2375f, turn_by_alpha = -0.86161f, bend = 4.0f, spread = 0.0f;
+
+    // Target alpha is alpha times the first, target specular s times the second; t = s / (s + pole). Alpha takes t of the largest
+    // channel.
+    static float alpha_factor(float alpha, float) noexcept {
+      return 0.10518f * alpha + 0.99229f;
+    }
+    static float specular_factor(float alpha, float) noexcept {
+      return 0.27092f * alpha + 0.97853f;
+    }
+    static float held(float s) noexcept { return least(s, specular_max); }
+    static float to_alpha(float own) noexcept { return own; }
+    static float from_alpha(float alpha) noexcept { return alpha; }
+
+    // Floats from 0 compare as integers do: compilers make vectors of that, whatever their flags.
+    static std::int32_t order(float value) noexcept {
+      std::int32_t result = 0;
+      std::memcpy(&result, &value, sizeof result);
+      return result;
+    }
+    static float of_order(std::int32_t order) noexcept {
+      float result = 0.0f;
+      std::memcpy(&result, &order, sizeof result);
+      return result;
+    }
+    static float least(float a, float b) noexcept { return of_order(order(a) < order(b) ? order(a) : order(b)); }
+    static float most(float a, float b) noexcept { return of_order(order(a) > order(b) ? order(a) : order(b)); }
+
+    // Texels are converted in blocks of rows, whose length is a constant for the same reason.
+    template <std::size_t Size>
+    struct Rows {
+      float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
+      float nan[Size];                          // 0, or NaN
+      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+    };
+
+    template <std::size_t Size>
+    void take_width(const float* width, Rows<Size>& rows) const noexcept {
+      for (std::size_t i = 0; i < Size; ++i) {
+        const float own = width[i];
+        rows.nan[i] = own * 0.0f;
+        rows.is_inside[i] = (own >= width_min) & (own <= width_max);
+        rows.alpha[i] = to_alpha(least(most(own, width_from), width_to));
+        rows.top[i] = 0.0f;
+      }
+    }
+
+    template <std::size_t Size>
+    void take_channel(const float* specular, Rows<Size>& rows, float (&row)[Size]) const noexcept {
+      for (std::size_t i = 0; i < Size; ++i) {
+        const float s = specular[i];
+        rows.nan[i] += s * 0.0f;
+        rows.is_inside[i] &= (s >= specular_min) & (s <= specular_max);
+        rows.top[i] = most(rows.top[i], s);
+        row[i] = most(s, 0.0f);
+      }
+    }
+
+    // Channels are no loop: gcc would join their iterations, and be slower.
+    template <std::size_t Size, std::size_t... Channel>
+    void convert(const float* width, const std::array<const float*, sizeof...(Channel)>& specular, float* width_out,
+                 const std::array<float*, sizeof...(Channel)>& specular_out, Rows<Size>& rows,
+                 std::index_sequence<Channel...>) const noexcept {
+      float channels[sizeof...(Channel)][Size];
+      take_width(width, rows);
+      (take_channel(specular[Channel], rows, channels[Channel]), ...);
+      give_width(rows, width_out);
+      (give_channel(rows, channels[Channel], specular_out[Channel]), ...);
+    }
+
+    template <std::size_t Size>
+    void give_width(Rows<Size>& rows, float* width) const noexcept {
+      for (std::size_t i = 0; i < Size; ++i) {
+        const float alpha = rows.alpha[i], inside = most(alpha, alpha_min), s = held(rows.top[i]),
+                    t = s / (s + pole);
+        const float free = alpha * alpha_factor(inside, t);
+        const float excess = most(s * specular_factor(inside, t) * (1.0f / specular_limit) - 1.0f, 0.0f);
+        const float turned = free + alpha * (excess / (1.0f + bend * excess)) * (turn + turn_by_alpha * inside);
+        rows.more[i] = 1.0f + spread * most(free * (1.0f / alpha_limit) - 1.0f, 0.0f);
+        rows.alpha[i] = inside;
+        width[i] = from_alpha(least(most(turned, least_alpha), alpha_limit)) + rows.nan[i];
+      }
+    }
+
+    template <std::size_t Size>
+    void give_channel(const Rows<Size>& rows, const float (&row)[Size], float* specular) const noexcept {
+      for (std::size_t i = 0; i < Size; ++i) {
+        const float s = held(row[i]), t = s / (s + pole);
+        const float free = row[i] * specular_factor(rows.alpha[i], t);
+        specular[i] = least(free * rows.more[i], specular_limit) + rows.nan[i];
+      }
+    }
   };
 
-  // The first value of each member in a buffer of texels, whose channels follow one another, and the elements from one
-  // texel to the next: {rgba, 4}. T is float, or any type that static_cast converts to float and back.
-  template <class T>
-  using Strided = mitsuba_ward_balanced_to_mitsuba_ward_duer_detail::Strided<T>;
-
-  // Planar rows: a row of the width, and one for each channel of specular.
-  template <std::size_t Channels = 3>
-  struct InputRows {
-    const float* width;
-    std::array<const float*, Channels> specular;
-  };
-  template <std::size_t Channels = 3>
-  struct OutputRows {
-    float* width;
-    std::array<float*, Channels> specular;
-  };
-
-  // Texels of a buffer, or of two.
-  template <class T>
-  struct InputTexels {
-    Strided<const T> width, specular;
-  };
-  template <class T>
-  struct OutputTexels {
-    Strided<T> width, specular;
-  };
-
-  // One texel of several channels, which share one width.
-  template <std::size_t Channels>
-  struct OutputTexel {
+  // One texel: microfacet width, (0, 1]; specular reflectance, linear,
+  // to microfacet width, (0, 1]; specular reflectance, linear.
+  template <std::size_t Channels = 1>
+  struct Texel {
     float width;
     std::array<float, Channels> specular;
+
+    bool in_domain() const noexcept {
+      bool is_inside = width >= Form::width_min && width <= Form::width_max;
+      for (const float s : specular) is_inside = is_inside && s >= Form::specular_min && s <= Form::specular_max;
+      return is_inside;
+    }
   };
 
-  // What was measured. Beyond, both parameters go on in proportion, but widths above it are clamped; specular below 0 counts as
-  // 0. Such texels count as out of domain. NaN makes the outputs that depend on it NaN.
-  static constexpr Input kDomainMin{0.01f, 0.0f};
-  static constexpr Input kDomainMax{1.0f, 1.0f};
-
-  // Rows of `count` texels with `Channels` channels (1: grey, 3: RGB). An output row may be exactly its own input row. Any split
-  // into rows gives the same bits. Returns the number of texels out of domain.
-  template <std::size_t Channels = 3>
-  static std::size_t evaluate_batch(std::size_t count, const InputRows<Channels>& in,
-                                    const OutputRows<Channels>& out) noexcept {
-    return mitsuba_ward_balanced_to_mitsuba_ward_duer_detail::convert_rows<Channels>(count, in.width, in.specular.data(), out.width, out.specular.data());
-  }
-
-  // The same bits of texels that are interleaved, or strided in another way. Output may be exactly the elements of input.
+  // Texels in memory: rows of their own, {width, {red, green, blue}}, or elements of a buffer, {rgba + 3, {rgba, rgba + 1,
+  // rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
   template <class T = float, std::size_t Channels = 3>
-  static std::size_t evaluate_texels(std::size_t count, const InputTexels<T>& in, const OutputTexels<T>& out) noexcept {
-    std::array<Strided<const T>, Channels + 1> from{};
-    std::array<Strided<T>, Channels + 1> to{};
-    for (std::size_t c = 0; c < Channels; ++c) {
-      from[c] = in.specular[c];
-      to[c] = out.specular[c];
+  struct Texels {
+    T* width;
+    std::array<T*, Channels> specular;
+    std::size_t width_stride = 1, specular_stride = 1;  // elements from one texel to the next
+  };
+
+  template <std::size_t Channels = 1>
+  static Texel<Channels> evaluate(const Texel<Channels>& in) noexcept {
+    Texel<Channels> out{};
+    Form::Rows<1> rows;
+    std::array<const float*, Channels> from{};
+    std::array<float*, Channels> to{};
+    for (std::size_t c = 0; c < Channels; ++c) from[c] = &in.specular[c], to[c] = &out.specular[c];
+    Form().convert(&in.width, from, &out.width, to, rows, std::make_index_sequence<Channels>());
+    return out;
+  }
+
+  // The same bits of `count` texels. Output may be exactly the elements of input. Returns how many were out of domain.
+  template <std::size_t Channels = 3, class In = const float, class Out = std::remove_const_t<In>>
+  static std::size_t evaluate_batch(std::size_t count, const Texels<In, Channels>& in,
+                                    const Texels<Out, Channels>& out) noexcept {
+    float widths[kBlock], channels[Channels][kBlock];
+    std::array<const float*, Channels> from{};
+    std::array<float*, Channels> to{};
+    Form::Rows<kBlock> rows;
+    std::size_t outside = 0;
+    for (std::size_t at = 0; at < count; at += kBlock) {
+      const std::size_t size = count - at < kBlock ? count - at : kBlock;
+      const float* width = read(in.width, in.width_stride, at, size, Form::width_min, widths);
+      float* width_out = row_of(out.width, out.width_stride, at, size, widths);
+      for (std::size_t c = 0; c < Channels; ++c) {
+        from[c] = read(in.specular[c], in.specular_stride, at, size, Form::specular_min, channels[c]);
+        to[c] = row_of(out.specular[c], out.specular_stride, at, size, channels[c]);
+      }
+      Form().convert(width, from, width_out, to, rows, std::make_index_sequence<Channels>());
+      write(width_out, widths, size, out.width, out.width_stride, at);
+      for (std::size_t c = 0; c < Channels; ++c)
+        write(to[c], channels[c], size, out.specular[c], out.specular_stride, at);
+      outside += kBlock;
+      for (const std::uint32_t is_inside : rows.is_inside) outside -= is_inside;
     }
-    from[Channels] = in.width;
-    to[Channels] = out.width;
-    return mitsuba_ward_balanced_to_mitsuba_ward_duer_detail::convert_texels(
-        count, from, to, [](std::size_t size, const auto& rows, const auto& rows_out) {
-          return mitsuba_ward_balanced_to_mitsuba_ward_duer_detail::convert_rows<Channels>(size, rows[Channels], rows.data(), rows_out[Channels],
-                                                     rows_out.data());
-        });
-  }
-
-  // One texel.
-  static Output evaluate(const Input& in) noexcept {
-    const OutputTexel<1> out = evaluate(in.width, {in.specular});
-    return {out.width, out.specular[0]};
-  }
-  template <std::size_t Channels>
-  static OutputTexel<Channels> evaluate(float width, const std::array<float, Channels>& specular) noexcept {
-    OutputTexel<Channels> out{};
-    mitsuba_ward_balanced_to_mitsuba_ward_duer_detail::convert_texel(width, specular.data(), out.width, out.specular);
-    return out;
-  }
-  template <std::size_t Channels>  // written as a list: evaluate(0.3f, {0.8f, 0.6f, 0.4f})
-  static OutputTexel<Channels> evaluate(float width, const float (&specular)[Channels]) noexcept {
-    OutputTexel<Channels> out{};
-    mitsuba_ward_balanced_to_mitsuba_ward_duer_detail::convert_texel(width, specular, out.width, out.specular);
-    return out;
-  }
-
-  // Whether the texel lies where the table has data.
-  static bool in_domain(const Input& in) noexcept {
-    return in.width >= kDomainMin.width && in.width <= kDomainMax.width && in.specular >= kDomainMin.specular &&
-           in.specular <= kDomainMax.specular;
+    return outside;
   }
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    struct Golden {
-      Input in;
-      Output out, within;
+    constexpr float kGolden[13][4] = {  // width and specular, and those of the target
+        {0.01f, 1.0f, 0.009933418f, 0.9812392f}, {0.13375f, 0.9375f, 0.13460037f, 0.9513427f},
+        {0.2575f, 0.875f, 0.26248875f, 0.9172554f}, {0.38125f, 0.8125f, 0.39359865f, 0.8789773f},
+        {0.505f, 0.75f, 0.52792996f, 0.83650845f}, {0.62875f, 0.6875f, 0.6654828f, 0.7898488f},
+        {0.7525f, 0.625f, 0.80625707f, 0.7389983f}, {0.87625f, 0.5625f, 0.95025283f, 0.68395704f},
+        {1.0f, 0.5f, 1.0f, 0.624725f}, {0.005f, 0.5f, 0.004966709f, 0.4906196f},
+        {1.5f, 0.25f, 1.0f, 0.3123625f}, {0.505f, 0.0f, 0.52792996f, 0.0f},
+        {0.505f, 2.0f, 0.5011203f, 1.0f}, 
     };
-    constexpr std::array<Golden, 13> kGolden = {{
-        {{0.01f, 1.0f}, {0.009933418f, 0.9812392f}, {5.5e-06f, 2.3e-06f}},
-        {{0.13375f, 0.9375f}, {0.13460037f, 0.9513427f}, {5.6e-06f, 2.3e-06f}},
-        {{0.2575f, 0.875f}, {0.26248875f, 0.9172554f}, {5.7e-06f, 2.3e-06f}},
-        {{0.38125f, 0.8125f}, {0.39359865f, 0.8789773f}, {5.7e-06f, 2.3e-06f}},
-        {{0.505f, 0.75f}, {0.52792996f, 0.83650845f}, {5.8e-06f, 2.2e-06f}},
-        {{0.62875f, 0.6875f}, {0.6654828f, 0.7898488f}, {5.9e-06f, 2.2e-06f}},
-        {{0.7525f, 0.625f}, {0.80625707f, 0.7389983f}, {5.9e-06f, 2.2e-06f}},
-        {{0.87625f, 0.5625f}, {0.95025283f, 0.68395704f}, {6e-06f, 2.2e-06f}},
-        {{1.0f, 0.5f}, {1.0f, 0.624725f}, {6e-06f, 2.1e-06f}},
-        {{0.005f, 0.5f}, {0.004966709f, 0.4906196f}, {5.5e-06f, 2.1e-06f}},
-        {{1.5f, 0.25f}, {1.0f, 0.3123625f}, {6e-06f, 2e-06f}},
-        {{0.505f, 0.0f}, {0.52792996f, 0.0f}, {5.8e-06f, 1.8e-06f}},
-        {{0.505f, 2.0f}, {0.5011203f, 1.0f}, {5.8e-06f, 4.1e-06f}},
-    }};
     bool passed = true;
-    for (const Golden& golden : kGolden) {
-      Output row[2] = {evaluate(golden.in), {}};
-      evaluate_batch<1>(1, {&golden.in.width, {&golden.in.specular}}, {&row[1].width, {&row[1].specular}});
-      for (const Output& out : row)
-        passed = passed && std::fabs(out.width - golden.out.width) <= golden.within.width &&
-                 std::fabs(out.specular - golden.out.specular) <= golden.within.specular;
+    for (const auto& golden : kGolden) {
+      Texel<> texels[2] = {evaluate<1>({golden[0], {golden[1]}}), {}};
+      evaluate_batch<1>(1, {&golden[0], {&golden[1]}}, {&texels[1].width, {&texels[1].specular[0]}});
+      for (const Texel<>& texel : texels)
+        passed = passed && is_close(texel.width, golden[2], 6e-06f) &&
+                 is_close(texel.specular[0], golden[3], 4.1e-06f);
     }
     return passed;
+  }
+
+  private:
+  static bool is_close(float value, float expected, float within) noexcept {
+    return value - expected <= within && expected - value <= within;
+  }
+
+  static constexpr std::size_t kBlock = 128;
+
+  // `size` elements from `at` as a row of floats, filled up with `rest`; where they are a row of floats, that.
+  template <class T>
+  static const float* read(const T* from, std::size_t stride, std::size_t at, std::size_t size, float rest,
+                           float (&row)[kBlock]) noexcept {
+    if constexpr (std::is_same_v<T, float>)
+      if (stride == 1 && size == kBlock) return from + at;
+    for (std::size_t i = 0; i < size; ++i) row[i] = static_cast<float>(from[(at + i) * stride]);
+    for (std::size_t i = size; i < kBlock; ++i) row[i] = rest;
+    return row;
+  }
+  // A row for them, and how it gets there.
+  template <class T>
+  static float* row_of(T* to, std::size_t stride, std::size_t at, std::size_t size, float (&row)[kBlock]) noexcept {
+    if constexpr (std::is_same_v<T, float>)
+      if (stride == 1 && size == kBlock) return to + at;
+    return row;
+  }
+  template <class T>
+  static void write(const float* row, const float (&from)[kBlock], std::size_t size, T* to, std::size_t stride,
+                    std::size_t at) noexcept {
+    if (row != from) return;
+    for (std::size_t i = 0; i < size; ++i) to[(at + i) * stride] = static_cast<T>(from[i]);
   }
 };
 
 }  // namespace remap
-
-#if defined(__clang__)
-#pragma clang diagnostic pop
-#endif
 
 #endif  // REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_DUER_HPP

@@ -16,14 +16,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
+namespace remap {
 #if defined(__clang__)  // silences the warning about loops that cannot be vectorised
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wpass-failed"
 #endif
-
-namespace remap {
 namespace specular_to_metallic_detail {
 
 namespace detail = specular_to_metallic_detail;
@@ -501,21 +501,20 @@ inline std::size_t evaluate_rows(std::size_t count, const std::array<const float
   });
 }
 
-template <class T>
-struct Strided {
-  T* first;
-  std::size_t stride;
-
-  Strided operator[](std::size_t channel) const noexcept { return {first + channel, stride}; }
-};
-
-// Texels whose channels become planar rows together.
+// Texels that become rows together.
 inline constexpr std::size_t kTexels = 128;
 
-// Texels anywhere by `convert`, which takes planar rows and returns how many were outside.
+// Texels anywhere by `convert`, which takes rows and returns how many were outside.
 template <std::size_t kIn, std::size_t kOut, class T, class Convert>
-inline std::size_t convert_texels(std::size_t count, const std::array<Strided<const T>, kIn>& in,
-                                  const std::array<Strided<T>, kOut>& out, const Convert& convert) noexcept {
+inline std::size_t convert_texels(std::size_t count, const std::array<const T*, kIn>& in,
+                                  const std::array<std::size_t, kIn>& in_strides, const std::array<T*, kOut>& out,
+                                  const std::array<std::size_t, kOut>& out_strides, const Convert& convert) noexcept {
+  if constexpr (std::is_same_v<T, float>) {
+    bool are_rows = true;
+    for (const std::size_t stride : in_strides) are_rows = are_rows && stride == 1;
+    for (const std::size_t stride : out_strides) are_rows = are_rows && stride == 1;
+    if (are_rows) return convert(count, in, out);
+  }
   float rows[kIn < kOut ? kOut : kIn][kTexels];
   std::array<const float*, kIn> from{};
   std::array<float*, kOut> to{};
@@ -525,23 +524,25 @@ inline std::size_t convert_texels(std::size_t count, const std::array<Strided<co
   for (std::size_t start = 0; start < count; start += kTexels) {
     const std::size_t size = count - start < kTexels ? count - start : kTexels;
     for (std::size_t r = 0; r < kIn; ++r)
-      for (std::size_t i = 0; i < size; ++i)
-        rows[r][i] = static_cast<float>(in[r].first[(start + i) * in[r].stride]);
+      for (std::size_t i = 0; i < size; ++i) rows[r][i] = static_cast<float>(in[r][(start + i) * in_strides[r]]);
     outside += convert(size, from, to);
     for (std::size_t r = 0; r < kOut; ++r)
-      for (std::size_t i = 0; i < size; ++i)
-        out[r].first[(start + i) * out[r].stride] = static_cast<T>(rows[r][i]);
+      for (std::size_t i = 0; i < size; ++i) out[r][(start + i) * out_strides[r]] = static_cast<T>(rows[r][i]);
   }
   return outside;
 }
 
 }  // namespace specular_to_metallic_detail
 
+#if defined(__clang__)
+#pragma clang diagnostic pop
+#endif
+
 // A type without values: templates take it as an argument. Headers of one kind have the same members.
 struct specular_to_metallic {
   static constexpr const char* kId = "specular_to_metallic";
   static constexpr const char* kSourceModel = "specular";
-  static constexpr const char* kSourceWidth = "roughness";  // what Input::width is
+  static constexpr const char* kSourceWidth = "roughness";
   static constexpr const char* kTargetModel = "metallic";
   static constexpr const char* kTargetWidth = "roughness";
   static constexpr const char* kFormula = "projection";
@@ -562,47 +563,32 @@ struct specular_to_metallic {
     float width;  // square root of the microfacet width, 0 to 1
   };
 
-  // The first value of each member in a buffer of texels, whose channels follow one another, and the elements from one
-  // texel to the next: {rgba, 4}. T is float, or any type that static_cast converts to float and back.
-  template <class T>
-  using Strided = specular_to_metallic_detail::Strided<T>;
-
-  // The same, a row of texels for each channel.
-  struct InputRows {
-    std::array<const float*, 3> diffuse;
-    std::array<const float*, 3> specular;
-    const float* width;
-  };
-  struct OutputRows {
-    std::array<float*, 3> base_color;
-    float* metallic;
-    float* width;
-  };
-
-  // Texels of a buffer, or of several.
-  template <class T>
-  struct InputTexels {
-    Strided<const T> diffuse, specular, width;
-  };
-  template <class T>
-  struct OutputTexels {
-    Strided<T> base_color, metallic, width;
-  };
-
-  // Rows of `count` texels. An output row may be exactly any input row; no other rows may overlap. Texels do not see each
-  // other: any split into rows gives the same bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend
-  // on it NaN. Returns the number of texels that had such values.
-  static std::size_t evaluate_batch(std::size_t count, const InputRows& in, const OutputRows& out) noexcept {
-    return specular_to_metallic_detail::evaluate_rows(count, {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width},
-                                      {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width});
-  }
-
-  // The same bits of texels that are interleaved, or strided in another way. Output may be exactly elements of input.
+  // Texels in memory: rows of their own, or elements of buffers, with the elements from one texel to the next. T is float, or any
+  // type that static_cast converts to float and back.
   template <class T = float>
-  static std::size_t evaluate_texels(std::size_t count, const InputTexels<T>& in, const OutputTexels<T>& out) noexcept {
-    return specular_to_metallic_detail::convert_texels<7, 5, T>(
-        count, {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width},
-        {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width}, specular_to_metallic_detail::evaluate_rows);
+  struct InputTexels {
+    std::array<T*, 3> diffuse;
+    std::array<T*, 3> specular;
+    T* width;
+    std::size_t diffuse_stride = 1, specular_stride = 1, width_stride = 1;
+  };
+  template <class T = float>
+  struct OutputTexels {
+    std::array<T*, 3> base_color;
+    T* metallic;
+    T* width;
+    std::size_t base_color_stride = 1, metallic_stride = 1, width_stride = 1;
+  };
+
+  // Converts `count` texels. Output may be exactly elements of input. Texels do not see each other: any split gives the same
+  // bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend on it NaN. Returns the number of texels
+  // that had such values.
+  template <class In = const float, class Out = std::remove_const_t<In>>
+  static std::size_t evaluate_batch(std::size_t count, const InputTexels<In>& in,
+                                    const OutputTexels<Out>& out) noexcept {
+    return specular_to_metallic_detail::convert_texels<7, 5, Out>(
+        count, {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width}, {in.diffuse_stride, in.diffuse_stride, in.diffuse_stride, in.specular_stride, in.specular_stride, in.specular_stride, in.width_stride},
+        {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width}, {out.base_color_stride, out.base_color_stride, out.base_color_stride, out.metallic_stride, out.width_stride}, specular_to_metallic_detail::evaluate_rows);
   }
 
   // One texel: rows of one.
@@ -665,9 +651,5 @@ struct specular_to_metallic {
 };
 
 }  // namespace remap
-
-#if defined(__clang__)
-#pragma clang diagnostic pop
-#endif
 
 #endif  // REMAP_GENERATED_SPECULAR_TO_METALLIC_HPP

@@ -298,7 +298,8 @@ class Builder {
     // Warps are made from textures and strokes, so no item of a manifest is one.
     for (const WarpMapFit& fit : folder.warps)
       write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
-    write_changed(folders_.generated / kConverterListName, emit_converter_list(folder.fits));
+    for (const EmittedFile& file : emit_shared_files(folder.fits))
+      write_changed(folders_.generated / file.name, file.text);
   }
 
   // The report takes a second to compute, so it is written only if it changed.
@@ -352,8 +353,9 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
   if (!has_report(folders, lock))
     reasons.push_back((folders.fits / kReportName).string() + ": out of date with the fits of the folder");
   const FitFolder folder = load_fit_folder(folders.fits);
-  if (!holds(folders.generated / kConverterListName, emit_converter_list(folder.fits)))
-    reasons.push_back((folders.generated / kConverterListName).string() + ": is out of date with the fits");
+  for (const EmittedFile& file : emit_shared_files(folder.fits))
+    if (!holds(folders.generated / file.name, file.text))
+      reasons.push_back((folders.generated / file.name).string() + ": is out of date with the fits");
   for (const WarpMapFit& fit : folder.warps) {
     const fs::path header = paths_of(folders, fit.id).header;
     if (!holds(header, emit_header(fit)))

@@ -11,7 +11,6 @@
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/read_file.hpp"
-#include "emit/short_code.hpp"
 #include "fit/baselines.hpp"
 #include "fit/fit_table.hpp"
 #include "report/fit_plot.hpp"
@@ -103,24 +102,6 @@ Entry entry_of(const Baseline& baseline, const std::vector<TableRow>& rows) {
   return {candidate, {{"kind", "baseline"}, {"formula", baseline.formula}}, baseline.why_not};
 }
 
-// The short form of the table's models. Lobes of an exponent become GGX with constant Fresnel.
-std::optional<Baseline> short_baseline(const CompareOptions& options, const Table& table) {
-  const std::filesystem::path file = options.fit_folder / kShortFormsName;
-  if (!std::filesystem::is_regular_file(file)) return std::nullopt;
-  for (const ShortForm& form : short_forms_of(read_file(file), file.string())) {
-    const bool has_exponent = form.kind == ShortKind::kExponent || form.kind == ShortKind::kExponentNormal;
-    if (form.source != table.source.model ||
-        table.target.model != form.target + (has_exponent ? "-plain" : ""))
-      continue;
-    const auto map = [kind = form.kind, lines = outputs_of(form)](double alpha, double specular) {
-      const ShortTexel texel = converted(lines, kind, alpha, specular);
-      return MappedTexel{texel.alpha, texel.specular};
-    };
-    return Baseline{"short form", short_text(form), map, ""};
-  }
-  return std::nullopt;
-}
-
 void print_json(const Table& table, std::size_t row_count, const std::vector<Entry>& entries) {
   Json json = {{"table", table.name}, {"rows", row_count}, {"entries", Json::list()}};
   for (const Entry& entry : entries) {
@@ -152,7 +133,6 @@ void run(const CompareOptions& options) {
   const std::vector<NamedFit> fits = chosen_fits(options, table);
   const std::string digest = sha256(bytes);
   for (const NamedFit& fit : fits) entries.push_back(entry_of(fit, shown_name(fit, fits), rows, digest));
-  if (const auto form = short_baseline(options, table)) entries.push_back(entry_of(*form, rows));
   for (const Baseline& baseline : baselines(table.source, table.target))
     entries.push_back(entry_of(baseline, rows));
   if (options.json) {
@@ -170,8 +150,7 @@ void run(const CompareOptions& options) {
 
 void add_compare_command(Command& app) {
   Command* command = app.add_subcommand(
-      "compare", "Compare fits, short forms and formulas in common use on the usable rows of a table",
-      kFitStage);
+      "compare", "Compare fits and formulas in common use on the usable rows of a table", kFitStage);
   CompareOptions& options = set_work<CompareOptions>(*command, run);
   options.table.add_options(*command);
   command->add_option(

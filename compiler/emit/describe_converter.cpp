@@ -4,6 +4,7 @@
 #include "emit/convention_text.hpp"
 #include "emit/emit.hpp"
 #include "emit/header_data.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -65,6 +66,12 @@ HeaderEnd end_of(const ModelSide& side) {
 }
 
 }  // namespace
+
+const ConverterData& require_converter(const Fit& fit) {
+  if (fit.converter) return *fit.converter;
+  throw Error(ErrorKind::kNumeric,
+              fit.id + ": has no converter, because it could not be lowered (remapc fit --lower)");
+}
 
 HeaderData describe(const Fit& fit) {
   const ConverterData& converter = require_converter(fit);

@@ -5,15 +5,9 @@
 #include <algorithm>
 
 #include "emit/header_data.hpp"
-#include "remap/error.hpp"
+#include "emit/languages.hpp"
 
 namespace remap {
-
-const ConverterData& require_converter(const Fit& fit) {
-  if (fit.converter) return *fit.converter;
-  throw Error(ErrorKind::kNumeric,
-              fit.id + ": has no converter, because it could not be lowered (remapc fit --lower)");
-}
 
 std::string emit_header(const Fit& fit) { return fill(describe(fit)); }
 
@@ -21,11 +15,21 @@ std::string emit_header(const WorkflowFit& fit) { return fill(describe(fit)); }
 
 std::string emit_header(const WarpMapFit& fit) { return fill(describe(fit)); }
 
-std::string emit_converter_list(const std::vector<Fit>& fits) {
+std::vector<EmittedFile> emit_shared_files(std::vector<Fit> fits) {
+  std::ranges::sort(fits, {}, &Fit::id);
   std::vector<ConverterData> converters;
   for (const Fit& fit : fits) converters.push_back(require_converter(fit));
   std::ranges::sort(converters, {}, [](const ConverterData& data) { return data.info.id; });
-  return converters_to_json(converters);
+  std::vector<EmittedFile> files = {{"converters.json", converters_to_json(converters)}};
+  const auto is_lobe = [](const ModelSide& side) {
+    return side.model.starts_with("mitsuba/") || side.model.starts_with("legacy/");
+  };
+  std::erase_if(fits, [&](const Fit& fit) { return !is_lobe(fit.source) || !is_lobe(fit.target); });
+  if (fits.empty()) return files;
+  for (const auto& language : kLanguages)
+    files.push_back({"languages/converters" + extension_of(language.value),
+                     emit_functions(fits, language.value, "converters")});
+  return files;
 }
 
 }  // namespace remap

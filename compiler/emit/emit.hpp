@@ -20,12 +20,13 @@ std::string emit_header(const Fit& fit);
 std::string emit_header(const WorkflowFit& fit);
 std::string emit_header(const WarpMapFit& fit);
 
-// `converters.json`: the converters of these fits, in the order of their ids. Throws kNumeric for a fit
-// without one.
-inline constexpr const char* kConverterListName = "converters.json";
-std::string emit_converter_list(const std::vector<Fit>& fits);
-
-// The converter of `fit`. Throws kNumeric where it has none.
-const ConverterData& require_converter(const Fit& fit);
+// What is made of all fits together, in the order of their ids: `converters.json`, the data of texremap; and
+// the converters between models of the hub, and of exponents, in each language (`languages/converters.h`,
+// ...). Throws kNumeric for a fit without a converter.
+struct EmittedFile {
+  std::string name;  // within the folder of headers
+  std::string text;
+};
+std::vector<EmittedFile> emit_shared_files(std::vector<Fit> fits);
 
 }  // namespace remap

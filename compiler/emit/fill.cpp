@@ -28,9 +28,22 @@ std::string members(const Parameters& parameters) {
   });
 }
 
-std::string row_members(const Parameters& parameters, const std::string& type) {
-  return joined(parameters, "\n", [&](const MaterialParameter& parameter) {
-    return type_of(parameter, type) + parameter.name + ";";
+std::string pointers(const Parameters& parameters) {
+  return joined(parameters, "\n", [](const MaterialParameter& parameter) {
+    return type_of(parameter, "T*") + parameter.name + ";";
+  });
+}
+
+std::string strides(const Parameters& parameters) {
+  return joined(parameters, ", ",
+                [](const MaterialParameter& parameter) { return parameter.name + "_stride = 1"; });
+}
+
+// The stride of each channel: in.diffuse_stride three times, ...
+std::string channel_strides(const Parameters& parameters, const std::string& prefix) {
+  return joined(parameters, ", ", [&](const MaterialParameter& parameter) {
+    const std::string text = prefix + parameter.name + "_stride";
+    return parameter.channel_count == 1 ? text : text + ", " + text + ", " + text;
   });
 }
 
@@ -62,29 +75,35 @@ std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<flo
 // What a header has of its own within the frame.
 struct Body {
   std::vector<std::string> includes;
-  std::string more_includes, detail, constants, text;
+  std::string detail, constants, text;
 };
 
 Body body_of(const HeaderData& data, const ConverterData& converter) {
   const ConverterInfo& info = converter.info;
-  const auto golden = [](const GoldenValues& texel) {
-    return "{" + numbers(texel.in) + ", " + numbers(texel.out) + ", " + numbers(texel.within) + "},\n";
-  };
+  // Two texels a line.
+  std::string golden;
+  std::vector<float> within(2);
+  for (std::size_t i = 0; i < data.golden.size(); ++i) {
+    const GoldenValues& texel = data.golden[i];
+    golden += "{" + joined(texel.in, ", ", float_literal) + ", " + joined(texel.out, ", ", float_literal) +
+              (i % 2 == 0 ? "}, " : "},\n");
+    for (std::size_t j = 0; j < within.size(); ++j) within[j] = std::max(within[j], texel.within[j]);
+  }
   Body body;
-  body.includes = {"array", "cmath", "cstddef", "cstdint", "cstring", "limits"};
-  if (takes_roots(info)) body.more_includes = code_file("root_includes");
-  body.detail = code_files({"bits"}) + (takes_roots(info) ? code_files({"roots"}) : "") + "\n" +
-                form_code(converter) + code_files({"form_block", "form_rows", "strided"});
+  body.includes = {"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"};
   // What the models call specular; the widths are named by every header.
   body.constants = "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
                    "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular + "\";";
-  body.text = fill_template(code_file("converter"), {{"id", data.id},
-                                                     {"width_min", literal(info.roughness.min)},
-                                                     {"width_max", literal(info.roughness.max)},
-                                                     {"specular_min", literal(info.specular.min)},
-                                                     {"specular_max", literal(info.specular.max)},
+  const auto meaning = [](const HeaderEnd& end) {
+    return end.parameters[0].meaning + "; " + end.parameters[1].meaning;
+  };
+  body.text = fill_template(code_file("converter"), {{"source_meaning", meaning(data.source)},
+                                                     {"target_meaning", meaning(data.target)},
                                                      {"golden_count", std::to_string(data.golden.size())},
-                                                     {"golden", joined(data.golden, "", golden)}});
+                                                     {"golden", golden},
+                                                     {"width_within", float_literal(within[0])},
+                                                     {"specular_within", float_literal(within[1])},
+                                                     {"form", form_code(converter)}});
   return body;
 }
 
@@ -93,16 +112,16 @@ Body body_of(const HeaderData& data, const Material& material) {
   const Parameters &in = data.source.parameters, &out = data.target.parameters;
   const MaterialCode code = material_code(material);
   const std::string input_count = channel_count(in), output_count = channel_count(out);
-  const auto name = [](const MaterialParameter& parameter) { return parameter.name; };
   return {
-      {"array", "cmath", "cstddef", "cstdint", "cstring", "utility"},
-      "",
-      code.functions +
-          fill_template(code_file("material_rows"), {{"block", code.block},
-                                                     {"call", code.call},
-                                                     {"input_count", input_count},
-                                                     {"output_count", output_count}}) +
-          code_files({"strided"}),
+      {"array", "cmath", "cstddef", "cstdint", "cstring", "type_traits", "utility"},
+      fill_template(code_file("detail"), {{"id", data.id},
+                                          {"functions", code.functions +
+                                                            fill_template(code_file("material_rows"),
+                                                                          {{"block", code.block},
+                                                                           {"call", code.call},
+                                                                           {"input_count", input_count},
+                                                                           {"output_count", output_count}}) +
+                                                            code_files({"strided"})}}),
       fill_template(code_file("material_constants"), {{"formula", code.formula},
                                                       {"source_workflow", data.source.workflow},
                                                       {"target_workflow", data.target.workflow},
@@ -110,10 +129,14 @@ Body body_of(const HeaderData& data, const Material& material) {
                                                       {"target_diffuse", data.target.diffuse},
                                                       {"constants", code.constants}}),
       fill_template(code_file("material"), {{"id", data.id},
-                                            {"input_rows", row_members(in, "const float*")},
-                                            {"output_rows", row_members(out, "float*")},
-                                            {"input_names", joined(in, ", ", name)},
-                                            {"output_names", joined(out, ", ", name)},
+                                            {"input_members", members(in)},
+                                            {"output_members", members(out)},
+                                            {"input_pointers", pointers(in)},
+                                            {"output_pointers", pointers(out)},
+                                            {"input_strides", strides(in)},
+                                            {"output_strides", strides(out)},
+                                            {"in_strides", channel_strides(in, "in.")},
+                                            {"out_strides", channel_strides(out, "out.")},
                                             {"input_count", input_count},
                                             {"output_count", output_count},
                                             {"in_flat", channels(in, "in.")},
@@ -166,15 +189,12 @@ std::string fill(const HeaderData& data) {
                                             {"provenance", comment_lines(data.provenance)},
                                             {"guard", guard_of(data.id)},
                                             {"includes", joined(body.includes, "", include)},
-                                            {"more_includes", body.more_includes},
                                             {"detail", body.detail},
                                             {"source", data.source.model},
                                             {"source_width", data.source.width},
                                             {"target", data.target.model},
                                             {"target_width", data.target.width},
                                             {"constants", body.constants},
-                                            {"input_members", members(data.source.parameters)},
-                                            {"output_members", members(data.target.parameters)},
                                             {"body", body.text}});
 }
 

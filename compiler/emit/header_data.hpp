@@ -52,6 +52,9 @@ HeaderData describe(const WarpMapFit& fit);
 // The text. Throws kNumeric where a number is not finite as a float.
 std::string fill(const HeaderData& data);
 
+// The converter of `fit`. Throws kNumeric where it has none.
+const ConverterData& require_converter(const Fit& fit);
+
 // Parts of describe(). Errors are rounded up to two digits.
 std::string two_digits(double error);
 // The network with its scalings in the weights: the first layer takes raw inputs, after the poles of their

@@ -31,16 +31,15 @@ struct Rule {
   // `speculars` in place: finite, from 0.
   double operator()(double alpha, std::span<double> speculars) const {
     const double inside = std::max(alpha, domain.alpha.min);
-    double top = domain.specular.min, cut = 0.0;
+    const auto factor = [&](double covered) { return std::max(specular_factor(inside, covered), 0.0); };
+    double top = domain.specular.min;
     for (double& specular : speculars) {
       const double covered = std::clamp(specular, domain.specular.min, domain.specular.max);
-      const double factor = std::max(specular_factor(inside, covered), 0.0);
       top = std::max(top, covered);
-      cut = std::max(cut, covered * factor);
-      specular *= factor;
+      specular *= factor(covered);
     }
     const double free = alpha * alpha_factor(inside, top);
-    const double excess = std::max(cut / specular_limit - 1.0, 0.0);
+    const double excess = std::max(top * factor(top) / specular_limit - 1.0, 0.0);
     const double over = excess / (1.0 + static_cast<double>(hinge.bend) * excess);
     const double turn = static_cast<double>(hinge.turn) + static_cast<double>(hinge.turn_by_alpha) * inside;
     const double wide = std::max(free / alpha_limit - 1.0, 0.0);
@@ -104,19 +103,22 @@ double evaluate_texel(const Fit& fit, double roughness, std::span<const double> 
   const Range covered = specular_range(fit);
   bool inside =
       Range{static_cast<double>(ends.width_min), static_cast<double>(ends.width_max)}.contains(roughness);
+  bool is_finite = std::isfinite(roughness);
   for (std::size_t c = 0; c < specular.size(); ++c) {
     inside = inside && covered.contains(specular[c]);
-    specular_out[c] = std::isnan(specular[c]) ? 0.0 : std::max(specular[c], 0.0);
+    is_finite = is_finite && std::isfinite(specular[c]);
+    specular_out[c] = std::max(specular[c], 0.0);
   }
   if (in_domain != nullptr) *in_domain = inside;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double own = std::clamp(std::isnan(roughness) ? 0.0 : roughness, static_cast<double>(ends.width_from),
-                                static_cast<double>(ends.width_to));
+  if (!is_finite) {
+    std::ranges::fill(specular_out, std::numeric_limits<double>::quiet_NaN());
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double own =
+      std::clamp(roughness, static_cast<double>(ends.width_from), static_cast<double>(ends.width_to));
   const double alpha = std::max(rule_of(fit)(to_alpha(fit.source.roughness, own), specular_out),
                                 static_cast<double>(ends.least_alpha));
-  for (std::size_t c = 0; c < specular.size(); ++c)
-    if (std::isnan(specular[c]) || std::isnan(roughness)) specular_out[c] = nan;
-  return std::isnan(roughness) ? nan : from_alpha(fit.target.roughness, alpha);
+  return from_alpha(fit.target.roughness, alpha);
 }
 
 }  // namespace remap

@@ -25,9 +25,8 @@ MappedTexel form_texel(const CompactForm& form, const Domain& domain, double alp
 // The domain rule: target alpha is source alpha times a factor, and target specular source specular times
 // another. Beyond the domain the factors are those at its edge, and widths above it are clamped. Specular
 // below 0 counts as 0. The alpha factor is that of the largest channel. At a limit of the target, the hinge
-// of a compact form applies (converter/compact_form.hpp), to other kinds none. NaN in the width makes every
-// output NaN. A channel that is NaN stays so and does not
-// affect the others. `in_domain`, if given, receives whether the texel was inside the domain.
+// of a compact form applies (converter/compact_form.hpp), to other kinds none. A texel with a value that is
+// not finite is NaN in every output. `in_domain`, if given, receives whether the texel was inside the domain.
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain = nullptr);
 

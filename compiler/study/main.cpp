@@ -11,9 +11,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", remap::version_text("remap-study", REMAP_LIBRARIES));
   app.require_subcommand(1);
   remap::add_environments_study(app);
-  remap::add_exponents_study(app);
   remap::add_reach_study(app);
-  remap::add_short_study(app);
   remap::add_workflows_study(app);
   return remap::run_app(app, argc, argv);
 }

@@ -6,9 +6,7 @@
 namespace remap {
 
 void add_environments_study(Command& study);
-void add_exponents_study(Command& study);
 void add_reach_study(Command& study);
-void add_short_study(Command& study);
 void add_workflows_study(Command& study);
 
 }  // namespace remap

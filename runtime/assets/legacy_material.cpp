@@ -5,10 +5,8 @@
 #include <cstddef>
 
 #include "core/number_text.hpp"
-#include "short/short_forms.hpp"
 
 namespace remap {
-namespace form = short_forms;
 namespace {
 
 constexpr double kDielectricF0 = 0.04;
@@ -29,10 +27,10 @@ GgxLobe ggx_lobe(const LegacyMaterial& material) {
       std::clamp(material.exponent, LegacyMaterial::kLeastExponent, LegacyMaterial::kMostExponent);
   GgxLobe lobe;
   const auto n = static_cast<float>(exponent);
-  lobe.roughness = decimal_value(form::legacy_blinn_phong_to_mitsuba_ggx_roughness(n));
+  lobe.roughness = decimal_value(std::pow(1.55f / (n + 4.17f), 0.25f));
   for (std::size_t c = 0; c < 3; ++c)
-    lobe.f0[c] = decimal_value(
-        form::legacy_blinn_phong_to_mitsuba_ggx_f0(n, static_cast<float>(material.specular[c])));
+    lobe.f0[c] =
+        decimal_value(std::min(1.0f, 6.02f * static_cast<float>(material.specular[c]) / (n + 1.86f)));
   return lobe;
 }
 

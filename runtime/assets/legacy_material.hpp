@@ -1,6 +1,7 @@
-// Materials from before microfacets (Wavefront MTL, OpenGL, Collada) as GGX materials: short forms with few
-// constants, measured by pictures under lights and environments. The exponent decides the width of the
-// highlight and, because an unnormalised lobe carries energy like 1 / exponent, its strength.
+// Materials from before microfacets (Wavefront MTL, OpenGL, Collada) as GGX materials: two lines of five
+// constants, chosen by pictures under lights and environments (docs/decisions/060-short-forms.md). The
+// exponent decides the width of the highlight and, because an unnormalised lobe carries energy like 1 /
+// exponent, its strength.
 #pragma once
 
 #include <array>
@@ -26,8 +27,7 @@ struct GgxLobe {
   std::array<double, 3> f0{};
 };
 
-// By the short form legacy_blinn_phong_to_mitsuba_ggx (generated/short, docs/short.md): r = (a / (n +
-// b))^(1/4), F0 = min(1, c specular / (n + d)).
+// roughness = (1.55 / (n + 4.17))^(1/4), F0 = min(1, 6.02 specular / (n + 1.86)).
 GgxLobe ggx_lobe(const LegacyMaterial& material);
 
 // Core glTF: base color and metallic that keep the sum of diffuse and specular,

@@ -73,13 +73,10 @@ FormPass pass_of(const ConverterData& data) {
   constexpr float kNone = std::numeric_limits<float>::infinity();
   pass.alpha_limit = form.alpha_limit.value_or(kNone);
   pass.specular_limit = form.specular_limit.value_or(kNone);
-  pass.inverse_alpha_limit = 1.0f / pass.alpha_limit;
-  pass.inverse_specular_limit = 1.0f / pass.specular_limit;
   pass.turn = form.hinge.turn;
   pass.turn_by_alpha = form.hinge.turn_by_alpha;
   pass.bend = form.hinge.bend;
   pass.spread = form.hinge.spread;
-  pass.is_limited = form.alpha_limit || form.specular_limit;
   pass.powers = std::max(form.alpha.size(), form.specular.size());
   pass.terms = std::max(pad(form.alpha, pass.alpha_terms), pad(form.specular, pass.specular_terms));
   return pass;

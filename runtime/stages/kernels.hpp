@@ -30,10 +30,8 @@ struct FormPass {
   float alpha_min = 0.0f, least_alpha = 0.0f;  // of the source in the domain; of the target
   float specular_min = 0.0f, specular_max = 0.0f;
   float pole = 1.0f;
-  float alpha_limit = 0.0f, specular_limit = 0.0f;  // infinite, and their inverses 0, where there is none
-  float inverse_alpha_limit = 0.0f, inverse_specular_limit = 0.0f;
+  float alpha_limit = 0.0f, specular_limit = 0.0f;  // infinite where there is none
   float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
-  bool is_limited = false;
   std::size_t powers = 1, terms = 1;  // of both factors, which are padded with zeros
   Terms alpha_terms{}, specular_terms{};
 };

@@ -1,132 +1,253 @@
-"""scripts/bench headers REVISION [--fits REVISION] [--json]: evaluate_batch<3> of the generated headers here against those of another
-revision, in its interface of today or in the one before, of five arguments. With --fits those here are what build/release/bin/remapc
-makes of the fits of a revision: then code is compared with code, not a fit with another.
+"""This program measures how fast the generated headers of BRDFs convert texels, as a share of memcpy's speed, and how long a
+compiler takes for one header. `scripts/bench headers` runs it.
 
-Both are built by g++ -O3 for x86-64-v3 and run in turns in one process on random texels: 4096 at a time, which stay in the cache, so
-that arithmetic counts. A figure is the best of some rounds.
+Each header is compiled alone, as an engine compiles it, and linked into one library for a compiler and its flags. It converts four
+planes of 2^20 floats out of place: widths and three channels, at random over the whole measured range. Exponents are uniform in the
+alpha of the same lobe, so that they reach both ends of their range. In turns with the header, memcpy copies the same four planes in
+the same process. Both times are the best of the rounds. These are spread over the whole run, because other programs slow a machine
+down for seconds at a time.
 """
 import argparse
+import concurrent.futures
 import ctypes
 import json
+import os
 import re
+import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-FLAGS = ["-std=c++17", "-O3", "-march=x86-64-v3", "-ffp-contract=off", "-shared", "-fPIC"]
-PROGRAM = """
-#include <chrono>
-#include <cstdlib>
-#include <vector>
-#include "remap/%(id)s.hpp"
-// Least and largest width, least and largest specular.
-extern "C" void domain(float* ends) {
-  const auto [width, specular] = remap::%(id)s::kDomainMin;
-  const auto [last_width, last_specular] = remap::%(id)s::kDomainMax;
-  ends[0] = width, ends[1] = last_width, ends[2] = specular, ends[3] = last_specular;
+STANDARD = "-std=c++17"
+FLAGS = ["-O3", "-O3 -march=x86-64-v3"]
+TEXELS = 1 << 20
+PASSES, ROUNDS = 5, 4  # passes over all headers; rounds of a header in each
+COMPILE_FLAGS, COMPILE_ROUNDS, COMPILE_STEP = "-O2", 3, 10  # every tenth header
+SLOWEST = 10
+
+CONVERTER = """
+#include "%(id)s.hpp"
+using C = remap::%(id)s;
+extern "C" void domain_%(id)s(float* ends) {
+  ends[0] = C::Form::width_min, ends[1] = C::Form::width_max, ends[2] = C::Form::specular_max;
 }
-extern "C" double seconds(const float* ends, std::size_t count, unsigned repeats) {
-  std::vector<float> in[4], out[4];
-  std::srand(1);
-  for (int c = 0; c < 4; ++c) {
-    out[c].resize(count);
-    const float low = ends[c == 0 ? 0 : 2], high = ends[c == 0 ? 1 : 3];
-    for (std::size_t i = 0; i < count; ++i)
-      in[c].push_back(low + (high - low) * static_cast<float>(std::rand()) / static_cast<float>(RAND_MAX));
-  }
-  const auto start = std::chrono::steady_clock::now();
-  for (unsigned r = 0; r < repeats; ++r)
-    remap::%(id)s::%(call)s;
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+extern "C" std::size_t convert_%(id)s(std::size_t count, const float* const* in, float* const* out) {
+  return C::evaluate_batch(count, {in[0], {in[1], in[2], in[3]}}, {out[0], {out[1], out[2], out[3]}});
 }
 """
-CALL = """evaluate_batch(count, {in[0].data(), {in[1].data(), in[2].data(), in[3].data()}},
-                                  {out[0].data(), {out[1].data(), out[2].data(), out[3].data()}})"""
-CALL_BEFORE = """evaluate_batch<3>(count, in[0].data(), {in[1].data(), in[2].data(), in[3].data()},
-                                     out[0].data(), {out[1].data(), out[2].data(), out[3].data()})"""
-TEXELS, ROUNDS, REPEATS = 4096, 15, 24
+ROUNDS_OF_ONE = """
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+namespace {
+constexpr std::size_t kPlanes = 4;
+using Planes = std::vector<float>[kPlanes];
+Planes uniform, in, out;  // uniform: 0 to 1
+
+template <class Run>
+void time_run(double* best, const Run& run) {
+  const auto start = std::chrono::steady_clock::now();
+  run();
+  *best = std::min(*best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+float clamped(float value, float low, float high) { return std::min(std::max(value, low), high); }
+
+// n = 2 / alpha^2 - 2
+float exponent_between(float low, float high, float share) {
+  const float least = std::sqrt(2.0f / (high + 2.0f)), alpha = least + (std::sqrt(2.0f / (low + 2.0f)) - least) * share;
+  return clamped(2.0f / (alpha * alpha) - 2.0f, low, high);
+}
+
+void make_texels(std::size_t count, const float* ends, bool is_exponent) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> from_0_to_1;
+  for (std::size_t p = 0; p < kPlanes; ++p) {
+    if (uniform[p].size() != count) {
+      uniform[p].resize(count), in[p].resize(count), out[p].resize(count);
+      for (float& value : uniform[p]) value = from_0_to_1(random);
+    }
+    const float low = p == 0 ? ends[0] : 0.0f, high = p == 0 ? ends[1] : ends[2];
+    for (std::size_t i = 0; i < count; ++i)
+      in[p][i] = p == 0 && is_exponent ? exponent_between(low, high, uniform[p][i])
+                                       : clamped(low + (high - low) * uniform[p][i], low, high);
+  }
+}
+}  // namespace
+
+// Lowers both times, in seconds, to those of memcpy and of the header in the best round. Returns how many texels lie out of the
+// measured range, which must be none.
+extern "C" std::size_t measure(std::size_t (*convert)(std::size_t, const float* const*, float* const*), std::size_t count,
+                               const float* ends, bool is_exponent, unsigned rounds, double* seconds) {
+  make_texels(count, ends, is_exponent);
+  const float* const from[kPlanes] = {in[0].data(), in[1].data(), in[2].data(), in[3].data()};
+  float* const to[kPlanes] = {out[0].data(), out[1].data(), out[2].data(), out[3].data()};
+  std::size_t outside = 0;
+  for (unsigned r = 0; r < rounds; ++r) {
+    time_run(seconds, [&] {
+      for (std::size_t p = 0; p < kPlanes; ++p) std::memcpy(to[p], from[p], count * sizeof(float));
+    });
+    time_run(seconds + 1, [&] { outside = convert(count, from, to); });
+  }
+  return outside;
+}
+"""
+USER = """
+#include "%(id)s.hpp"
+using C = remap::%(id)s;
+C::Texel<3> texel(const C::Texel<3>& in) { return C::evaluate(in); }
+std::size_t planes(std::size_t count, const C::Texels<const float>& in, const C::Texels<float>& out) {
+  return C::evaluate_batch(count, in, out);
+}
+"""
 
 
-def git(*words):
-    return subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+def texts():
+    """The text of each header of BRDFs by its id."""
+    headers = {path.stem: path.read_text() for path in sorted((ROOT / "generated").glob("*.hpp"))}
+    return {identifier: text for identifier, text in headers.items() if "struct Form {" in text}
 
 
-def files_of(revision, folder, suffix):
-    """The names of such files in a folder of a revision, without the suffix."""
-    listed = git("ls-tree", "--name-only", revision, folder + "/").split()
-    return {Path(name).stem for name in listed if name.endswith(suffix)}
+def note(text):
+    print(text, file=sys.stderr, flush=True)
 
 
-def headers_of_fits(revision, only, folder):
-    """Headers that the compiler here makes of the fits of a revision."""
-    for name in sorted(files_of(revision, "fits", ".json")):
-        if re.search(only, name):
-            fit = folder / f"{name}.json"
-            fit.write_text(git("show", f"{revision}:fits/{name}.json"))
-            if '"remap-fit"' in fit.read_text():
-                subprocess.run([ROOT / "build/release/bin/remapc", "emit", fit, "-o", folder], check=True, stdout=subprocess.DEVNULL)
-    return folder
+def compile_file(compiler, flags, source, target):
+    words = [compiler, STANDARD, *flags.split(), "-fPIC", "-I", ROOT / "generated", "-c", source, "-o", target]
+    done = subprocess.run(words, env=dict(os.environ, CCACHE_DISABLE="1"), capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"bench headers: {compiler} {flags}: {source.stem}: {done.stderr[:2000]}")
+    return target
 
 
-def identifiers(revision, here):
-    """Converters of width and specular that both have."""
-    there = files_of(revision, "generated", ".hpp")
-    return sorted(path.stem for path in here.glob("*.hpp") if path.stem in there and "kDomainMax" in path.read_text())
+def library(compiler, flags, identifiers, folder):
+    """One library with all converters, each compiled alone."""
+    folder.mkdir()
+    sources = {"measure": ROUNDS_OF_ONE, **{identifier: CONVERTER % {"id": identifier} for identifier in identifiers}}
+    for name, text in sources.items():
+        (folder / f"{name}.cpp").write_text(text)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
+        objects = list(workers.map(
+            lambda name: compile_file(compiler, flags, folder / f"{name}.cpp", folder / f"{name}.o"), sources))
+    subprocess.run([compiler, "-shared", *objects, "-o", folder / "all.so"], check=True)
+    return ctypes.CDLL(str(folder / "all.so"))
 
 
-def library(folder, identifier, header):
-    headers = folder / "remap"
-    headers.mkdir(parents=True)
-    (headers / f"{identifier}.hpp").write_text(header)
-    source = folder / "rows.cpp"
-    source.write_text(PROGRAM % {"id": identifier, "call": CALL if "InputRows" in header else CALL_BEFORE})
-    subprocess.run(["g++", *FLAGS, "-I", folder, source, "-o", folder / "rows.so"], check=True)
-    rows = ctypes.CDLL(str(folder / "rows.so"))
-    rows.seconds.restype = ctypes.c_double
-    rows.seconds.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_uint]
-    return rows
+def measure_once(converters, identifier, is_exponent, seconds):
+    """Some rounds of memcpy and of the header, whose best times so far are in `seconds`."""
+    ends = (ctypes.c_float * 3)()
+    getattr(converters, f"domain_{identifier}")(ends)
+    converters.measure.restype = ctypes.c_size_t
+    outside = converters.measure(getattr(converters, f"convert_{identifier}"), ctypes.c_size_t(TEXELS), ends,
+                                 ctypes.c_bool(is_exponent), ctypes.c_uint(ROUNDS), seconds)
+    if outside != 0:
+        sys.exit(f"bench headers: {identifier}: {outside} texels of the measured range are reported as out of it")
 
 
-def rates(folder, identifier, revision, headers):
-    """Texels a second: of the header of the revision on its domain, of the one here on the same, and on its own."""
-    before = library(folder / identifier / "before", identifier, git("show", f"{revision}:generated/{identifier}.hpp"))
-    here = library(folder / identifier / "here", identifier, (headers / f"{identifier}.hpp").read_text())
-    narrow, whole = (ctypes.c_float * 4)(), (ctypes.c_float * 4)()
-    before.domain(narrow)
-    here.domain(whole)
-    runs = [(before, narrow), (here, narrow), (here, whole)]
-    rounds = [[rows.seconds(ends, TEXELS, REPEATS) for rows, ends in runs] for _ in range(ROUNDS)]
-    return [TEXELS * REPEATS / min(times) for times in zip(*rounds)]
+def measure_speeds(builds, headers):
+    """A result for each compiler with flags."""
+    with tempfile.TemporaryDirectory() as folder:
+        libraries = []
+        for compiler, flags in builds:
+            note(f"compile {len(headers)} headers: {compiler} {flags}")
+            libraries.append(library(compiler, flags, headers, Path(folder) / str(len(libraries))))
+        best = [{identifier: (ctypes.c_double * 2)(1e9, 1e9) for identifier in headers} for _ in builds]
+        for number in range(PASSES):
+            note(f"pass {number + 1} of {PASSES}")
+            for converters, times in zip(libraries, best):
+                for identifier, text in headers.items():
+                    measure_once(converters, identifier, 'kSourceWidth = "exponent"' in text, times[identifier])
+    return [speeds(compiler, flags, times) for (compiler, flags), times in zip(builds, best)]
+
+
+def speeds(compiler, flags, times):
+    rows = [{"id": identifier, "share_of_memcpy": copy / convert, "texels_per_second": TEXELS / convert}
+            for identifier, (copy, convert) in times.items()]
+    rows.sort(key=lambda row: row["share_of_memcpy"])
+    return {"compiler": compiler, "flags": flags, "median": statistics.median(row["share_of_memcpy"] for row in rows),
+            "headers": rows}
+
+
+def compile_seconds(compiler, source):
+    best = float("inf")
+    for _ in range(COMPILE_ROUNDS):
+        start = time.monotonic()
+        compile_file(compiler, COMPILE_FLAGS, source, source.with_suffix(".o"))
+        best = min(best, time.monotonic() - start)
+    return best
+
+
+def measure_compiling(compiler, identifiers):
+    """Seconds that a file with one header takes, without those of an empty file."""
+    note(f"time {compiler} {COMPILE_FLAGS}")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "empty.cpp").write_text("")
+        empty = compile_seconds(compiler, folder / "empty.cpp")
+        rows = []
+        for identifier in identifiers:
+            source = folder / f"{identifier}.cpp"
+            source.write_text(USER % {"id": identifier})
+            rows.append({"id": identifier, "seconds": compile_seconds(compiler, source) - empty})
+    rows.sort(key=lambda row: -row["seconds"])
+    return {"compiler": compiler, "flags": COMPILE_FLAGS, "median": statistics.median(row["seconds"] for row in rows),
+            "headers": rows}
+
+
+def print_speeds(result):
+    rows = result["headers"]
+    print(f"{result['compiler']} {STANDARD} {result['flags']}: {len(rows)} headers, median {result['median']:.2f} of memcpy's speed, "
+          f"{rows[0]['share_of_memcpy']:.2f} to {rows[-1]['share_of_memcpy']:.2f}; the slowest:")
+    for row in rows[:SLOWEST]:
+        print(f"  {row['share_of_memcpy']:5.2f} {row['texels_per_second'] / 1e6:6.0f} Mtexel/s  {row['id']}")
+
+
+def print_compiling(result):
+    largest = result["headers"][0]
+    print(f"{result['compiler']} {STANDARD} {result['flags']}: {len(result['headers'])} headers compiled alone, median "
+          f"{result['median']:.2f} s, largest {largest['seconds']:.2f} s ({largest['id']})")
+
+
+def joined(words):
+    """The words of the command line with `--flags=-O2` for `--flags -O2`: argparse reads a separate -O2 as an option."""
+    words = list(words)
+    while "--flags" in words[:-1]:
+        at = words.index("--flags")
+        words[at:at + 2] = [f"--flags={words[at + 1]}"]
+    return words
 
 
 def main():
     options = argparse.ArgumentParser(prog="scripts/bench headers")
-    options.add_argument("revision")
-    options.add_argument("--json", action="store_true")
-    options.add_argument("--fits", metavar="REVISION", help="whose fits the headers here are made of")
-    options.add_argument("--only", default="", metavar="REGEX", help="of the converters' ids")
-    given = options.parse_args()
-    rows = []
-    with tempfile.TemporaryDirectory() as folder:
-        headers = headers_of_fits(given.fits, given.only, Path(folder)) if given.fits else ROOT / "generated"
-        for identifier in identifiers(given.revision, headers):
-            if re.search(given.only, identifier):
-                before, here, whole = rates(Path(folder), identifier, given.revision, headers)
-                rows.append({"id": identifier, "before": before, "here": here, "here_on_its_domain": whole,
-                             "time_ratio": before / here})
-                print(f"\r{len(rows)} headers", end="", file=sys.stderr, flush=True)
-    print(file=sys.stderr)
-    rows.sort(key=lambda row: -row["time_ratio"])
+    options.add_argument("--json", action="store_true", help="print all figures as JSON")
+    options.add_argument("--only", default="", metavar="REGEX", help="measure only headers whose id matches")
+    options.add_argument("--compiler", nargs="+", default=["g++", "clang++"],
+                         help="default: g++ and clang++, if installed")
+    options.add_argument("--flags", action="append", metavar='"..."',
+                         help=f"flags besides {STANDARD}; may be repeated (default: {' and '.join(FLAGS)})")
+    given = options.parse_args(joined(sys.argv[1:]))
+    compilers = [compiler for compiler in given.compiler if shutil.which(compiler)]
+    headers = {identifier: text for identifier, text in texts().items() if re.search(given.only, identifier)}
+    if not compilers or not headers:
+        sys.exit("bench headers: " + ("no such header" if compilers else f"not installed: {', '.join(given.compiler)}"))
+    builds = [(compiler, flags) for compiler in compilers for flags in given.flags or FLAGS]
+    result = {"texels": TEXELS, "rounds": PASSES * ROUNDS, "speed": measure_speeds(builds, headers),
+              "compile": [measure_compiling(compiler, list(headers)[::COMPILE_STEP]) for compiler in compilers]}
     if given.json:
-        print(json.dumps(rows, indent=2))
+        print(json.dumps(result, indent=2))
         return
-    print("Mtexel/s before, here on the domain of that, here on its own; time here as a share of that before")
-    for row in rows:
-        print(f"{row['before'] / 1e6:8.0f} {row['here'] / 1e6:8.0f} {row['here_on_its_domain'] / 1e6:8.0f}   {row['time_ratio']:.2f}  {row['id']}")
-    mean = sum(row["time_ratio"] for row in rows) / max(len(rows), 1)
-    print(f"mean of {len(rows)}: {mean:.2f}; above 1.15: {sum(row['time_ratio'] > 1.15 for row in rows)}")
+    print(f"generated headers against memcpy: four planes of {TEXELS} floats, out of place, best of {PASSES * ROUNDS} rounds each")
+    for row in result["speed"]:
+        print_speeds(row)
+    for row in result["compile"]:
+        print_compiling(row)
 
 
 main()

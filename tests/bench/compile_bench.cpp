@@ -13,9 +13,9 @@ const std::filesystem::path kFolder = REMAP_BENCH_FOLDER;
 std::string user_code(const std::string& code) {
   return "#include <cstddef>\n#include \"" + code + ".hpp\"\nusing header = remap::" + code +
          ";\n"
-         "std::size_t convert(std::size_t count, header::InputRows<3> in, header::OutputRows<3> out) {\n"
+         "std::size_t convert(std::size_t count, header::Texels<const float> in, header::Texels<> out) {\n"
          "  return header::evaluate_batch(count, in, out);\n}\n"
-         "header::Output convert_one(header::Input in) { return header::evaluate(in); }\n";
+         "header::Texel<> convert_one(header::Texel<> in) { return header::evaluate(in); }\n";
 }
 
 void add_compilation(const std::string& name, const std::string& text) {

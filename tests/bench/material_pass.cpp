@@ -15,10 +15,10 @@ namespace remap_bench {
 
 std::size_t BENCH_NAME(std::size_t count, const float* const* in, float* const* out) {
   using converter = BENCH_NAMESPACE::BENCH_HEADER;
-  converter::InputRows from{};
-  converter::OutputRows to{};
-  std::memcpy(&from, in, sizeof from);
-  std::memcpy(&to, out, sizeof to);
+  converter::InputTexels<const float> from{};  // pointers, then strides of 1
+  converter::OutputTexels<> to{};
+  std::memcpy(static_cast<void*>(&from), in, sizeof(converter::Input) / sizeof(float) * sizeof(float*));
+  std::memcpy(static_cast<void*>(&to), out, sizeof(converter::Output) / sizeof(float) * sizeof(float*));
   return converter::evaluate_batch(count, from, to);
 }
 

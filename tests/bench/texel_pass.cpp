@@ -13,12 +13,14 @@ void BENCH_NAME(TexelUse use, std::size_t count, const float* width, const float
                 float* out) {
   using converter = BENCH_NAMESPACE::BENCH_HEADER;
   if (use == TexelUse::kRgba)
-    converter::evaluate_texels(count, {{in + 3, 4}, {in, 4}}, {{out + 3, 4}, {out, 4}});
+    converter::evaluate_batch(count, {in + 3, {in, in + 1, in + 2}, 4, 4},
+                              {out + 3, {out, out + 1, out + 2}, 4, 4});
   else if (use == TexelUse::kRgb)
-    converter::evaluate_texels(count, {{width, 1}, {in, 3}}, {{width_out, 1}, {out, 3}});
+    converter::evaluate_batch(count, {width, {in, in + 1, in + 2}, 1, 3},
+                              {width_out, {out, out + 1, out + 2}, 1, 3});
   else
     for (std::size_t i = 0; i < count; ++i, in += 4, out += 4) {
-      const auto texel = converter::evaluate(in[3], {in[0], in[1], in[2]});
+      const auto texel = converter::evaluate<3>({in[3], {in[0], in[1], in[2]}});
       for (std::size_t c = 0; c < 3; ++c) out[c] = texel.specular[c];
       out[3] = texel.width;
     }

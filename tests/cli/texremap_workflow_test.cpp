@@ -285,7 +285,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
         CHECK(ks <= 1.0f);
       }
       CHECK(diffuse.at(x, y, 0) <= base.at(x, y, 0) * (1.0f - m) + 1e-5f);
-      // The short form generated/short: fitted to other pictures, and without a limit of Ks. Where it stays
+      // The short form of importers: fitted to other pictures, and without a limit of Ks. Where it stays
       // clear of the limit, alpha is within 15 % of it; elsewhere the lobe is wider.
       if (most < 0.5f && fourth < 0.1f) {
         CHECK(n == Approx(1.52f / fourth).epsilon(0.3));

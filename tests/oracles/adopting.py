@@ -2,7 +2,7 @@
 """Applies the lines that docs/adopting offers to the programs themselves, and measures pictures before and after.
 
 Usage: tests/oracles/adopting.py [--cache FOLDER] [--record] [--pictures] [PROGRAM ...]
-       tests/oracles/adopting.py --constants          # offline: do the pages have the constants of fits/short/forms.json?
+       tests/oracles/adopting.py --constants          # offline: do the pages have the constants of the short forms?
        tests/oracles/adopting.py --lines [PAGE ...]   # offline: do the lines in C and C++ compile ($CXX), and give what the pages state?
 
 Programs whose registry has their source (obj2gltf, trimesh, mujoco-usd-converter, urdf-usd-converter) are installed at the version

@@ -58,8 +58,9 @@ std::size_t rows(std::size_t count, const float* width, const std::array<const f
 
 template <class Header, class T>
 std::size_t texels(std::size_t count, const Buffers<T>& in, const Buffers<T>& out) {
-  return Header::template evaluate_texels<T>(count, {{in.width, in.width_stride}, {in.red, in.stride}},
-                                             {{out.width, out.width_stride}, {out.red, out.stride}});
+  return Header::template evaluate_batch<3, const T>(
+      count, {in.width, {in.red, in.red + 1, in.red + 2}, in.width_stride, in.stride},
+      {out.width, {out.red, out.red + 1, out.red + 2}, out.width_stride, out.stride});
 }
 
 // Two element types of many headers, with optimisation, would take compilers half a minute.
@@ -82,17 +83,16 @@ Converter entry_of(const char* id) {
   return {id,
           Header::self_test,
           [](float width, float specular) {
-            return Header::in_domain({width, specular});
+            return typename Header::template Texel<1>{width, {specular}}.in_domain();
           },
           [](const float* in, float* out) {
-            const auto texel = Header::evaluate({in[0], in[1]});
+            const auto texel = Header::evaluate({in[0], {in[1]}});
             out[0] = texel.width;
-            out[1] = texel.specular;
+            out[1] = texel.specular[0];
           },
           [](const float* in, float* out) {
-            const auto texel = Header::evaluate(in[0], {in[1], in[2], in[3]});
-            const auto same = Header::evaluate(in[0], std::array<float, 3>{in[1], in[2], in[3]});
-            out[0] = std::memcmp(&texel, &same, sizeof texel) == 0 ? texel.width : -1.0f;
+            const auto texel = Header::template evaluate<3>({in[0], {in[1], in[2], in[3]}});
+            out[0] = texel.width;
             for (std::size_t c = 0; c < 3; ++c) out[c + 1] = texel.specular[c];
           },
           rows<Header, 3>,

@@ -345,7 +345,7 @@ TEST_CASE("generated header: self_test fails when any one coefficient is changed
   add("original", header);
 
   // Every number of the polynomials, by more than the header's bound.
-  const std::size_t start = header.find("static void alpha_factor"), end = header.find("// A row of widths");
+  const std::size_t start = header.find("static float alpha_factor"), end = header.find("static float held");
   REQUIRE(start < end);
   const std::string code = header.substr(start, end - start);
   const std::regex literal("-?[0-9]+\\.?[0-9]*(e-?[0-9]+)?f");

@@ -177,9 +177,9 @@ void check_bits(const Header& header, const std::vector<float>& in, const std::v
     std::array<float, 3> expected{};
     for (std::size_t c = 0; c < 3; ++c)
       expected[c] = channels[c] * factor_in_floats(form.specular, alpha, share(channels[c]));
-    const float free =
-        alpha * factor_in_floats(form.alpha, alpha, share(*std::max_element(channels, channels + 3)));
-    const float excess = over(*std::ranges::max_element(expected), specular_limit);
+    const float top = *std::max_element(channels, channels + 3);
+    const float free = alpha * factor_in_floats(form.alpha, alpha, share(top));
+    const float excess = over(top * factor_in_floats(form.specular, alpha, share(top)), specular_limit);
     const float cut = excess / (1.0f + form.hinge.bend * excess);
     const float turned = free + alpha * cut * (form.hinge.turn + form.hinge.turn_by_alpha * alpha);
     wrong += out[i] == std::min(std::max(turned, 0.0f), alpha_limit) ? 0 : 1;

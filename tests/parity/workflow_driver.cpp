@@ -30,26 +30,49 @@ Struct made_of(const Element* elements) {
   return made;
 }
 
+// Rows as planar texels: pointers, then strides of 1.
+template <class Texels, std::size_t Rows, class Pointer>
+Texels rows_of(const Pointer* rows) {
+  Texels made{};
+  std::memcpy(static_cast<void*>(&made), rows, Rows * sizeof *rows);
+  return made;
+}
+
+// Diffuse or base color in texels of three; the rest in texels of four, the width behind the others.
+template <std::size_t Rows, class T, class Texels>
+void place(T* color, T* rest, Texels* texels) {
+  T* pointers[Rows];
+  std::size_t strides[3] = {3, 4, 4};
+  for (std::size_t r = 0; r < Rows; ++r) pointers[r] = r < 3 ? color + r : rest + (r - 3);
+  std::memcpy(static_cast<void*>(texels), pointers, sizeof pointers);
+  std::memcpy(reinterpret_cast<char*>(texels) + sizeof pointers, strides, sizeof strides);
+}
+
 template <class Header>
 Converter entry_of(const char* id) {
   constexpr std::size_t kInputs = sizeof(typename Header::Input) / sizeof(float),
                         kOutputs = sizeof(typename Header::Output) / sizeof(float);
-  return {
-      id, kInputs, kOutputs, Header::self_test,
-      [](const float* in) { return Header::in_domain(made_of<typename Header::Input>(in)); },
-      [](const float* in, float* out) {
-        const auto result = Header::evaluate(made_of<typename Header::Input>(in));
-        std::memcpy(out, &result, sizeof result);
-      },
-      [](std::size_t count, const float* const* in, float* const* out) {
-        return Header::evaluate_batch(count, made_of<typename Header::InputRows>(in),
-                                      made_of<typename Header::OutputRows>(out));
-      },
-      // Diffuse or base color in texels of three; the rest in texels of four, the width behind the others.
-      [](std::size_t count, const float* color, const float* rest, float* color_out, float* rest_out) {
-        return Header::evaluate_texels(count, {{color, 3}, {rest, 4}, {rest + (kInputs - 4), 4}},
-                                       {{color_out, 3}, {rest_out, 4}, {rest_out + (kOutputs - 4), 4}});
-      }};
+  return {id,
+          kInputs,
+          kOutputs,
+          Header::self_test,
+          [](const float* in) { return Header::in_domain(made_of<typename Header::Input>(in)); },
+          [](const float* in, float* out) {
+            const auto result = Header::evaluate(made_of<typename Header::Input>(in));
+            std::memcpy(out, &result, sizeof result);
+          },
+          [](std::size_t count, const float* const* in, float* const* out) {
+            return Header::evaluate_batch(
+                count, rows_of<typename Header::template InputTexels<const float>, kInputs>(in),
+                rows_of<typename Header::template OutputTexels<>, kOutputs>(out));
+          },
+          [](std::size_t count, const float* color, const float* rest, float* color_out, float* rest_out) {
+            typename Header::template InputTexels<const float> from{};
+            typename Header::template OutputTexels<> to{};
+            place<kInputs>(color, rest, &from);
+            place<kOutputs>(color_out, rest_out, &to);
+            return Header::evaluate_batch(count, from, to);
+          }};
 }
 
 #define ENTRY(ID) entry_of<remap::ID>(#ID),

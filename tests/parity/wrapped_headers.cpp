@@ -15,18 +15,19 @@ namespace {
 // Specular in red, green and blue, the width in alpha.
 template <class Converter>
 std::size_t convert_brdf(std::size_t count, float* rgba, float* alpha) {
-  static_assert(Converter::kDomainMin.width < Converter::kDomainMax.width);
-  const typename Converter::Output grey = Converter::evaluate({0.3f, 0.5f});
-  const auto color = Converter::evaluate(0.3f, {0.8f, 0.6f, 0.4f});
-  rgba[0] = grey.width + grey.specular + color.width + color.specular[2];
-  return Converter::evaluate_texels(count, {{rgba + 3, 4}, {rgba, 4}}, {{rgba + 3, 4}, {rgba, 4}}) +
+  static_assert(Converter::Form::width_min < Converter::Form::width_max);
+  const auto grey = Converter::evaluate({0.3f, {0.5f}});
+  const auto color = Converter::template evaluate<3>({0.3f, {0.8f, 0.6f, 0.4f}});
+  rgba[0] = grey.width + grey.specular[0] + color.width + color.specular[2];
+  const typename Converter::template Texels<> texels{rgba + 3, {rgba, rgba + 1, rgba + 2}, 4, 4};
+  return Converter::evaluate_batch(count, texels, texels) +
          Converter::template evaluate_batch<1>(count, {alpha, {alpha}}, {alpha, {rgba}}) +
          (Converter::self_test() ? 0 : 1);
 }
 
 template <class Converter>
-std::size_t convert_material(std::size_t count, typename Converter::InputRows in,
-                             typename Converter::OutputRows out) {
+std::size_t convert_material(std::size_t count, typename Converter::template InputTexels<const float> in,
+                             typename Converter::template OutputTexels<> out) {
   const typename Converter::Output one = Converter::evaluate(typename Converter::Input{});
   *out.width = one.width;
   return Converter::evaluate_batch(count, in, out) +

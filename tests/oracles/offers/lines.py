@@ -6,7 +6,7 @@ import shlex
 import subprocess
 import tempfile
 
-from offers.pages import PAGES, examples, short_forms
+from offers.pages import PAGES, SHORT_FORMS, examples
 
 PROGRAMS = pathlib.Path(__file__).parent / "lines"
 FLAGS = ["-Wall", "-Wextra", "-Werror"]
@@ -47,7 +47,7 @@ def check(case, compiler, folder):
     ran = subprocess.run([program, folder / "paint.obj"], text=True, capture_output=True)
     if ran.returncode != 0:
         return [f"docs/adopting/{page}: {name} ends with {ran.returncode}"], []
-    stated = examples(short_forms())[page][wanted]
+    stated = examples(SHORT_FORMS)[page][wanted]
     return [f"docs/adopting/{page}: {name} prints '{ran.stdout.strip()}', without the {value} of the page"
             for value in stated if value not in ran.stdout.split()], []
 

@@ -1,5 +1,4 @@
 """The pages of docs/adopting: the constants in their lines, their blocks of code, their tables."""
-import json
 import math
 import pathlib
 import re
@@ -13,9 +12,8 @@ STRENGTH = re.compile(r"(?P<a>\d+\.\d+)(?P<s>f?) \* (?P<k>[\w.\[\]]+) / "
                       r"\((?:(?P<t>\d+\.\d+)f? \* )?(?P<n>n|exponent) \+ (?P<b>\d+\.\d+)f?\)")
 
 
-def short_forms():
-    forms = {form["id"]: form["constants"] for form in json.loads((ROOT / "fits/short/forms.json").read_text())["forms"]}
-    return {"blinn": forms["legacy_blinn_phong_to_mitsuba_ggx"], "phong": forms["legacy_phong_to_mitsuba_ggx"]}
+# roughness = (a / (e n + b))^(1/4), F0 = min(1, c Ks / (e n + d)): [a, b, c, d, e] (docs/decisions/060-short-forms.md)
+SHORT_FORMS = {"blinn": [1.55, 4.17, 6.02, 1.86, 1.0], "phong": [1.44, 4.26, 6.06, 2.46, 2.83]}
 
 
 def with_constants(text, forms):
@@ -54,7 +52,7 @@ def examples(forms):
 
 
 def check_constants(record):
-    forms, wrong = short_forms(), 0
+    forms, wrong = SHORT_FORMS, 0
     for page in sorted(PAGES.glob("*.md")):
         text = page.read_text()
         now = with_constants(text, forms)

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 
-from offers.pages import ROOT, short_forms
+from offers.pages import SHORT_FORMS
 from offers.spheres import Source, Target, percent, squares
 
 LUMA = np.array([0.2125, 0.7154, 0.0721])
@@ -16,7 +16,7 @@ def plain(roughness, f0=0.04, f90=1.0):
 
 
 def short_target(n, kd, ks, lobe="blinn", f90=None):
-    a, b, c, d, times = short_forms()[lobe]
+    a, b, c, d, times = SHORT_FORMS[lobe]
     f0 = np.minimum(1, c * ks / (times * n + d)) if n >= 1 else np.zeros(3)
     f = f0.max()
     return Target(np.minimum(1, kd / max(0.02, 1 - f)), (a / (times * n + b)) ** 0.25 if n >= 1 else 1.0, f0, f if f90 is None else f90)
@@ -43,14 +43,40 @@ FORMULAS = {  # page: lobe, [(label, rule)]
 REFERENCE = (96.08, np.full(3, 0.64), np.full(3, 0.5))
 
 
+# Kd, Ks and shininess (times 128 the exponent) of the 24 materials of the OpenGL courses (teapots.c of the OpenGL Programming
+# Guide): emerald, jade, obsidian, pearl, ruby, turquoise; brass, bronze, chrome, copper, gold, silver; plastics and rubbers in
+# black, cyan, green, red, white and yellow.
+OPENGL = [
+    ((0.07568, 0.61424, 0.07568), (0.633, 0.727811, 0.633), 0.6),
+    ((0.54, 0.89, 0.63), (0.316228, 0.316228, 0.316228), 0.1),
+    ((0.18275, 0.17, 0.22525), (0.332741, 0.328634, 0.346435), 0.3),
+    ((1.0, 0.829, 0.829), (0.296648, 0.296648, 0.296648), 0.088),
+    ((0.61424, 0.04136, 0.04136), (0.727811, 0.626959, 0.626959), 0.6),
+    ((0.396, 0.74151, 0.69102), (0.297254, 0.30829, 0.306678), 0.1),
+    ((0.780392, 0.568627, 0.113725), (0.992157, 0.941176, 0.807843), 0.21794872),
+    ((0.714, 0.4284, 0.18144), (0.393548, 0.271906, 0.166721), 0.2),
+    ((0.4, 0.4, 0.4), (0.774597, 0.774597, 0.774597), 0.6),
+    ((0.7038, 0.27048, 0.0828), (0.256777, 0.137622, 0.086014), 0.1),
+    ((0.75164, 0.60648, 0.22648), (0.628281, 0.555802, 0.366065), 0.4),
+    ((0.50754, 0.50754, 0.50754), (0.508273, 0.508273, 0.508273), 0.4),
+    ((0.01, 0.01, 0.01), (0.5, 0.5, 0.5), 0.25),
+    ((0.0, 0.50980392, 0.50980392), (0.50196078, 0.50196078, 0.50196078), 0.25),
+    ((0.1, 0.35, 0.1), (0.45, 0.55, 0.45), 0.25),
+    ((0.5, 0.0, 0.0), (0.7, 0.6, 0.6), 0.25),
+    ((0.55, 0.55, 0.55), (0.7, 0.7, 0.7), 0.25),
+    ((0.5, 0.5, 0.0), (0.6, 0.6, 0.5), 0.25),
+    ((0.01, 0.01, 0.01), (0.4, 0.4, 0.4), 0.078125),
+    ((0.4, 0.5, 0.5), (0.04, 0.7, 0.7), 0.078125),
+    ((0.4, 0.5, 0.4), (0.04, 0.7, 0.04), 0.078125),
+    ((0.5, 0.4, 0.4), (0.7, 0.04, 0.04), 0.078125),
+    ((0.5, 0.5, 0.5), (0.7, 0.7, 0.7), 0.078125),
+    ((0.5, 0.5, 0.4), (0.7, 0.7, 0.04), 0.078125),
+]
+
+
 def opengl_materials():
-    """(n, Kd, Ks) of the 24 materials of the OpenGL courses, from the table of `remap-study exponents`."""
-    text = (ROOT / "compiler/study/exponent_rules.cpp").read_text()
-    rows = re.findall(r"\{\{([\d., ]+)\}, \{([\d., ]+)\}, ([\d.]+)\}", text)
-    if len(rows) != 24:
-        sys.exit(f"compiler/study/exponent_rules.cpp: {len(rows)} rows of materials (expected 24)")
-    values = lambda words: tuple(float(word) for word in words.split(","))  # noqa: E731
-    return [(128 * float(shininess), values(kd), values(ks)) for kd, ks, shininess in rows]
+    """(n, Kd, Ks)."""
+    return [(128 * shininess, kd, ks) for kd, ks, shininess in OPENGL]
 
 
 def offers(lobe):

@@ -24,8 +24,8 @@ TEST_CASE("converter data: reads back exactly, in the order of their ids") {
   other.converter->info.id = "a_to_b";
   other.converter->info.image_rms_error = std::nullopt;
   other.converter->info.ssim = std::nullopt;
-  const std::string text = emit_converter_list({fit, other});
-  CHECK(text == emit_converter_list({other, fit}));
+  const std::string text = emit_shared_files({fit, other})[0].text;
+  CHECK(text == emit_shared_files({other, fit})[0].text);
   CHECK(converters_from_json(text, "list") == std::vector<ConverterData>{*other.converter, *fit.converter});
 }
 
@@ -44,7 +44,7 @@ TEST_CASE("converter data: the SSIM is the mean of the fit's spheres, in three d
 }
 
 TEST_CASE("converter data: a damaged file is refused with the place") {
-  const std::string text = emit_converter_list({shipped_fit()});
+  const std::string text = emit_shared_files({shipped_fit()})[0].text;
   const auto refused = [&](const std::string& from, const std::string& to, const std::string& place) {
     std::string damaged = text;
     REQUIRE(damaged.find(from) != std::string::npos);

@@ -1,0 +1,214 @@
+#include "emit/formula.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace remap {
+namespace {
+
+Expression number(float value) { return {Op::kNumber, value, "", {}}; }
+Expression name(const std::string& name) { return {Op::kName, 0.0f, name, {}}; }
+bool is_number(const Expression& expression, float value) {
+  return expression.op == Op::kNumber && expression.number == value;
+}
+Expression joined(Op op, Expression a, Expression b) { return {op, 0.0f, "", {std::move(a), std::move(b)}}; }
+
+// The first factor of a product, another expression itself.
+Expression& first_factor(Expression& expression) {
+  return expression.op == Op::kMultiply ? first_factor(expression.terms[0]) : expression;
+}
+
+// a - b in place of a + -b.
+Expression operator+(Expression a, Expression b) {
+  if (is_number(b, 0.0f)) return a;
+  if (Expression& factor = first_factor(b); factor.op == Op::kNumber && std::signbit(factor.number)) {
+    factor.number = -factor.number;
+    return joined(Op::kSubtract, std::move(a), std::move(b));
+  }
+  return joined(Op::kAdd, std::move(a), std::move(b));
+}
+Expression operator-(Expression a, Expression b) { return joined(Op::kSubtract, std::move(a), std::move(b)); }
+Expression operator*(Expression a, Expression b) {
+  if (is_number(b, 1.0f)) return a;
+  return joined(Op::kMultiply, std::move(a), std::move(b));
+}
+Expression operator/(Expression a, Expression b) { return joined(Op::kDivide, std::move(a), std::move(b)); }
+Expression least(Expression a, Expression b) { return joined(Op::kMin, std::move(a), std::move(b)); }
+Expression most(Expression a, Expression b) { return joined(Op::kMax, std::move(a), std::move(b)); }
+Expression root(Expression a) { return {Op::kRoot, 0.0f, "", {std::move(a)}}; }
+
+Expression alpha_of(RoughnessConvention convention, const Expression& own) {
+  switch (convention) {
+    case RoughnessConvention::kAlpha:
+      break;
+    case RoughnessConvention::kRoughness:
+      return own * own;
+    case RoughnessConvention::kExponent:
+      return root(number(2.0f) / (own + number(2.0f)));
+    case RoughnessConvention::kGlossiness:
+      return (number(1.0f) - own) * (number(1.0f) - own);
+    case RoughnessConvention::kSquared:
+      return root(own);
+  }
+  return own;
+}
+
+Expression own_of(RoughnessConvention convention, const Expression& alpha) {
+  switch (convention) {
+    case RoughnessConvention::kAlpha:
+      break;
+    case RoughnessConvention::kRoughness:
+      return root(alpha);
+    case RoughnessConvention::kExponent:
+      return number(2.0f) / (alpha * alpha) - number(2.0f);
+    case RoughnessConvention::kGlossiness:
+      return number(1.0f) - root(alpha);
+    case RoughnessConvention::kSquared:
+      return alpha * alpha;
+  }
+  return alpha;
+}
+
+Expression sum_of_powers(const std::vector<float>& terms, const Expression& x) {
+  Expression sum = number(terms.back());
+  for (std::size_t i = terms.size() - 1; i-- > 0;) sum = std::move(sum) * x + number(terms[i]);
+  return sum;
+}
+
+bool uses(const Expression& expression, const std::string& wanted) {
+  return expression.name == wanted ||
+         std::ranges::any_of(expression.terms, [&](const Expression& term) { return uses(term, wanted); });
+}
+
+// Without what nobody uses.
+std::vector<Statement> used(std::vector<Statement> statements) {
+  for (std::size_t i = statements.size(); i-- > 0;) {
+    const std::string wanted = statements[i].name;
+    const bool is_output = wanted.ends_with("_out");
+    if (!is_output && std::none_of(statements.begin() + static_cast<std::ptrdiff_t>(i), statements.end(),
+                                   [&](const Statement& later) { return uses(later.value, wanted); }))
+      statements.erase(statements.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return statements;
+}
+
+// How strongly an operation binds.
+int rank_of(const Expression& expression) {
+  switch (expression.op) {
+    case Op::kAdd:
+    case Op::kSubtract:
+      return 1;
+    case Op::kMultiply:
+    case Op::kDivide:
+      return 2;
+    case Op::kNumber:
+      return std::signbit(expression.number) ? 2 : 3;
+    default:
+      return 3;
+  }
+}
+
+}  // namespace
+
+Expression factor_expression(const FactorTerms& factor, const std::string& alpha, const std::string& t) {
+  Expression sum = sum_of_powers(factor.back(), name(alpha));
+  for (std::size_t j = factor.size() - 1; j-- > 0;)
+    sum = std::move(sum) * name(t) + sum_of_powers(factor[j], name(alpha));
+  return sum;
+}
+
+std::vector<Statement> formula_of(const ConverterData& converter) {
+  const CompactForm& form = converter.form;
+  const ConverterInfo& info = converter.info;
+  const FormEnds ends = ends_of(info.source.roughness, info.target.roughness, info.roughness);
+  const Expression alpha = name("alpha"), inside = name("inside"), top = name("top"), wanted = name("wanted"),
+                   held = name("held"), s = name("s"), pole = number(form.pole),
+                   specular_min = number(static_cast<float>(info.specular.min)),
+                   specular_max = number(static_cast<float>(info.specular.max));
+  std::vector<Statement> all;
+  const auto add = [&](const char* id, Expression value) { all.push_back({id, false, std::move(value)}); };
+  const auto add_color = [&](const char* id, Expression value) {
+    all.push_back({id, true, std::move(value)});
+  };
+  // A factor of what is cut off: value / limit - 1, from 0.
+  const auto excess = [](const Expression& value, float limit) {
+    return most(value * number(1.0f / limit) - number(1.0f), number(0.0f));
+  };
+
+  const bool is_alpha = info.source.roughness == RoughnessConvention::kAlpha;
+  add(is_alpha ? "alpha" : "own", least(most(name("width"), number(ends.width_from)), number(ends.width_to)));
+  if (!is_alpha) add("alpha", alpha_of(info.source.roughness, name("own")));
+  add("inside", most(alpha, number(ends.alpha_min)));
+  add("top", least(most({Op::kLargest, 0.0f, "specular", {}}, specular_min), specular_max));
+  add("t", top / (top + pole));
+  add("wanted", alpha * factor_expression(form.alpha, "inside", "t"));
+  Expression alpha_out = wanted, more = number(1.0f);
+  if (form.specular_limit) {
+    add("excess", excess(top * factor_expression(form.specular, "inside", "t"), *form.specular_limit));
+    Expression cut = name("excess");
+    if (form.hinge.bend != 0.0f) {
+      add("cut", cut / (number(1.0f) + number(form.hinge.bend) * cut));
+      cut = name("cut");
+    }
+    alpha_out = wanted + alpha * cut * (number(form.hinge.turn) + number(form.hinge.turn_by_alpha) * inside);
+  }
+  if (form.alpha_limit) {
+    add("more", number(1.0f) + number(form.hinge.spread) * excess(wanted, *form.alpha_limit));
+    more = name("more");
+  }
+  alpha_out = most(std::move(alpha_out), number(ends.least_alpha));
+  if (form.alpha_limit) alpha_out = least(std::move(alpha_out), number(*form.alpha_limit));
+  if (info.target.roughness != RoughnessConvention::kAlpha) {
+    add("target", std::move(alpha_out));
+    alpha_out = own_of(info.target.roughness, name("target"));
+  }
+  add("width_out", std::move(alpha_out));
+  add_color("s", most(name("specular"), number(0.0f)));
+  add_color("held", least(info.specular.min > 0.0 ? most(s, specular_min) : s, specular_max));
+  add_color("u", held / (held + pole));
+  Expression specular_out = s * factor_expression(form.specular, "inside", "u") * more;
+  if (form.specular_limit) specular_out = least(std::move(specular_out), number(*form.specular_limit));
+  add_color("specular_out", std::move(specular_out));
+  return used(std::move(all));
+}
+
+std::string text_of(const Expression& expression, const Notation& notation,
+                    const std::vector<std::string>& colors) {
+  const auto inner = [&](std::size_t term, int rank) {
+    const std::string text = text_of(expression.terms[term], notation, colors);
+    return rank_of(expression.terms[term]) < rank ? "(" + text + ")" : text;
+  };
+  const auto call = [&](const std::string& function) {
+    std::string text;
+    for (const Expression& term : expression.terms)
+      text += (text.empty() ? "" : ", ") + text_of(term, notation, colors);
+    return function + "(" + text + ")";
+  };
+  switch (expression.op) {
+    case Op::kNumber:
+      return notation.number(expression.number);
+    case Op::kName:
+      return expression.name +
+             (std::ranges::find(colors, expression.name) == colors.end() ? "" : notation.channel);
+    case Op::kAdd:
+      return inner(0, 1) + " + " + inner(1, 2);
+    case Op::kSubtract:
+      return inner(0, 1) + " - " + inner(1, 2);
+    case Op::kMultiply:
+      return inner(0, 2) + " * " + inner(1, 3);
+    case Op::kDivide:
+      return inner(0, 2) + " / " + inner(1, 3);
+    case Op::kMin:
+      return call(notation.least);
+    case Op::kMax:
+      return call(notation.most);
+    case Op::kRoot:
+      return call(notation.root);
+    case Op::kLargest:
+      return notation.largest(expression.name);
+  }
+  return "";
+}
+
+}  // namespace remap

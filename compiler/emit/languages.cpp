@@ -1,0 +1,289 @@
+#include "emit/languages.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+#include "emit/convention_text.hpp"
+#include "emit/formula.hpp"
+#include "emit/header_data.hpp"
+#include "remap/version.hpp"
+
+namespace remap {
+namespace {
+
+std::string plain_number(float value) { return number_text(decimal_value(value)); }
+// Shaders read a number without a point as an integer.
+std::string point_number(float value) {
+  const std::string text = plain_number(value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string upper(std::string text) {
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return text;
+}
+
+// A converter as text.
+struct Parts {
+  std::string id, meaning;
+  std::vector<Statement> numbers, colors;
+};
+
+// A sentence on units and errors.
+std::string meaning_of(const Fit& fit) {
+  const auto side = [](const ModelSide& model) {
+    return model.model + " (" + std::string(convention_name(model.roughness)) + ", " + model.specular + ")";
+  };
+  std::string text = side(fit.source) + " to " + side(fit.target) + ".";
+  if (fit.pictures)
+    text += " Pictures differ by " + fixed(fit.pictures->converted.rmse, 1) +
+            " % of white, where numbers are copied by " + fixed(fit.pictures->copied.rmse, 1) + " %.";
+  return text;
+}
+
+Parts parts_of(const Fit& fit) {
+  Parts parts{fit.id, meaning_of(fit), {}, {}};
+  for (Statement& statement : formula_of(require_converter(fit)))
+    (statement.is_color ? parts.colors : parts.numbers).push_back(std::move(statement));
+  return parts;
+}
+
+std::vector<std::string> color_names(const Parts& parts) {
+  std::vector<std::string> names = {"specular"};
+  for (const Statement& statement : parts.colors) names.push_back(statement.name);
+  return names;
+}
+
+// A line for each, `start`, the name, the value; `last` in place of the output.
+std::string lines_of(const std::vector<Statement>& statements, const Notation& notation,
+                     const std::string& start, const std::string& last, const std::string& end) {
+  const std::vector<std::string> colors =
+      notation.channel.empty() ? std::vector<std::string>() : std::vector<std::string>{"specular"};
+  std::string text;
+  for (const Statement& statement : statements)
+    text += (statement.name.ends_with("_out") ? last : start + statement.name + " = ") +
+            text_of(statement.value, notation, colors) + end + "\n";
+  return text;
+}
+
+std::string three(const std::string& function, const std::string& color, const char* red, const char* green,
+                  const char* blue) {
+  return function + "(" + function + "(" + color + red + ", " + color + green + "), " + color + blue + ")";
+}
+
+std::string c_function(const Parts& parts) {
+  const Notation notation{float_literal,
+                          "fminf",
+                          "fmaxf",
+                          "sqrtf",
+                          [](const std::string& color) { return three("fmaxf", color, "[0]", "[1]", "[2]"); },
+                          "[c]"};
+  return "static inline float remap_" + parts.id + "(float width, float specular[3]) {\n" +
+         lines_of(parts.numbers, notation, "  const float ", "  const float width_out = ", ";") +
+         "  for (int c = 0; c < 3; ++c) {\n" +
+         lines_of(parts.colors, notation, "    const float ", "    specular[c] = ", ";") +
+         "  }\n  return width_out;\n}\n";
+}
+
+std::string python_function(const Parts& parts) {
+  const Notation notation{
+      plain_number, "min", "max", "math.sqrt", [](const std::string& color) { return "max(" + color + ")"; },
+      "[c]"};
+  return "def " + parts.id + "(width, specular):\n" +
+         lines_of(parts.numbers, notation, "    ", "    width_out = ", "") +
+         "    specular_out = [0.0] * 3\n    for c in range(3):\n" +
+         lines_of(parts.colors, notation, "        ", "        specular_out[c] = ", "") +
+         "    return width_out, specular_out\n";
+}
+
+std::string script_function(const Parts& parts) {
+  const Notation notation{plain_number,
+                          "Math.min",
+                          "Math.max",
+                          "Math.sqrt",
+                          [](const std::string& color) { return "Math.max(..." + color + ")"; },
+                          "[c]"};
+  return "export function " + parts.id + "(width, specular) {\n" +
+         lines_of(parts.numbers, notation, "  const ", "  const width_out = ", ";") +
+         "  const specular_out = [0, 1, 2].map((c) => {\n" +
+         lines_of(parts.colors, notation, "    const ", "    return ", ";") +
+         "  });\n  return { width: width_out, specular: specular_out };\n}\n";
+}
+
+std::string shader_function(const Parts& parts, const std::string& color_type) {
+  const Notation notation{point_number,
+                          "min",
+                          "max",
+                          "sqrt",
+                          [](const std::string& color) { return three("max", color, ".r", ".g", ".b"); },
+                          ""};
+  return "void remap_" + parts.id + "(inout float width, inout " + color_type + " specular) {\n" +
+         lines_of(parts.numbers, notation, "  float ", "  width = ", ";") +
+         lines_of(parts.colors, notation, "  " + color_type + " ", "  specular = ", ";") + "}\n";
+}
+
+// Statements as nodes of a graph.
+class NodeWriter {
+ public:
+  NodeWriter(const std::vector<std::string>& colors, std::string& nodes) : colors_(colors), nodes_(nodes) {}
+
+  void write(const Statement& statement) { write(statement.value, node_of(statement.name)); }
+
+  // The node of a statement; an output has the name itself.
+  static std::string node_of(const std::string& name) {
+    return name.ends_with("_out") ? name.substr(0, name.size() - 4) + "_value" : name;
+  }
+
+ private:
+  // An input of a node: `nodename="..."`.
+  struct Term {
+    bool is_color;
+    std::string attribute;
+  };
+
+  Term write(const Expression& expression, const std::string& name) {
+    switch (expression.op) {
+      case Op::kNumber:
+        return {false, "value=\"" + plain_number(expression.number) + "\""};
+      case Op::kName: {
+        const bool is_input = expression.name == "width" || expression.name == "specular";
+        return {std::ranges::find(colors_, expression.name) != colors_.end(),
+                (is_input ? "interfacename=\"" : "nodename=\"") + expression.name + "\""};
+      }
+      case Op::kLargest:
+        return largest(expression.name, name);
+      case Op::kRoot:
+        return node("sqrt", {write(expression.terms[0], next())}, name);
+      default:
+        break;
+    }
+    static const std::map<Op, const char*> kNodes = {{Op::kAdd, "add"},           {Op::kSubtract, "subtract"},
+                                                     {Op::kMultiply, "multiply"}, {Op::kDivide, "divide"},
+                                                     {Op::kMin, "min"},           {Op::kMax, "max"}};
+    Term a = write(expression.terms[0], next()), b = write(expression.terms[1], next());
+    // The second term of a node may be a float beside a color, the first may not.
+    if (!a.is_color && b.is_color) std::swap(a, b);
+    return node(kNodes.at(expression.op), {a, b}, name);
+  }
+
+  Term largest(const std::string& color, const std::string& name) {
+    std::vector<Term> channels;
+    for (const char* index : {"0", "1", "2"}) {
+      const std::string id = next();
+      nodes_ += "    <extract name=\"" + id +
+                "\" type=\"float\">\n      <input name=\"in\" type=\"color3\" interfacename=\"" + color +
+                "\" />\n      <input name=\"index\" type=\"integer\" value=\"" + index +
+                "\" />\n    </extract>\n";
+      channels.push_back({false, "nodename=\"" + id + "\""});
+    }
+    return node("max", {node("max", {channels[0], channels[1]}, next()), channels[2]}, name);
+  }
+
+  Term node(const std::string& kind, const std::vector<Term>& terms, const std::string& name) {
+    const auto type = [](bool is_color) { return std::string(is_color ? "color3" : "float"); };
+    nodes_ += "    <" + kind + " name=\"" + name + "\" type=\"" + type(terms[0].is_color) + "\">\n";
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      nodes_ += "      <input name=\"in" + (terms.size() == 1 ? "" : std::to_string(i + 1)) + "\" type=\"" +
+                type(terms[i].is_color) + "\" " + terms[i].attribute + " />\n";
+    nodes_ += "    </" + kind + ">\n";
+    return {terms[0].is_color, "nodename=\"" + name + "\""};
+  }
+
+  std::string next() { return "n" + std::to_string(++count_); }
+
+  const std::vector<std::string>& colors_;
+  std::string& nodes_;
+  int count_ = 0;
+};
+
+std::string material_function(const Parts& parts) {
+  std::string nodes;
+  const std::vector<std::string> colors = color_names(parts);
+  NodeWriter writer(colors, nodes);
+  for (const std::vector<Statement>* statements : {&parts.numbers, &parts.colors})
+    for (const Statement& statement : *statements) writer.write(statement);
+  const std::string node = "remap_" + parts.id;
+  return "  <nodedef name=\"ND_" + node + "\" node=\"" + node +
+         "\" nodegroup=\"math\">\n    <input name=\"width\" type=\"float\" value=\"0.5\" />\n"
+         "    <input name=\"specular\" type=\"color3\" value=\"0.5, 0.5, 0.5\" />\n"
+         "    <output name=\"width_out\" type=\"float\" />\n    <output name=\"specular_out\" "
+         "type=\"color3\" />\n"
+         "  </nodedef>\n  <nodegraph name=\"NG_" +
+         node + "\" nodedef=\"ND_" + node + "\">\n" + nodes +
+         "    <output name=\"width_out\" type=\"float\" nodename=\"width_value\" />\n"
+         "    <output name=\"specular_out\" type=\"color3\" nodename=\"specular_value\" />\n  </nodegraph>\n";
+}
+
+// What stands around the functions of a language.
+struct Frame {
+  std::string comment, units, begin, end;
+  std::function<std::string(const Parts&)> function;
+};
+
+Frame frame_of(Language language, const std::string& name) {
+  const std::string specular = "specular: red, green and blue, linear. ",
+                    guard = "REMAP_" + upper(name) + "_H";
+  switch (language) {
+    case Language::kC:
+      return {"//", specular + "They are replaced; the target's width is returned.",
+              "#ifndef " + guard + "\n#define " + guard + "\n\n#include <math.h>\n", "\n#endif\n",
+              c_function};
+    case Language::kPython:
+      return {"#", specular + "Returns width and specular of the target.", "import math\n", "",
+              python_function};
+    case Language::kJavaScript:
+      return {"//", specular + "Returns { width, specular } of the target.", "", "", script_function};
+    case Language::kGlsl:
+      return {"//", specular + "Both are replaced.", "", "",
+              [](const Parts& parts) { return shader_function(parts, "vec3"); }};
+    case Language::kHlsl:
+      return {"//", specular + "Both are replaced.", "", "",
+              [](const Parts& parts) { return shader_function(parts, "float3"); }};
+    case Language::kMaterialX:
+      break;
+  }
+  return {"", specular + "A node for each converter.", "", "</materialx>\n", material_function};
+}
+
+}  // namespace
+
+std::string extension_of(Language language) {
+  switch (language) {
+    case Language::kC:
+      return ".h";
+    case Language::kPython:
+      return ".py";
+    case Language::kJavaScript:
+      return ".mjs";
+    case Language::kGlsl:
+      return ".glsl";
+    case Language::kHlsl:
+      return ".hlsl";
+    case Language::kMaterialX:
+      break;
+  }
+  return ".mtlx";
+}
+
+std::string emit_functions(const std::vector<Fit>& fits, Language language, const std::string& name) {
+  const Frame frame = frame_of(language, name);
+  const auto comment = [&](const std::string& line) {
+    return frame.comment.empty() ? "<!-- " + line + " -->\n" : frame.comment + " " + line + "\n";
+  };
+  std::string text = frame.comment.empty() ? "<?xml version=\"1.0\"?>\n" : "";
+  text +=
+      comment("Generated by remapc " + std::string(kVersion) + ". Do not edit: run `remapc emit`.") +
+      comment("SPDX-License-Identifier: MIT-0 (free of conditions: copy what you need into any project).") +
+      comment("width, in the unit that stands in brackets; " + frame.units);
+  text += frame.comment.empty() ? "<materialx version=\"1.38\">\n" : frame.begin;
+  for (const Fit& fit : fits) {
+    const Parts parts = parts_of(fit);
+    text += "\n" + comment(parts.meaning) + frame.function(parts);
+  }
+  return text + frame.end;
+}
+
+}  // namespace remap
