@@ -82,12 +82,11 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
   const ConverterInfo& info = converter.info;
   // Two texels a line.
   std::string golden;
-  std::vector<float> within(2);
   for (std::size_t i = 0; i < data.golden.size(); ++i) {
-    const GoldenValues& texel = data.golden[i];
-    golden += "{" + joined(texel.in, ", ", float_literal) + ", " + joined(texel.out, ", ", float_literal) +
-              (i % 2 == 0 ? "}, " : "},\n");
-    for (std::size_t j = 0; j < within.size(); ++j) within[j] = std::max(within[j], texel.within[j]);
+    std::vector<float> values = data.golden[i].in;
+    for (const std::vector<float>* more : {&data.golden[i].out, &data.golden[i].within})
+      values.insert(values.end(), more->begin(), more->end());
+    golden += numbers(values) + (i % 2 == 0 ? ", " : ",\n");
   }
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"};
@@ -101,8 +100,6 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
                                                      {"target_meaning", meaning(data.target)},
                                                      {"golden_count", std::to_string(data.golden.size())},
                                                      {"golden", golden},
-                                                     {"width_within", float_literal(within[0])},
-                                                     {"specular_within", float_literal(within[1])},
                                                      {"form", form_code(converter)}});
   return body;
 }
