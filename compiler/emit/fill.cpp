@@ -86,7 +86,7 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
     std::vector<float> values = data.golden[i].in;
     for (const std::vector<float>* more : {&data.golden[i].out, &data.golden[i].within})
       values.insert(values.end(), more->begin(), more->end());
-    golden += numbers(values) + (i % 2 == 0 ? ", " : ",\n");
+    golden += numbers(values) + (i % 2 == 0 && i + 1 < data.golden.size() ? ", " : ",\n");
   }
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"};
