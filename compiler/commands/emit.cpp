@@ -22,7 +22,7 @@ struct EmitCommand {
   std::vector<std::string> fits;  // files or ids
   std::filesystem::path fit_folder;
   std::filesystem::path output = "generated";
-  std::optional<Language> language;  // in place of C++
+  std::optional<Language> language;  // instead of C++
   bool all = false, check = false, force = false;
 };
 
@@ -138,7 +138,7 @@ void add_emit_command(Command& app) {
   command->option_group("Output");
   command->add_option("-o,--output FOLDER", options.output, "Folder for the headers");
   command->add_option("--language NAME", options.language, one_of(kLanguages, "language"),
-                      "Write a function of one texel in this language in place of the C++ header");
+                      "Write a function of one texel in this language instead of the C++ header");
   add_force_flag(*command, options.force);
   command->add_flag(
       "--check", options.check,

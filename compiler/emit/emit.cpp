@@ -16,10 +16,10 @@ std::string emit_header(const WorkflowFit& fit) { return fill(describe(fit)); }
 std::string emit_header(const WarpMapFit& fit) { return fill(describe(fit)); }
 
 std::vector<EmittedFile> emit_shared_files(std::vector<Fit> fits) {
-  std::ranges::sort(fits, {}, &Fit::id);
+  std::ranges::sort(fits, {},
+                    [](const Fit& fit) -> const std::string& { return require_converter(fit).info.id; });
   std::vector<ConverterData> converters;
   for (const Fit& fit : fits) converters.push_back(require_converter(fit));
-  std::ranges::sort(converters, {}, [](const ConverterData& data) { return data.info.id; });
   std::vector<EmittedFile> files = {{"converters.json", converters_to_json(converters)}};
   const auto is_lobe = [](const ModelSide& side) {
     return side.model.starts_with("mitsuba/") || side.model.starts_with("legacy/");

@@ -146,14 +146,6 @@ Body body_of(const HeaderData& data, const Material& material) {
                                             {"golden_out", golden_rows(data.golden, &GoldenValues::out)}})};
 }
 
-// `REMAP_GENERATED_A_TO_B_HPP`.
-std::string guard_of(const std::string& id) {
-  std::string upper = id;
-  for (char& c : upper)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return "REMAP_GENERATED_" + upper + "_HPP";
-}
-
 // A line of text as the rest of a comment. A backslash at its end, or its trigraph, would take the next line
 // of code into the comment, even before blanks.
 std::string commented(std::string_view line) {
@@ -184,7 +176,7 @@ std::string fill(const HeaderData& data) {
                                             {"id", data.id},
                                             {"title", data.title},
                                             {"provenance", comment_lines(data.provenance)},
-                                            {"guard", guard_of(data.id)},
+                                            {"guard", "REMAP_GENERATED_" + upper_case(data.id) + "_HPP"},
                                             {"includes", joined(body.includes, "", include)},
                                             {"detail", body.detail},
                                             {"source", data.source.model},

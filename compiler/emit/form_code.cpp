@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "core/number_text.hpp"
-#include "emit/convention_text.hpp"
 #include "emit/formula.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
@@ -12,8 +11,8 @@ namespace {
 
 std::string float_text(float value) { return literal(static_cast<double>(value)); }
 
-std::string factor_text(const FactorTerms& factor) {
-  return text_of(factor_expression(factor, "alpha", "t"), {float_literal, "least", "most", "root"});
+std::string code_of(const Expression& expression) {
+  return text_of(expression, {float_literal, "least", "most", "root"});
 }
 
 bool depends_on_alpha(const FactorTerms& factor) {
@@ -30,10 +29,9 @@ std::string form_code(const ConverterData& converter) {
   const CompactForm& form = converter.form;
   const ConverterInfo& info = converter.info;
   const FormEnds ends = ends_of(info.source.roughness, info.target.roughness, info.roughness);
-  const ConventionText source = convention_text(info.source.roughness),
-                       target = convention_text(info.target.roughness);
+  const std::string to_alpha = code_of(alpha_of(info.source.roughness, "own")),
+                    from_alpha = code_of(own_of(info.target.roughness, "alpha"));
   const bool is_limited = form.alpha_limit || form.specular_limit;
-  const std::string conventions = std::string(source.to_alpha) + target.from_alpha;
   return fill_template(
       code_file("form"),
       {{"width_min", float_text(ends.width_min)},
@@ -59,11 +57,12 @@ std::string form_code(const ConverterData& converter) {
        {"alpha_t", form.alpha.size() > 1 ? " t" : ""},
        {"specular_alpha", depends_on_alpha(form.specular) ? " alpha" : ""},
        {"specular_t", form.specular.size() > 1 ? " t" : ""},
-       {"alpha_factor", factor_text(form.alpha)},
-       {"specular_factor", factor_text(form.specular)},
-       {"to_alpha", source.to_alpha},
-       {"from_alpha", target.from_alpha},
-       {"root", conventions.find("root(") == std::string::npos ? "" : std::string(code_file("root"))},
+       {"alpha_factor", code_of(factor_expression(form.alpha, "alpha", "t"))},
+       {"specular_factor", code_of(factor_expression(form.specular, "alpha", "t"))},
+       {"to_alpha", to_alpha},
+       {"from_alpha", from_alpha},
+       {"root",
+        (to_alpha + from_alpha).find("root(") == std::string::npos ? "" : std::string(code_file("root"))},
        {"rows", std::string(code_file("form_rows")) + "\n" +
                     std::string(code_file(is_limited ? "form_limited" : "form_free"))}});
 }

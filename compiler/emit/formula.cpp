@@ -19,7 +19,7 @@ Expression& first_factor(Expression& expression) {
   return expression.op == Op::kMultiply ? first_factor(expression.terms[0]) : expression;
 }
 
-// a - b in place of a + -b.
+// a + -b is written as a - b.
 Expression operator+(Expression a, Expression b) {
   if (is_number(b, 0.0f)) return a;
   if (Expression& factor = first_factor(b); factor.op == Op::kNumber && std::signbit(factor.number)) {
@@ -37,38 +37,6 @@ Expression operator/(Expression a, Expression b) { return joined(Op::kDivide, st
 Expression least(Expression a, Expression b) { return joined(Op::kMin, std::move(a), std::move(b)); }
 Expression most(Expression a, Expression b) { return joined(Op::kMax, std::move(a), std::move(b)); }
 Expression root(Expression a) { return {Op::kRoot, 0.0f, "", {std::move(a)}}; }
-
-Expression alpha_of(RoughnessConvention convention, const Expression& own) {
-  switch (convention) {
-    case RoughnessConvention::kAlpha:
-      break;
-    case RoughnessConvention::kRoughness:
-      return own * own;
-    case RoughnessConvention::kExponent:
-      return root(number(2.0f) / (own + number(2.0f)));
-    case RoughnessConvention::kGlossiness:
-      return (number(1.0f) - own) * (number(1.0f) - own);
-    case RoughnessConvention::kSquared:
-      return root(own);
-  }
-  return own;
-}
-
-Expression own_of(RoughnessConvention convention, const Expression& alpha) {
-  switch (convention) {
-    case RoughnessConvention::kAlpha:
-      break;
-    case RoughnessConvention::kRoughness:
-      return root(alpha);
-    case RoughnessConvention::kExponent:
-      return number(2.0f) / (alpha * alpha) - number(2.0f);
-    case RoughnessConvention::kGlossiness:
-      return number(1.0f) - root(alpha);
-    case RoughnessConvention::kSquared:
-      return alpha * alpha;
-  }
-  return alpha;
-}
 
 Expression sum_of_powers(const std::vector<float>& terms, const Expression& x) {
   Expression sum = number(terms.back());
@@ -111,6 +79,40 @@ int rank_of(const Expression& expression) {
 
 }  // namespace
 
+Expression alpha_of(RoughnessConvention convention, const std::string& parameter) {
+  const Expression own = name(parameter);
+  switch (convention) {
+    case RoughnessConvention::kAlpha:
+      break;
+    case RoughnessConvention::kRoughness:
+      return own * own;
+    case RoughnessConvention::kExponent:
+      return root(number(2.0f) / (own + number(2.0f)));
+    case RoughnessConvention::kGlossiness:
+      return (number(1.0f) - own) * (number(1.0f) - own);
+    case RoughnessConvention::kSquared:
+      return root(own);
+  }
+  return own;
+}
+
+Expression own_of(RoughnessConvention convention, const std::string& parameter) {
+  const Expression alpha = name(parameter);
+  switch (convention) {
+    case RoughnessConvention::kAlpha:
+      break;
+    case RoughnessConvention::kRoughness:
+      return root(alpha);
+    case RoughnessConvention::kExponent:
+      return number(2.0f) / (alpha * alpha) - number(2.0f);
+    case RoughnessConvention::kGlossiness:
+      return number(1.0f) - root(alpha);
+    case RoughnessConvention::kSquared:
+      return alpha * alpha;
+  }
+  return alpha;
+}
+
 Expression factor_expression(const FactorTerms& factor, const std::string& alpha, const std::string& t) {
   Expression sum = sum_of_powers(factor.back(), name(alpha));
   for (std::size_t j = factor.size() - 1; j-- > 0;)
@@ -138,7 +140,7 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
 
   const bool is_alpha = info.source.roughness == RoughnessConvention::kAlpha;
   add(is_alpha ? "alpha" : "own", least(most(name("width"), number(ends.width_from)), number(ends.width_to)));
-  if (!is_alpha) add("alpha", alpha_of(info.source.roughness, name("own")));
+  if (!is_alpha) add("alpha", alpha_of(info.source.roughness, "own"));
   add("inside", most(alpha, number(ends.alpha_min)));
   add("top", least(most({Op::kLargest, 0.0f, "specular", {}}, specular_min), specular_max));
   add("t", top / (top + pole));
@@ -161,7 +163,7 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
   if (form.alpha_limit) alpha_out = least(std::move(alpha_out), number(*form.alpha_limit));
   if (info.target.roughness != RoughnessConvention::kAlpha) {
     add("target", std::move(alpha_out));
-    alpha_out = own_of(info.target.roughness, name("target"));
+    alpha_out = own_of(info.target.roughness, "target");
   }
   add("width_out", std::move(alpha_out));
   add_color("s", most(name("specular"), number(0.0f)));

@@ -31,6 +31,10 @@ struct Statement {
 // as headers hold them; NaN is not looked for.
 std::vector<Statement> formula_of(const ConverterData& converter);
 
+// Alpha of a model's own width parameter, and the parameter of alpha (runtime/include/remap/converter.hpp).
+Expression alpha_of(RoughnessConvention convention, const std::string& parameter);
+Expression own_of(RoughnessConvention convention, const std::string& parameter);
+
 // Factors of a form (converter/compact_form.hpp) of `alpha` and `t`, in the order of operations of every
 // evaluator.
 Expression factor_expression(const FactorTerms& factor, const std::string& alpha, const std::string& t);

@@ -9,6 +9,7 @@
 #include "emit/convention_text.hpp"
 #include "emit/formula.hpp"
 #include "emit/header_data.hpp"
+#include "emit/text_template.hpp"
 #include "remap/version.hpp"
 
 namespace remap {
@@ -19,11 +20,6 @@ std::string plain_number(float value) { return number_text(decimal_value(value))
 std::string point_number(float value) {
   const std::string text = plain_number(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
-}
-
-std::string upper(std::string text) {
-  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return text;
 }
 
 // A converter as text.
@@ -57,7 +53,7 @@ std::vector<std::string> color_names(const Parts& parts) {
   return names;
 }
 
-// A line for each, `start`, the name, the value; `last` in place of the output.
+// A line for each statement: `start`, name and value. An output begins with `last` instead.
 std::string lines_of(const std::vector<Statement>& statements, const Notation& notation,
                      const std::string& start, const std::string& last, const std::string& end) {
   const std::vector<std::string> colors =
@@ -225,7 +221,7 @@ struct Frame {
 
 Frame frame_of(Language language, const std::string& name) {
   const std::string specular = "specular: red, green and blue, linear. ",
-                    guard = "REMAP_" + upper(name) + "_H";
+                    guard = "REMAP_" + upper_case(name) + "_H";
   switch (language) {
     case Language::kC:
       return {"//", specular + "They are replaced; the target's width is returned.",

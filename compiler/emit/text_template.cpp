@@ -81,6 +81,12 @@ std::string code_files(std::initializer_list<std::string_view> names) {
   return text;
 }
 
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
+
 std::string literal(double value) { return float_literal(static_cast<float>(value)); }
 
 std::string double_literal(double value) {

@@ -31,6 +31,9 @@ std::string joined(const List& list, std::string_view between, const Text& text_
   return text;
 }
 
+// ASCII letters as capitals, for include guards.
+std::string upper_case(std::string text);
+
 // The shortest literals that read back: of the float nearest to `value`, and of the double. Throws kNumeric
 // where they would not be finite.
 std::string literal(double value);

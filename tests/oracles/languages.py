@@ -193,6 +193,8 @@ def main():
                                     for value in node_values(graphs["NG_remap_" + name], texel)]
     wrong = 0
     expected = found.pop("C++")
+    if len(expected) != 4 * count * len(ids):
+        sys.exit(f"C++: {len(expected)} values of {len(ids)} headers and {count} texels each")
     for language, values in found.items():
         if len(values) != len(expected):
             sys.exit(f"{language}: {len(values)} values, the headers give {len(expected)}")
