@@ -37,8 +37,8 @@ struct blender_internal_2_7_ward_to_cycles_2_7_ggx {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01358616f, width_max = 0.7065004f;
     static constexpr float specular_min = 0.0f, specular_max = 0.13855854f;
     static constexpr float width_from = 0.0f, width_to = 0.7065004f;  // to which widths are clamped
@@ -75,8 +75,8 @@ struct blender_internal_2_7_ward_to_cycles_2_7_ggx {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -194,7 +194,7 @@ struct blender_internal_2_7_ward_to_cycles_2_7_ggx {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01358616f, 0.13855854f, 0.01061167f, 0.29088438f, 4.8e-06f, 8.3e-06f}, {0.100200444f, 0.12989862f, 0.08014368f, 0.2928712f, 4.9e-06f, 8.3e-06f},
         {0.18681473f, 0.12123872f, 0.1529905f, 0.27903908f, 4.9e-06f, 8.3e-06f}, {0.273429f, 0.11257881f, 0.2279768f, 0.26013654f, 4.9e-06f, 8.3e-06f},
         {0.3600433f, 0.1039189f, 0.30333596f, 0.24238937f, 5e-06f, 8.2e-06f}, {0.44665757f, 0.095258996f, 0.37792522f, 0.22836761f, 5e-06f, 8.2e-06f},

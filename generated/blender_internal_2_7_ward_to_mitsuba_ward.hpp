@@ -37,8 +37,8 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.010086592f, width_max = 0.71f;
     static constexpr float specular_min = 0.0f, specular_max = 0.13855854f;
     static constexpr float width_from = 0.0f, width_to = 0.71f;  // to which widths are clamped
@@ -78,8 +78,8 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -203,7 +203,7 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.010086592f, 0.13855854f, 0.010007802f, 0.43883702f, 2.5e-06f, 2.5e-06f}, {0.09757577f, 0.12989862f, 0.09820996f, 0.4265276f, 2.5e-06f, 2.5e-06f},
         {0.18506494f, 0.12123872f, 0.19026169f, 0.41540024f, 2.5e-06f, 2.5e-06f}, {0.2725541f, 0.11257881f, 0.28858903f, 0.40958214f, 2.6e-06f, 2.5e-06f},
         {0.3600433f, 0.1039189f, 0.39628303f, 0.41171992f, 2.6e-06f, 2.5e-06f}, {0.44753245f, 0.095258996f, 0.51709956f, 0.42297924f, 2.7e-06f, 2.5e-06f},

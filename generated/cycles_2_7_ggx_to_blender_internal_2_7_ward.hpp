@@ -37,8 +37,8 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.009808861f, width_max = 0.58919615f;
     static constexpr float specular_min = 0.0f, specular_max = 0.4175574f;
     static constexpr float width_from = 0.0f, width_to = 0.58919615f;  // to which widths are clamped
@@ -75,8 +75,8 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -194,7 +194,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.009808861f, 0.4175574f, 0.011756087f, 0.19106957f, 4.8e-06f, 7.7e-06f}, {0.082232274f, 0.39146006f, 0.09934835f, 0.15802953f, 4.8e-06f, 7.6e-06f},
         {0.15465568f, 0.3653627f, 0.18948968f, 0.14218958f, 4.9e-06f, 7.6e-06f}, {0.2270791f, 0.33926538f, 0.28219786f, 0.13321699f, 4.9e-06f, 7.6e-06f},
         {0.2995025f, 0.31316805f, 0.37559688f, 0.12484537f, 4.9e-06f, 7.6e-06f}, {0.37192592f, 0.2870707f, 0.4666206f, 0.114055626f, 5e-06f, 7.6e-06f},

@@ -37,8 +37,8 @@ struct cycles_2_7_ggx_to_mitsuba_ggx {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.009808861f, width_max = 0.996f;
     static constexpr float specular_min = 0.0f, specular_max = 0.8907891f;
     static constexpr float width_from = 0.0f, width_to = 0.996f;  // to which widths are clamped
@@ -78,8 +78,8 @@ struct cycles_2_7_ggx_to_mitsuba_ggx {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -203,7 +203,7 @@ struct cycles_2_7_ggx_to_mitsuba_ggx {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.009808861f, 0.8907891f, 0.010000019f, 0.92473924f, 3.9e-06f, 8.4e-05f}, {0.13308275f, 0.8351148f, 0.13446759f, 0.79788375f, 4e-06f, 8.4e-05f},
         {0.25635666f, 0.77944046f, 0.25764364f, 0.73885524f, 4e-06f, 8.4e-05f}, {0.37963054f, 0.72376615f, 0.38054848f, 0.69131994f, 4.1e-06f, 8.4e-05f},
         {0.5029044f, 0.66809183f, 0.5038031f, 0.6383103f, 4.1e-06f, 8.4e-05f}, {0.6261783f, 0.6124175f, 0.6276662f, 0.5819975f, 4.2e-06f, 8.4e-05f},

@@ -38,8 +38,8 @@ struct cycles_3_4_beckmann_to_mitsuba_beckmann {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.1f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -79,8 +79,8 @@ struct cycles_3_4_beckmann_to_mitsuba_beckmann {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -204,7 +204,7 @@ struct cycles_3_4_beckmann_to_mitsuba_beckmann {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.1f, 1.0f, 0.009993286f, 0.99840134f, 5.4e-06f, 4.9e-06f}, {0.2125f, 0.9375f, 0.04512845f, 0.93598425f, 5.4e-06f, 4.9e-06f},
         {0.325f, 0.875f, 0.1055688f, 0.87365395f, 5.5e-06f, 4.9e-06f}, {0.4375f, 0.8125f, 0.1913259f, 0.81138736f, 5.5e-06f, 4.8e-06f},
         {0.55f, 0.75f, 0.30241594f, 0.7491615f, 5.5e-06f, 4.8e-06f}, {0.6625f, 0.6875f, 0.43886f, 0.6869534f, 5.6e-06f, 4.8e-06f},

@@ -38,8 +38,8 @@ struct cycles_5_ashikhmin_shirley_to_mitsuba_as {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.1f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -76,8 +76,8 @@ struct cycles_5_ashikhmin_shirley_to_mitsuba_as {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -195,7 +195,7 @@ struct cycles_5_ashikhmin_shirley_to_mitsuba_as {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.1f, 1.0f, 0.009967794f, 0.9952793f, 1.3e-05f, 1.7e-05f}, {0.2125f, 0.9375f, 0.044822164f, 0.912114f, 1.4e-05f, 1.7e-05f},
         {0.325f, 0.875f, 0.10352727f, 0.8115946f, 1.4e-05f, 1.7e-05f}, {0.4375f, 0.8125f, 0.18278539f, 0.692927f, 1.4e-05f, 1.7e-05f},
         {0.55f, 0.75f, 0.27755928f, 0.5613297f, 1.4e-05f, 1.7e-05f}, {0.6625f, 0.6875f, 0.3848308f, 0.4292261f, 1.4e-05f, 1.7e-05f},

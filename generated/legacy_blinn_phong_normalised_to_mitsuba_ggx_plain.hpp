@@ -40,8 +40,8 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.99997485f, width_max = 9986.888f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.99997485f, width_to = 3.4028235e+38f;  // to which widths are clamped
@@ -90,8 +90,8 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -215,7 +215,7 @@ struct legacy_blinn_phong_normalised_to_mitsuba_ggx_plain {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.99997485f, 1.0f, 0.51192474f, 1.0f, 5.6e-06f, 4e-06f}, {1249.236f, 0.9375f, 0.03160464f, 0.4393501f, 5.4e-06f, 3.7e-06f},
         {2497.472f, 0.875f, 0.02240123f, 0.4123709f, 5.4e-06f, 3.7e-06f}, {3745.7078f, 0.8125f, 0.018330745f, 0.38464484f, 5.4e-06f, 3.7e-06f},
         {4993.944f, 0.75f, 0.015909784f, 0.35649455f, 5.4e-06f, 3.7e-06f}, {6242.1797f, 0.6875f, 0.014261901f, 0.32803792f, 5.4e-06f, 3.7e-06f},

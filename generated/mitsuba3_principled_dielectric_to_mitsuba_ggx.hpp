@@ -38,8 +38,8 @@ struct mitsuba3_principled_dielectric_to_mitsuba_ggx {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.1f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -76,8 +76,8 @@ struct mitsuba3_principled_dielectric_to_mitsuba_ggx {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -195,7 +195,7 @@ struct mitsuba3_principled_dielectric_to_mitsuba_ggx {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.1f, 1.0f, 0.010011024f, 0.09706949f, 2.3e-06f, 2.9e-07f}, {0.2125f, 0.9375f, 0.045147873f, 0.091248825f, 2.3e-06f, 2.8e-07f},
         {0.325f, 0.875f, 0.10538199f, 0.08523779f, 2.3e-06f, 2.8e-07f}, {0.4375f, 0.8125f, 0.19040254f, 0.07907332f, 2.3e-06f, 2.8e-07f},
         {0.55f, 0.75f, 0.29977253f, 0.072791755f, 2.4e-06f, 2.7e-07f}, {0.6625f, 0.6875f, 0.43292844f, 0.06642883f, 2.5e-06f, 2.7e-07f},

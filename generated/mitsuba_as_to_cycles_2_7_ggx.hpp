@@ -37,8 +37,8 @@ struct mitsuba_as_to_cycles_2_7_ggx {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.007929146f, width_max = 0.84f;
     static constexpr float specular_min = 0.0f, specular_max = 0.6481118f;
     static constexpr float width_from = 0.0f, width_to = 0.84f;  // to which widths are clamped
@@ -75,8 +75,8 @@ struct mitsuba_as_to_cycles_2_7_ggx {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -194,7 +194,7 @@ struct mitsuba_as_to_cycles_2_7_ggx {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.007929146f, 0.6481118f, 0.009897142f, 0.78752834f, 2.1e-05f, 9.3e-05f}, {0.111938f, 0.60760486f, 0.122804865f, 0.80982065f, 2.1e-05f, 9.3e-05f},
         {0.21594685f, 0.56709784f, 0.21889149f, 0.7454305f, 2.1e-05f, 9.3e-05f}, {0.3199557f, 0.5265908f, 0.31156722f, 0.66368616f, 2.1e-05f, 9.3e-05f},
         {0.42396456f, 0.48608387f, 0.40624592f, 0.5913847f, 2.1e-05f, 9.3e-05f}, {0.5279734f, 0.44557688f, 0.5052753f, 0.53453577f, 2.2e-05f, 9.3e-05f},

@@ -38,8 +38,8 @@ struct mitsuba_as_to_povray_specular {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.16f, width_max = 0.99f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 0.99f;  // to which widths are clamped
@@ -79,8 +79,8 @@ struct mitsuba_as_to_povray_specular {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -204,7 +204,7 @@ struct mitsuba_as_to_povray_specular {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.16f, 1.0f, 24.010015f, 1.0f, 0.38f, 0.0051f}, {0.26375f, 0.9375f, 12.258424f, 1.0f, 0.16f, 0.0051f},
         {0.3675f, 0.875f, 9.04464f, 1.0f, 0.11f, 0.0051f}, {0.47125f, 0.8125f, 7.4374638f, 1.0f, 0.083f, 0.0051f},
         {0.575f, 0.75f, 5.6719494f, 0.7679353f, 0.061f, 0.0051f}, {0.67875f, 0.6875f, 4.481316f, 0.520089f, 0.047f, 0.0051f},

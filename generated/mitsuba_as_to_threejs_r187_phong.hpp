@@ -38,8 +38,8 @@ struct mitsuba_as_to_threejs_r187_phong {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 0.99f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 0.99f;  // to which widths are clamped
@@ -79,8 +79,8 @@ struct mitsuba_as_to_threejs_r187_phong {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -204,7 +204,7 @@ struct mitsuba_as_to_threejs_r187_phong {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 1.0f, 16173.936f, 1.0f, 630.0f, 0.00065f}, {0.13250001f, 0.9375f, 102.519035f, 1.0f, 0.32f, 0.00065f},
         {0.255f, 0.875f, 32.868847f, 1.0f, 0.061f, 0.00065f}, {0.3775f, 0.8125f, 18.454512f, 1.0f, 0.028f, 0.00065f},
         {0.5f, 0.75f, 12.765163f, 1.0f, 0.017f, 0.00065f}, {0.6225f, 0.6875f, 9.125663f, 1.0f, 0.011f, 0.00065f},

@@ -40,8 +40,8 @@ struct mitsuba_beckmann_to_mitsuba_ward_balanced {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -81,8 +81,8 @@ struct mitsuba_beckmann_to_mitsuba_ward_balanced {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -206,7 +206,7 @@ struct mitsuba_beckmann_to_mitsuba_ward_balanced {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 1.0f, 0.009984288f, 0.9987778f, 1.1e-05f, 5.5e-05f}, {0.13375f, 0.9375f, 0.13594705f, 0.9707904f, 1.1e-05f, 5.5e-05f},
         {0.2575f, 0.875f, 0.2703987f, 0.96996576f, 1.1e-05f, 5.5e-05f}, {0.38125f, 0.8125f, 0.41637048f, 0.9829094f, 1.1e-05f, 5.5e-05f},
         {0.505f, 0.75f, 0.57327706f, 0.99825424f, 1.2e-05f, 5.5e-05f}, {0.62875f, 0.6875f, 0.73566145f, 1.0f, 1.2e-05f, 5.5e-05f},

@@ -38,8 +38,8 @@ struct mitsuba_ggx_to_cycles_2_7_ggx {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 0.95f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -76,8 +76,8 @@ struct mitsuba_ggx_to_cycles_2_7_ggx {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -195,7 +195,7 @@ struct mitsuba_ggx_to_cycles_2_7_ggx {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 0.95f, 0.009808861f, 0.89078903f, 3.9e-06f, 0.0099f}, {0.13375f, 0.890625f, 0.13237117f, 0.9319183f, 4e-06f, 0.0099f},
         {0.2575f, 0.83125f, 0.2562174f, 0.872455f, 4e-06f, 0.0099f}, {0.38125f, 0.77187496f, 0.38034287f, 0.8104498f, 4.1e-06f, 0.0099f},
         {0.505f, 0.7125f, 0.50411445f, 0.748124f, 4.1e-06f, 0.0099f}, {0.62875f, 0.653125f, 0.62727046f, 0.6857812f, 4.2e-06f, 0.0099f},

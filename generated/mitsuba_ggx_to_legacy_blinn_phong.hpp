@@ -40,8 +40,8 @@ struct mitsuba_ggx_to_legacy_blinn_phong {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.1f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -81,8 +81,8 @@ struct mitsuba_ggx_to_legacy_blinn_phong {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -206,7 +206,7 @@ struct mitsuba_ggx_to_legacy_blinn_phong {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.1f, 1.0f, 9.944909f, 1.0f, 0.034f, 2e-04f}, {0.2125f, 0.9375f, 4.5546165f, 1.0f, 0.014f, 2e-04f},
         {0.325f, 0.875f, 5.342606f, 1.0f, 0.017f, 2e-04f}, {0.4375f, 0.8125f, 6.4143662f, 1.0f, 0.02f, 2e-04f},
         {0.55f, 0.75f, 4.8466997f, 0.7028253f, 0.015f, 2e-04f}, {0.6625f, 0.6875f, 3.5036612f, 0.42815644f, 0.011f, 2e-04f},

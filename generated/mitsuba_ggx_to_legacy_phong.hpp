@@ -40,8 +40,8 @@ struct mitsuba_ggx_to_legacy_phong {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.1f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -81,8 +81,8 @@ struct mitsuba_ggx_to_legacy_phong {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -206,7 +206,7 @@ struct mitsuba_ggx_to_legacy_phong {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.1f, 1.0f, 3.3576002f, 1.0f, 0.019f, 2e-04f}, {0.2125f, 0.9375f, 1.0538708f, 1.0f, 0.008f, 2e-04f},
         {0.325f, 0.875f, 1.487084f, 1.0f, 0.0097f, 2e-04f}, {0.4375f, 0.8125f, 1.6324357f, 1.0f, 0.011f, 2e-04f},
         {0.55f, 0.75f, 0.9375447f, 0.61652863f, 0.0075f, 2e-04f}, {0.6625f, 0.6875f, 0.5839313f, 0.3759377f, 0.0062f, 2e-04f},

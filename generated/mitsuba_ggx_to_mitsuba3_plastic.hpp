@@ -38,8 +38,8 @@ struct mitsuba_ggx_to_mitsuba3_plastic {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 0.04f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -79,8 +79,8 @@ struct mitsuba_ggx_to_mitsuba3_plastic {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -204,7 +204,7 @@ struct mitsuba_ggx_to_mitsuba3_plastic {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 0.04f, 0.009979962f, 0.7213118f, 6.1e-06f, 0.00011f}, {0.13375f, 0.037499998f, 0.13416056f, 0.6821186f, 6.2e-06f, 0.00011f},
         {0.2575f, 0.035f, 0.2594171f, 0.6428986f, 6.3e-06f, 0.00011f}, {0.38125f, 0.0325f, 0.3854455f, 0.60342616f, 6.3e-06f, 0.00011f},
         {0.505f, 0.03f, 0.5118806f, 0.56345904f, 6.4e-06f, 0.00011f}, {0.62875f, 0.0275f, 0.638289f, 0.5227393f, 6.4e-06f, 0.00011f},

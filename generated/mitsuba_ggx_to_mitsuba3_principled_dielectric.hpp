@@ -38,8 +38,8 @@ struct mitsuba_ggx_to_mitsuba3_principled_dielectric {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 0.08f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -88,8 +88,8 @@ struct mitsuba_ggx_to_mitsuba3_principled_dielectric {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -213,7 +213,7 @@ struct mitsuba_ggx_to_mitsuba3_principled_dielectric {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 0.08f, 0.099945225f, 0.8136429f, 9.3e-06f, 7e-06f}, {0.13375f, 0.074999996f, 0.3663629f, 0.76591647f, 3.1e-06f, 7e-06f},
         {0.2575f, 0.07f, 0.5095082f, 0.7177588f, 2.5e-06f, 6.9e-06f}, {0.38125f, 0.065f, 0.6213854f, 0.6691728f, 2.2e-06f, 6.9e-06f},
         {0.505f, 0.06f, 0.7167883f, 0.62016165f, 2.1e-06f, 6.9e-06f}, {0.62875f, 0.055f, 0.8016207f, 0.5707284f, 2e-06f, 6.9e-06f},

@@ -38,8 +38,8 @@ struct mitsuba_ggx_to_threejs_r187_physical_dielectric {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 0.04f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -85,8 +85,8 @@ struct mitsuba_ggx_to_threejs_r187_physical_dielectric {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -204,7 +204,7 @@ struct mitsuba_ggx_to_threejs_r187_physical_dielectric {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 0.04f, 0.09982793f, 0.9478328f, 2.7e-05f, 1.8e-05f}, {0.13375f, 0.037499998f, 0.36576095f, 0.8913752f, 7.7e-06f, 1.8e-05f},
         {0.2575f, 0.035f, 0.50776845f, 0.8310839f, 5.8e-06f, 1.8e-05f}, {0.38125f, 0.0325f, 0.6172587f, 0.7671238f, 5e-06f, 1.8e-05f},
         {0.505f, 0.03f, 0.70856255f, 0.6998139f, 4.5e-06f, 1.8e-05f}, {0.62875f, 0.0275f, 0.78713083f, 0.6296236f, 4.2e-06f, 1.8e-05f},

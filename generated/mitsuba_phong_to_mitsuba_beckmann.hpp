@@ -40,8 +40,8 @@ struct mitsuba_phong_to_mitsuba_beckmann {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.0f, width_max = 19998.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 3.4028235e+38f;  // to which widths are clamped
@@ -87,8 +87,8 @@ struct mitsuba_phong_to_mitsuba_beckmann {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -206,7 +206,7 @@ struct mitsuba_phong_to_mitsuba_beckmann {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.0f, 1.0f, 0.72056997f, 0.96786f, 3.3e-06f, 4.8e-06f}, {2499.75f, 0.9375f, 0.015453284f, 0.6313627f, 2.9e-06f, 4.6e-06f},
         {4999.5f, 0.875f, 0.010907109f, 0.58812255f, 2.9e-06f, 4.6e-06f}, {7499.25f, 0.8125f, 0.0088979965f, 0.54562f, 2.9e-06f, 4.6e-06f},
         {9999.0f, 0.75f, 0.0077018603f, 0.50337183f, 2.9e-06f, 4.5e-06f}, {12498.75f, 0.6875f, 0.006886256f, 0.46124834f, 2.9e-06f, 4.5e-06f},

@@ -40,8 +40,8 @@ struct mitsuba_phong_to_mitsuba_ggx {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.0f, width_max = 19998.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 3.4028235e+38f;  // to which widths are clamped
@@ -90,8 +90,8 @@ struct mitsuba_phong_to_mitsuba_ggx {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -215,7 +215,7 @@ struct mitsuba_phong_to_mitsuba_ggx {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.0f, 1.0f, 0.49826384f, 1.0f, 5.3e-05f, 7.2e-06f}, {2499.75f, 0.9375f, 0.012773357f, 0.6422626f, 5.3e-05f, 7.1e-06f},
         {4999.5f, 0.875f, 0.009037639f, 0.59885913f, 5.3e-05f, 7.1e-06f}, {7499.25f, 0.8125f, 0.007381202f, 0.55580974f, 5.3e-05f, 7e-06f},
         {9999.0f, 0.75f, 0.0063933437f, 0.5128955f, 5.3e-05f, 7e-06f}, {12498.75f, 0.6875f, 0.0057190126f, 0.47005075f, 5.3e-05f, 7e-06f},

@@ -38,8 +38,8 @@ struct mitsuba_phong_to_povray_phong {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.0406081f, width_max = 19998.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0406081f, width_to = 3.4028235e+38f;  // to which widths are clamped
@@ -88,8 +88,8 @@ struct mitsuba_phong_to_povray_phong {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -213,7 +213,7 @@ struct mitsuba_phong_to_povray_phong {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.0406081f, 1.0f, 0.729729f, 0.6105547f, 0.013f, 0.0077f}, {2499.7856f, 0.9375f, 141.13623f, 1.0f, 5.0f, 0.0077f},
         {4999.5303f, 0.875f, 267.0765f, 1.0f, 13.0f, 0.0077f}, {7499.2754f, 0.8125f, 396.05438f, 1.0f, 24.0f, 0.0077f},
         {9999.0205f, 0.75f, 530.6084f, 1.0f, 37.0f, 0.0077f}, {12498.766f, 0.6875f, 672.829f, 1.0f, 53.0f, 0.0077f},

@@ -40,8 +40,8 @@ struct mitsuba_ward_to_mitsuba_as {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -78,8 +78,8 @@ struct mitsuba_ward_to_mitsuba_as {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -197,7 +197,7 @@ struct mitsuba_ward_to_mitsuba_as {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 1.0f, 0.010023883f, 0.69096446f, 5.7e-06f, 5.3e-06f}, {0.13375f, 0.9375f, 0.13022102f, 0.61457276f, 5.7e-06f, 5.3e-06f},
         {0.2575f, 0.875f, 0.23805833f, 0.52419156f, 5.8e-06f, 5.2e-06f}, {0.38125f, 0.8125f, 0.32881603f, 0.4306753f, 5.8e-06f, 5.2e-06f},
         {0.505f, 0.75f, 0.40145227f, 0.34275275f, 5.9e-06f, 5.1e-06f}, {0.62875f, 0.6875f, 0.45860296f, 0.26702732f, 5.9e-06f, 5.1e-06f},

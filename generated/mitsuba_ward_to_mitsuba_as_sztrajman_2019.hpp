@@ -40,8 +40,8 @@ struct mitsuba_ward_to_mitsuba_as_sztrajman_2019 {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 0.99f;
     static constexpr float specular_min = 0.0f, specular_max = 0.2324f;
     static constexpr float width_from = 0.0f, width_to = 0.99f;  // to which widths are clamped
@@ -78,8 +78,8 @@ struct mitsuba_ward_to_mitsuba_as_sztrajman_2019 {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -197,7 +197,7 @@ struct mitsuba_ward_to_mitsuba_as_sztrajman_2019 {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 0.2324f, 0.0103608705f, 0.23587511f, 5.3e-06f, 0.00018f}, {0.13250001f, 0.217875f, 0.13029294f, 0.20873769f, 5.3e-06f, 0.00018f},
         {0.255f, 0.20335001f, 0.23552234f, 0.17699495f, 5.4e-06f, 0.00018f}, {0.3775f, 0.188825f, 0.32452428f, 0.14441827f, 5.4e-06f, 0.00018f},
         {0.5f, 0.1743f, 0.397125f, 0.114398785f, 5.5e-06f, 0.00018f}, {0.6225f, 0.159775f, 0.45450193f, 0.08897785f, 5.5e-06f, 0.00018f},

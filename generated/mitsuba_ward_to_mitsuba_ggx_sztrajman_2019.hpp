@@ -39,8 +39,8 @@ struct mitsuba_ward_to_mitsuba_ggx_sztrajman_2019 {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 0.75f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -77,8 +77,8 @@ struct mitsuba_ward_to_mitsuba_ggx_sztrajman_2019 {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -196,7 +196,7 @@ struct mitsuba_ward_to_mitsuba_ggx_sztrajman_2019 {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 0.75f, 0.011273502f, 0.9685696f, 6.1e-06f, 0.00089f}, {0.13375f, 0.703125f, 0.13838185f, 0.842916f, 6.2e-06f, 0.00089f},
         {0.2575f, 0.65625f, 0.24368827f, 0.69212043f, 6.2e-06f, 0.00089f}, {0.38125f, 0.609375f, 0.32931355f, 0.5433926f, 6.2e-06f, 0.00089f},
         {0.505f, 0.5625f, 0.39798626f, 0.41681033f, 6.3e-06f, 0.00089f}, {0.62875f, 0.515625f, 0.45304295f, 0.3189337f, 6.3e-06f, 0.00089f},

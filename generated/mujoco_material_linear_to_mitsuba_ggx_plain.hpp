@@ -38,8 +38,8 @@ struct mujoco_material_linear_to_mitsuba_ggx_plain {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 5.1199718f, width_max = 127.98896f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 5.1199718f, width_to = 3.4028235e+38f;  // to which widths are clamped
@@ -85,8 +85,8 @@ struct mujoco_material_linear_to_mitsuba_ggx_plain {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -204,7 +204,7 @@ struct mujoco_material_linear_to_mitsuba_ggx_plain {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {5.1199718f, 1.0f, 0.34227315f, 0.4527224f, 1.5e-06f, 1.2e-06f}, {20.478596f, 0.9375f, 0.16963829f, 0.10958061f, 1.4e-06f, 1.1e-06f},
         {35.83722f, 0.875f, 0.12927918f, 0.05929491f, 1.4e-06f, 1e-06f}, {51.195843f, 0.8125f, 0.108713664f, 0.039077707f, 1.4e-06f, 9.9e-07f},
         {66.55447f, 0.75f, 0.09566373f, 0.027992746f, 1.4e-06f, 9.8e-07f}, {81.913086f, 0.6875f, 0.08642828f, 0.020918448f, 1.4e-06f, 9.8e-07f},

@@ -38,8 +38,8 @@ struct povray_phong_to_mitsuba_phong {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.0406081f, width_max = 19998.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0406081f, width_to = 3.4028235e+38f;  // to which widths are clamped
@@ -88,8 +88,8 @@ struct povray_phong_to_mitsuba_phong {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -213,7 +213,7 @@ struct povray_phong_to_mitsuba_phong {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.0406081f, 1.0f, 0.0f, 1.0f, 6.6e-05f, 1.1e-05f}, {2499.7856f, 0.9375f, 2499.4421f, 0.0010316606f, 2.9f, 1e-05f},
         {4999.5303f, 0.875f, 4999.169f, 0.00048209477f, 8.2f, 1e-05f}, {7499.2754f, 0.8125f, 7498.7896f, 0.00029842916f, 15.0f, 1e-05f},
         {9999.0205f, 0.75f, 9998.354f, 0.00020645007f, 23.0f, 1e-05f}, {12498.766f, 0.6875f, 12497.88f, 0.00015121387f, 33.0f, 1e-05f},

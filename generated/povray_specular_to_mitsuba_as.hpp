@@ -38,8 +38,8 @@ struct povray_specular_to_mitsuba_as {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.0406081f, width_max = 163.28926f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0406081f, width_to = 3.4028235e+38f;  // to which widths are clamped
@@ -88,8 +88,8 @@ struct povray_specular_to_mitsuba_as {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -213,7 +213,7 @@ struct povray_specular_to_mitsuba_as {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.0406081f, 1.0f, 0.6141278f, 1.0f, 2.7e-05f, 2.9e-05f}, {20.44669f, 0.9375f, 0.2990246f, 0.23993728f, 2.6e-05f, 2.9e-05f},
         {40.85277f, 0.875f, 0.21589433f, 0.11805611f, 2.6e-05f, 2.9e-05f}, {61.258854f, 0.8125f, 0.17746232f, 0.07471739f, 2.6e-05f, 2.9e-05f},
         {81.66493f, 0.75f, 0.15417816f, 0.05201328f, 2.6e-05f, 2.9e-05f}, {102.071014f, 0.6875f, 0.13815494f, 0.0378902f, 2.6e-05f, 2.9e-05f},

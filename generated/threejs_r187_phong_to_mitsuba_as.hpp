@@ -38,8 +38,8 @@ struct threejs_r187_phong_to_mitsuba_as {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.0406081f, width_max = 19998.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0406081f, width_to = 3.4028235e+38f;  // to which widths are clamped
@@ -85,8 +85,8 @@ struct threejs_r187_phong_to_mitsuba_as {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -204,7 +204,7 @@ struct threejs_r187_phong_to_mitsuba_as {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.0406081f, 1.0f, 0.7763554f, 0.28242797f, 3.8e-06f, 2.4e-06f}, {2499.7856f, 0.9375f, 0.028513338f, 0.44702664f, 3.4e-06f, 2.5e-06f},
         {4999.5303f, 0.875f, 0.020200282f, 0.41834334f, 3.4e-06f, 2.5e-06f}, {7499.2754f, 0.8125f, 0.016506832f, 0.38891172f, 3.4e-06f, 2.4e-06f},
         {9999.0205f, 0.75f, 0.014302115f, 0.35924032f, 3.4e-06f, 2.4e-06f}, {12498.766f, 0.6875f, 0.012796291f, 0.32945573f, 3.4e-06f, 2.4e-06f},

@@ -38,8 +38,8 @@ struct threejs_r187_physical_dielectric_to_mitsuba_ggx {
 
   // The numbers of this converter, and what it does.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 counts as 0. Such
-    // texels count as out of domain. NaN and infinity make all outputs of their texel NaN.
+    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
+    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.1f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
@@ -79,8 +79,8 @@ struct threejs_r187_physical_dielectric_to_mitsuba_ggx {
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
-      float nan[Size];                          // 0, or NaN
-      std::uint32_t is_inside[Size];                        // 1 in the domain, else 0
+      float nan[Size];                           // 0, or NaN
+      std::uint32_t is_inside[Size];             // 1 in the measured range, otherwise 0
     };
 
     template <std::size_t Size>
@@ -204,7 +204,7 @@ struct threejs_r187_physical_dielectric_to_mitsuba_ggx {
 
   // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
   static bool self_test() noexcept {
-    constexpr float kGolden[13][6] = {  // width, specular; those of the target; how far off they may be
+    constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.1f, 1.0f, 0.010001303f, 0.043362316f, 3.8e-06f, 1.3e-06f}, {0.2125f, 0.9375f, 0.045123726f, 0.040251143f, 3.8e-06f, 1.3e-06f},
         {0.325f, 0.875f, 0.10544744f, 0.037134003f, 3.8e-06f, 1.3e-06f}, {0.4375f, 0.8125f, 0.19103844f, 0.034133766f, 3.9e-06f, 1.3e-06f},
         {0.55f, 0.75f, 0.3024124f, 0.031380728f, 3.9e-06f, 1.3e-06f}, {0.6625f, 0.6875f, 0.44097537f, 0.028996514f, 4e-06f, 1.3e-06f},

@@ -152,7 +152,7 @@ complete -c remapc -n '__fish_seen_subcommand_from compare' -a "(remapc list 2>/
 complete -c remapc -n '__fish_seen_subcommand_from emit' -l all -d 'Emit every fit of the folder, converters.json, and languages/: the converters between models of the hub, and of exponents, in every language'
 complete -c remapc -n '__fish_seen_subcommand_from emit' -l fits -r -F -d 'Folder of fits'
 complete -c remapc -n '__fish_seen_subcommand_from emit' -s o -l output -r -F -d 'Folder for the headers'
-complete -c remapc -n '__fish_seen_subcommand_from emit' -l language -x -a 'c python javascript glsl hlsl materialx' -d 'Write a function of one texel in this language in place of the C++ header'
+complete -c remapc -n '__fish_seen_subcommand_from emit' -l language -x -a 'c python javascript glsl hlsl materialx' -d 'Write a function of one texel in this language instead of the C++ header'
 complete -c remapc -n '__fish_seen_subcommand_from emit' -l force -d 'Overwrite files that exist'
 complete -c remapc -n '__fish_seen_subcommand_from emit' -l check -d 'Write nothing'
 complete -c remapc -n '__fish_seen_subcommand_from emit' -s h -l help -d 'Show this help'
