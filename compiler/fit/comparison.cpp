@@ -222,9 +222,10 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
       candidate.record = record_of(name, split, candidate.fit);
     });
     if (progress)
-      progress(static_cast<double>(comparison.candidates.size()) / static_cast<double>(shapes.size()));
+      progress(static_cast<double>(comparison.candidates.size()) / static_cast<double>(shapes.size() + 1));
   };
   std::vector<CompactForm> sound, by_pictures;
+  enter("copied", [] { return CompactForm{}; });
   for (const FormShape& shape : shapes) {
     if (pictures != nullptr && term_count(shape) > kMostTerms) continue;
     enter(shape_name(shape), [&] {

@@ -49,8 +49,8 @@ void print_notes(const ConvertOptions& options, const ChosenConverter& chosen) {
     if (!text.empty()) print_message(kProgram, "note: " + text);
   };
   for (const std::string& meaning : chosen.workflow.notes) note(meaning);
-  if (chosen.workflow.is_closest) note(closest_text(chosen.workflow.target_brdf, chosen.path.expected_error));
-  note(closeness_text(chosen.path, chosen.closeness));
+  if (chosen.workflow.is_closest) note(closest_text(chosen.workflow.target_brdf));
+  note(note_text(chosen.path, chosen.closer));
 }
 
 std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
