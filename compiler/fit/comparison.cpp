@@ -18,6 +18,8 @@ constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures sh
 constexpr double kNear = 1.01;         // of the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range
 constexpr double kNearRow = 0.01;      // relative
+// Relative, of numbers that are copied: the least difference of brightness that an eye sees (Weber's fraction).
+constexpr double kNearCopy = 0.02;
 // Rows take part in the refinement: little where pictures show the difference, so that a form does not wander
 // where they hardly do; much where highlights are narrower than a pixel. Weights of squared relative errors.
 constexpr double kNarrowWidth = 0.05;
@@ -157,8 +159,9 @@ void choose(Comparison* comparison) {
     if (record.pictures)
       return std::max(record.pictures->rmse / std::max(kNear * best.rmse, best.rmse + kNearRmse),
                       record.pictures->relative / (kNear * best.relative));
-    return std::max(record.relative_alpha / std::max(kNear * alpha, kNearRow),
-                    record.relative_specular / std::max(kNear * specular, kNearRow));
+    const double least = record.number_count == 0 ? kNearCopy : kNearRow;
+    return std::max(record.relative_alpha / std::max(kNear * alpha, least),
+                    record.relative_specular / std::max(kNear * specular, least));
   };
   std::size_t chosen = candidates.size();
   for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -32,7 +32,8 @@ std::optional<double> three_digits(const std::optional<double>& value) {
 
 std::optional<PictureDifference> picture_difference(const Fit& fit) {
   if (!fit.pictures) return std::nullopt;
-  return PictureDifference{rounded(fit.pictures->converted.rmse, 3), rounded(fit.pictures->copied.rmse, 3)};
+  const auto one_decimal = [](double percent) { return std::round(10.0 * percent) / 10.0; };
+  return PictureDifference{one_decimal(fit.pictures->converted.rmse), one_decimal(fit.pictures->copied.rmse)};
 }
 
 // The errors are bounds of target alpha and, within the domain, of target specular.

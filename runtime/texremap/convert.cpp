@@ -132,6 +132,7 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
   values.in_domain = convert_maps(chosen.converter(), maps).out_of_domain_count == 0;
   if (!values.in_domain)
     warn(options, "the values are outside the domain (" + domain_text(chosen.domain()) + ")");
+  print_notes(options, chosen);
   print_values(chosen, values, options.json);
 }
 
@@ -245,7 +246,6 @@ CheckedConversion checked(ConvertOptions& options, std::optional<TreeManifest> m
   conversion.chosen = {conversion_of(options, fit, workflow), std::move(workflow)};
   require_fractions(conversion.request, conversion.chosen.info());
   for (const std::string& assumption : conversion.chosen.workflow.assumptions) warn(options, assumption);
-  print_notes(options, conversion.chosen);
   return conversion;
 }
 
@@ -277,6 +277,7 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
   outcome.used = resource_use();
   if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
   if (!options.quiet) {
+    print_notes(options, chosen);
     if (!list.is_tree) print_job(kProgram, outcome, outcome.reports.front(), told);
     print_colors(kProgram, outcome);
     print_summary(kProgram, outcome, told);

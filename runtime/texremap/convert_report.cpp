@@ -79,9 +79,6 @@ std::string left_behind_text(const JobReport& report) {
   return "left out: " + joined(names, ", ");
 }
 
-// Below this share nothing is seen: details are for --verbose.
-constexpr double kVisible = 0.01;
-
 }  // namespace
 
 std::string converter_ids(const ChosenConverter& chosen) {

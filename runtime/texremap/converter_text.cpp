@@ -16,8 +16,6 @@ std::string domain_text(const ConverterInfo& info) {
 
 namespace {
 
-constexpr double kVisible = 1.0;  // percent
-
 std::string percent_text(double percent) {
   return percent < 0.05 ? "less than 0.1 %" : fixed(percent, 1) + " %";
 }
@@ -42,7 +40,7 @@ std::string models_text(const ConverterPath& path) {
 std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
   if (path.steps.empty()) return "";
   const std::optional<PathDifference> difference = picture_difference(path);
-  const bool is_told = is_copy(path) || (difference && difference->converted >= kVisible);
+  const bool is_told = is_copy(path) || (difference && difference->converted >= 100.0 * kVisible);
   if (!is_told && !closer) return "";
   std::string text = path.steps.front()->info().source.model + " to " + target_model(path) + ": ";
   if (is_told) text += difference_text(path);

@@ -10,6 +10,9 @@
 
 namespace remap {
 
+// Below this share of the display's range or of the texels nothing is seen: details are for --verbose.
+inline constexpr double kVisible = 0.01;
+
 // Pictures differ by this times the residual of metal-rough, on the mean.
 inline constexpr double kPictureOfResidual = 0.42;
 
