@@ -18,7 +18,8 @@ constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures sh
 constexpr double kNear = 1.01;         // of the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range
 constexpr double kNearRow = 0.01;      // relative
-// Relative, of numbers that are copied: the least difference of brightness that an eye sees (Weber's fraction).
+// Relative, of numbers that are copied: the least difference of brightness that an eye sees (Weber's
+// fraction).
 constexpr double kNearCopy = 0.02;
 // Rows take part in the refinement: little where pictures show the difference, so that a form does not wander
 // where they hardly do; much where highlights are narrower than a pixel. Weights of squared relative errors.
