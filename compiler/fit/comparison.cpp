@@ -18,6 +18,9 @@ constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures sh
 constexpr double kNear = 1.01;         // of the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range
 constexpr double kNearRow = 0.01;      // relative
+// Relative, of numbers that are copied: the least difference of brightness that an eye sees (Weber's
+// fraction).
+constexpr double kNearCopy = 0.02;
 // Rows take part in the refinement: little where pictures show the difference, so that a form does not wander
 // where they hardly do; much where highlights are narrower than a pixel. Weights of squared relative errors.
 constexpr double kNarrowWidth = 0.05;
@@ -157,8 +160,9 @@ void choose(Comparison* comparison) {
     if (record.pictures)
       return std::max(record.pictures->rmse / std::max(kNear * best.rmse, best.rmse + kNearRmse),
                       record.pictures->relative / (kNear * best.relative));
-    return std::max(record.relative_alpha / std::max(kNear * alpha, kNearRow),
-                    record.relative_specular / std::max(kNear * specular, kNearRow));
+    const double least = record.number_count == 0 ? kNearCopy : kNearRow;
+    return std::max(record.relative_alpha / std::max(kNear * alpha, least),
+                    record.relative_specular / std::max(kNear * specular, least));
   };
   std::size_t chosen = candidates.size();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -222,9 +226,10 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
       candidate.record = record_of(name, split, candidate.fit);
     });
     if (progress)
-      progress(static_cast<double>(comparison.candidates.size()) / static_cast<double>(shapes.size()));
+      progress(static_cast<double>(comparison.candidates.size()) / static_cast<double>(shapes.size() + 1));
   };
   std::vector<CompactForm> sound, by_pictures;
+  enter("copied", [] { return CompactForm{}; });
   for (const FormShape& shape : shapes) {
     if (pictures != nullptr && term_count(shape) > kMostTerms) continue;
     enter(shape_name(shape), [&] {

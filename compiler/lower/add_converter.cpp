@@ -30,6 +30,12 @@ std::optional<double> three_digits(const std::optional<double>& value) {
   return value ? std::optional<double>(rounded(*value, 3)) : std::nullopt;
 }
 
+std::optional<PictureDifference> picture_difference(const Fit& fit) {
+  if (!fit.pictures) return std::nullopt;
+  const auto one_decimal = [](double percent) { return std::round(10.0 * percent) / 10.0; };
+  return PictureDifference{one_decimal(fit.pictures->converted.rmse), one_decimal(fit.pictures->copied.rmse)};
+}
+
 // The errors are bounds of target alpha and, within the domain, of target specular.
 std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, double specular_error) {
   const Range own = own_roughness_range(fit), specular = specular_range(fit);
@@ -68,6 +74,8 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
                two_digits(fit.follows_rows(), fit.specular_error.rms),
                two_digits(has_pictures, has_pictures ? fit.image_similarity->image_error.rms : 0.0),
                three_digits(mean_ssim(fit)),
+               picture_difference(fit),
+               is_copy(lowered.form),
                InstructionSet::kBaseline,
                {}};
   data.form = lowered.form;

@@ -105,9 +105,9 @@ export interface Path {
   steps: { id: string; expectedError: number }[];
   /** Difference of pictures, relative to the source's. */
   expectedError: number;
-  /** Whether the pictures will look different. */
-  looksDifferent: boolean;
-  /** Another model of the same renderer that looks closer, if there is one. */
+  /** How far pictures differ: RMSE of display values in per cent; null where nobody has compared them. */
+  pictureDifference: number | null;
+  /** Another model of the same renderer that matches the highlight more closely, if there is one. */
   closer: string | null;
   notes: string[];
   assumptions: string[];

@@ -136,9 +136,9 @@ Json open_converter(const Field& request) {
     held.target = choice.target_width(info);
     answer = conversion_json(held, held.conversion.domain());
     answer["path"] = path_json(held.conversion.path);
-    answer["path"]["looksDifferent"] = held.conversion.closeness.looks_different;
-    answer["path"]["closer"] =
-        held.conversion.closeness.closer ? Json(target_model(*held.conversion.closeness.closer)) : Json();
+    const auto difference = picture_difference(held.conversion.path);
+    answer["path"]["pictureDifference"] = difference ? Json(difference->converted) : Json();
+    answer["path"]["closer"] = held.conversion.closer ? Json(target_model(*held.conversion.closer)) : Json();
     answer["notes"] = choice.notes;
     answer["assumptions"] = choice.assumptions;
   }

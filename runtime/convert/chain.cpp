@@ -39,11 +39,13 @@ ConverterInfo chained_info(const std::vector<const Converter*>& steps) {
   info.roughness_rms_error = info.specular_rms_error = 0.0;
   info.image_rms_error = 0.0;
   info.ssim = 1.0;
+  info.pictures = std::nullopt;
   for (const Converter* step : steps) {
     const ConverterInfo& other = step->info();
     add(other.roughness_rms_error, &info.roughness_rms_error);
     add(other.specular_rms_error, &info.specular_rms_error);
     add(other.image_rms_error, &info.image_rms_error);
+    info.is_copy = info.is_copy && other.is_copy;
     info.ssim = info.ssim && other.ssim ? std::optional(std::min(*info.ssim, *other.ssim)) : std::nullopt;
     info.instructions = std::min(info.instructions, other.instructions);
     info.steps.push_back(other.id);

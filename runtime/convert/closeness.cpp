@@ -20,21 +20,11 @@ bool is_less(const ConverterPath& a, const ConverterPath& b) {
   return rounded_up(a.expected_error, 3) < rounded_up(b.expected_error, 3);
 }
 
-// Of the steps whose pictures were compared.
-double measured_error(const ConverterPath& path) {
-  double error = 0.0;
-  for (const Converter* step : path.steps)
-    if (step->info().image_rms_error) error += expected_error(step->info());
-  return error;
-}
-
 }  // namespace
 
-std::optional<double> worst_step_ssim(const ConverterPath& path) {
-  std::optional<double> worst;
-  for (const Converter* step : path.steps)
-    if (const std::optional<double>& ssim = step->info().ssim) worst = std::min(worst.value_or(*ssim), *ssim);
-  return worst;
+bool is_copy(const ConverterPath& path) {
+  return std::all_of(path.steps.begin(), path.steps.end(),
+                     [](const Converter* step) { return step->info().is_copy; });
 }
 
 bool is_measured(const ConverterPath& path) {
@@ -52,22 +42,21 @@ const ConverterPath& closest_path(const std::vector<ConverterPath>& paths) {
   return *closest;
 }
 
-Closeness closeness_of(const ConverterPath& path, const std::vector<ConverterPath>& others) {
-  Closeness closeness;
-  closeness.looks_different = measured_error(path) > kLooksDifferent;
-  if (!is_measured(path) || path.expected_error <= kUnseenError) return closeness;
+std::optional<ConverterPath> closer_path(const ConverterPath& path,
+                                         const std::vector<ConverterPath>& others) {
   const std::string& model = target_model(path);
   const std::string renderer = renderer_of(model);
+  if (!is_measured(path) || path.expected_error <= kUnseenError || renderer.empty()) return std::nullopt;
   std::vector<ConverterPath> closer;
   for (const ConverterPath& other : others)
     if (target_model(other) != model && renderer_of(target_model(other)) == renderer &&
         other.expected_error <= kCloserShare * path.expected_error && is_measured(other))
       closer.push_back(other);
-  if (closer.empty() || renderer.empty()) return closeness;
+  if (closer.empty()) return std::nullopt;
   const double least_area = kLeastCoverage * covered_area(path);
   std::erase_if(closer, [&](const ConverterPath& other) { return covered_area(other) < least_area; });
-  if (!closer.empty()) closeness.closer = *std::min_element(closer.begin(), closer.end(), is_less);
-  return closeness;
+  if (closer.empty()) return std::nullopt;
+  return *std::min_element(closer.begin(), closer.end(), is_less);
 }
 
 }  // namespace remap

@@ -207,7 +207,6 @@ BuiltConversion build_conversion(const ConversionChoice& choice, std::unique_ptr
   conversion.owned_brdf = std::move(brdf);
   conversion.brdf = conversion.owned_brdf.get();
   conversion.path = {{conversion.brdf}, expected_error(conversion.brdf->info())};
-  conversion.closeness = closeness_of(conversion.path, {});
   return with_material(choice, std::move(conversion), set);
 }
 
@@ -216,8 +215,8 @@ BuiltConversion build_conversion(const ConversionChoice& choice, const std::vect
   BuiltConversion conversion;
   if (!choice.is_material() || choice.source_brdf != choice.target_brdf || !via.empty()) {
     conversion.path = graph.find_paths({choice.source_brdf, choice.target_brdf, via}).front();
-    conversion.closeness =
-        closeness_of(conversion.path, graph.paths_to_renderer({choice.source_brdf, choice.renderer, {}}));
+    conversion.closer =
+        closer_path(conversion.path, graph.paths_to_renderer({choice.source_brdf, choice.renderer, {}}));
     if (conversion.path.steps.size() > 1)
       conversion.owned_brdf = make_chained_converter(conversion.path.steps);
     conversion.brdf = conversion.owned_brdf ? conversion.owned_brdf.get() : conversion.path.steps.front();

@@ -51,6 +51,23 @@ double expected_error(const ConverterInfo& info) {
   return std::sqrt(image * image + 2.0 * alpha * alpha + specular * specular);
 }
 
+std::optional<PathDifference> picture_difference(const ConverterPath& path) {
+  PathDifference difference;
+  double squares = 0.0;
+  for (const Converter* step : path.steps) {
+    const ConverterInfo& info = step->info();
+    if (!info.pictures && !info.image_rms_error) return std::nullopt;
+    const double percent =
+        info.pictures ? info.pictures->converted : kPercentOfImageError * *info.image_rms_error;
+    squares += percent * percent;
+  }
+  difference.converted = std::sqrt(squares);
+  if (path.steps.size() == 1 && path.steps.front()->info().pictures)
+    difference.copied = path.steps.front()->info().pictures->copied;
+  difference.is_estimate = !path.steps.empty() && !difference.copied;
+  return difference;
+}
+
 std::vector<std::string> path_models(const ConverterPath& path) {
   std::vector<std::string> models = {path.steps.front()->info().source.model};
   for (const Converter* step : path.steps) models.push_back(step->info().target.model);

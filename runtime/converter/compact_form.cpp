@@ -17,7 +17,10 @@ constexpr float kSharpestExponent = 1e-3f;
 
 }  // namespace
 
+bool is_copy(const CompactForm& form) { return form == CompactForm{}; }
+
 std::size_t number_count(const CompactForm& form) {
+  if (is_copy(form)) return 0;
   const std::size_t factors = terms_of(form.alpha) + terms_of(form.specular);
   std::size_t count = factors + (form.alpha.size() > 1 || form.specular.size() > 1 ? 1 : 0);
   for (const float number : {form.hinge.turn, form.hinge.turn_by_alpha, form.hinge.bend, form.hinge.spread})

@@ -41,7 +41,10 @@ struct CompactForm {
   bool operator==(const CompactForm&) const = default;
 };
 
-// The numbers of P, Q, the pole and the hinge; limits are those of the target model.
+// Whether alpha and specular stay what they are: both models have one lobe.
+bool is_copy(const CompactForm& form);
+
+// The numbers of P, Q, the pole and the hinge; limits are those of the target model. 0 for a copy.
 std::size_t number_count(const CompactForm& form);
 
 // The value of a factor. `Scalar` is double, or anything that adds and multiplies with doubles.

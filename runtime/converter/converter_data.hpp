@@ -21,7 +21,8 @@ struct GoldenTexel {
 };
 
 struct ConverterData {
-  // Figures of the fit have two digits, rounded up; SSIM has three. Ranges are rounded to float.
+  // Figures of the fit have two digits, rounded up; SSIM has three; pictures have one decimal. Ranges are
+  // rounded to float.
   ConverterInfo info;
   CompactForm form;
   // How far it may be from the fit over the domain, in target alpha and target specular; 0 where the form is

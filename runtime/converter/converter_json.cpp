@@ -51,6 +51,8 @@ std::string converter_to_json(const ConverterData& data) {
   add("domain", domain_json(data.info).dump());
   add("rms_error", errors_json(data.info).dump());
   add("ssim", ssim_json(data.info).dump());
+  if (const auto& pictures = data.info.pictures)
+    add("pictures", Json({{"converted", pictures->converted}, {"copied", pictures->copied}}).dump());
   add("pole", Json(decimal(form.pole)).dump());
   add("alpha", terms_json(form.alpha).dump());
   add("specular", terms_json(form.specular).dump());
@@ -133,7 +135,10 @@ ConverterData read_converter(const Field& field) {
   data.info.specular_rms_error = read_optional(field["rms_error"]["specular"]);
   data.info.image_rms_error = read_optional(field["rms_error"]["image"]);
   data.info.ssim = read_optional(field["ssim"]);
+  if (field.contains("pictures"))
+    data.info.pictures = {field["pictures"]["converted"].number(), field["pictures"]["copied"].number()};
   data.form = read_form(field);
+  data.info.is_copy = is_copy(data.form);
   data.alpha_bound = field["within"]["alpha"].number();
   data.specular_bound = field["within"]["specular"].number();
   data.golden = field["golden"].list(1, read_golden);

@@ -42,15 +42,8 @@ void warn(const ConvertOptions& options, const std::string& message) {
   if (!options.quiet) print_message(kProgram, "warning: " + message);
 }
 
-// Says which model `--to` stands for, and how closely the target can look like the source.
-void print_notes(const ConvertOptions& options, const ChosenConverter& chosen) {
-  if (options.quiet) return;
-  const auto note = [](const std::string& text) {
-    if (!text.empty()) print_message(kProgram, "note: " + text);
-  };
-  for (const std::string& meaning : chosen.workflow.notes) note(meaning);
-  if (chosen.workflow.is_closest) note(closest_text(chosen.workflow.target_brdf, chosen.path.expected_error));
-  note(closeness_text(chosen.path, chosen.closeness));
+void note(const ConvertOptions& options, const std::string& message) {
+  if (!options.quiet && !message.empty()) print_message(kProgram, "note: " + message);
 }
 
 std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
@@ -132,6 +125,7 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
   values.in_domain = convert_maps(chosen.converter(), maps).out_of_domain_count == 0;
   if (!values.in_domain)
     warn(options, "the values are outside the domain (" + domain_text(chosen.domain()) + ")");
+  note(options, note_text(chosen.path, chosen.closer));
   print_values(chosen, values, options.json);
 }
 
@@ -245,7 +239,9 @@ CheckedConversion checked(ConvertOptions& options, std::optional<TreeManifest> m
   conversion.chosen = {conversion_of(options, fit, workflow), std::move(workflow)};
   require_fractions(conversion.request, conversion.chosen.info());
   for (const std::string& assumption : conversion.chosen.workflow.assumptions) warn(options, assumption);
-  print_notes(options, conversion.chosen);
+  for (const std::string& meaning : conversion.chosen.workflow.notes) note(options, meaning);
+  if (conversion.chosen.workflow.is_closest)
+    note(options, closest_text(conversion.chosen.workflow.target_brdf));
   return conversion;
 }
 
@@ -276,6 +272,7 @@ void convert_maps_of(const ConvertOptions& options, CheckedConversion conversion
   outcome.seconds = stopwatch.seconds();
   outcome.used = resource_use();
   if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
+  note(options, note_text(chosen.path, chosen.closer));
   if (!options.quiet) {
     if (!list.is_tree) print_job(kProgram, outcome, outcome.reports.front(), told);
     print_colors(kProgram, outcome);

@@ -58,7 +58,7 @@ Json converter_json(const ChosenConverter& chosen) {
                {"target", info.target.model},
                {"closest_of", chosen.workflow.is_closest ? Json(chosen.workflow.renderer) : Json()}};
   json["notes"] = chosen.workflow.notes;
-  json.update(closeness_json(chosen.path, chosen.closeness));
+  json.update(pictures_json(chosen.path, chosen.closer));
   if (!chosen.workflow.is_material()) return json;
   json["workflow"] = {{"source", end_json(*chosen.workflow.source)},
                       {"target", end_json(*chosen.workflow.target)},

@@ -36,8 +36,7 @@ std::string material_text(const ChosenConverter& chosen) {
   else if (chosen.brdf == nullptr)
     for (const std::string& step : chosen.info().steps) text += " by " + step;  // a warp
   else
-    text += ", " + models_text(chosen.path) + " (expected error " +
-            expected_text(chosen.path.expected_error) + ")";
+    text += ", " + models_text(chosen.path);
   return text;
 }
 
@@ -45,7 +44,7 @@ std::string material_text(const ChosenConverter& chosen) {
 std::string converter_text(const ChosenConverter& chosen) {
   if (chosen.workflow.is_material()) return material_text(chosen);
   if (chosen.path.steps.size() == 1) return chosen.info().id;
-  return models_text(chosen.path) + " (expected error " + expected_text(chosen.path.expected_error) + ")";
+  return models_text(chosen.path);
 }
 
 // The domain that texels were outside of.
@@ -79,9 +78,6 @@ std::string left_behind_text(const JobReport& report) {
   for (const std::filesystem::path& file : report.left_behind) names.push_back(file.filename().string());
   return "left out: " + joined(names, ", ");
 }
-
-// Below this share nothing is seen: details are for --verbose.
-constexpr double kVisible = 0.01;
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "texremap/converter_text.hpp"
 
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 
 namespace remap {
 
@@ -13,20 +14,21 @@ std::string domain_text(const ConverterInfo& info) {
          range_text(info.source.specular, info.specular);
 }
 
-std::string figure_text(double error) { return number_text(rounded_up(error, 2)); }
+namespace {
 
-std::string expected_text(double error) { return number_text(rounded_up(error, 3)); }
+std::string percent_text(double percent) {
+  return percent < 0.05 ? "less than 0.1 %" : fixed(percent, 1) + " %";
+}
 
-std::string errors_text(const ConverterInfo& info) {
-  const auto text = [](const std::optional<double>& error) {
-    return error ? figure_text(*error) : "unknown";
-  };
-  const std::string fit = info.roughness_rms_error && info.specular_rms_error
-                              ? ", fit rms " + figure_text(*info.roughness_rms_error) + " in alpha and " +
-                                    figure_text(*info.specular_rms_error) + " in " + info.target.specular
-                              : "";
-  const std::string ssim = info.ssim ? ", SSIM " + number_text(rounded(*info.ssim, 3)) : "";
-  return "image " + text(info.image_rms_error) + ssim + fit;
+}  // namespace
+
+std::string difference_text(const ConverterPath& path) {
+  if (is_copy(path)) return "both models have the same lobe, so that numbers are copied";
+  const std::optional<PathDifference> difference = picture_difference(path);
+  if (!difference) return "nobody has compared pictures";
+  return std::string("pictures differ by ") + (difference->is_estimate ? "about " : "") +
+         percent_text(difference->converted) +
+         (difference->copied ? ", with copied numbers by " + percent_text(*difference->copied) : "");
 }
 
 std::string models_text(const ConverterPath& path) {
@@ -35,36 +37,19 @@ std::string models_text(const ConverterPath& path) {
   return text;
 }
 
-std::string ssim_text(const ConverterPath& path) {
-  const std::optional<double> ssim = worst_step_ssim(path);
-  if (!ssim) return "";
-  std::string text = "SSIM " + number_text(rounded(*ssim, 3));
-  if (path.steps.size() > 1) text += is_measured(path) ? " in the worst step" : " in the worst step compared";
+std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  if (path.steps.empty()) return "";
+  const std::optional<PathDifference> difference = picture_difference(path);
+  const bool is_told = is_copy(path) || (difference && difference->converted >= 100.0 * kVisible);
+  if (!is_told && !closer) return "";
+  std::string text = path.steps.front()->info().source.model + " to " + target_model(path) + ": ";
+  if (is_told) text += difference_text(path);
+  if (closer) text += (is_told ? "; " : "") + target_model(*closer) + " matches the highlight more closely";
   return text;
 }
 
-std::string closeness_text(const ConverterPath& path, const Closeness& closeness) {
-  if (!closeness.looks_different && !closeness.closer) return "";
-  const std::string &source = path.steps.front()->info().source.model, &target = target_model(path);
-  const std::string error = "expected error " + expected_text(path.expected_error);
-  std::string text;
-  if (closeness.looks_different) {
-    const std::string ssim = ssim_text(path);
-    text = target + " will look different from " + source + " (" + error + (ssim.empty() ? "" : ", ") + ssim +
-           ")";
-  }
-  if (!closeness.closer) return text;
-  const std::string& closer = target_model(*closeness.closer);
-  const std::string closer_error = "expected error " + expected_text(closeness.closer->expected_error);
-  if (text.empty())
-    return closer + " would look closer to " + source + " than " + target + " (" + closer_error +
-           " instead of " + expected_text(path.expected_error) + ")";
-  return text + "; " + closer + " would look closer (" + closer_error + ")";
-}
-
-std::string closest_text(const std::string& model, double error) {
-  return model + " is the closest model of " + renderer_of(model) + " (expected error " +
-         expected_text(error) + ")";
+std::string closest_text(const std::string& model) {
+  return model + " is the closest model of " + renderer_of(model);
 }
 
 Json path_json(const ConverterPath& path) {
@@ -73,16 +58,17 @@ Json path_json(const ConverterPath& path) {
   return ids;
 }
 
-Json closeness_json(const ConverterPath& path, const Closeness& closeness) {
-  const std::optional<double> ssim = worst_step_ssim(path);
-  Json closer;
-  if (closeness.closer)
-    closer = {{"model", target_model(*closeness.closer)},
-              {"path", path_json(*closeness.closer)},
-              {"expected_error", closeness.closer->expected_error}};
-  return {{"looks_different", path.steps.empty() ? Json() : Json(closeness.looks_different)},
-          {"worst_step_ssim", ssim ? Json(*ssim) : Json()},
-          {"closer_model", closer}};
+Json pictures_json(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  Json pictures, model;
+  if (const auto difference = picture_difference(path))
+    pictures = {{"converted", rounded(difference->converted, 3)},
+                {"copied", difference->copied ? Json(*difference->copied) : Json()},
+                {"is_estimate", difference->is_estimate}};
+  if (closer)
+    model = {{"model", target_model(*closer)},
+             {"path", path_json(*closer)},
+             {"expected_error", closer->expected_error}};
+  return {{"pictures", pictures}, {"same_lobe", is_copy(path)}, {"closer_model", model}};
 }
 
 }  // namespace remap

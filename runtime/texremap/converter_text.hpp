@@ -1,6 +1,7 @@
 // Converters and paths as text and as JSON, for all commands.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,9 @@
 #include "remap/path.hpp"
 
 namespace remap {
+
+// Below this share of the display's range or of the texels nothing is seen: details are for --verbose.
+inline constexpr double kVisible = 0.01;
 
 // Pictures differ by this times the residual of metal-rough, on the mean.
 inline constexpr double kPictureOfResidual = 0.42;
@@ -18,32 +22,25 @@ std::string range_text(std::string_view name, const Range& range);
 // `alpha 0.01 to 1, specular 0 to 0.5`: the domain of a converter.
 std::string domain_text(const ConverterInfo& info);
 
-// An RMS error, rounded up to two digits.
-std::string figure_text(double error);
-
-// An expected error, rounded up to three digits. It is an estimate.
-std::string expected_text(double error);
-
-// `image 0.059, SSIM 0.978, fit rms 0.00026 in alpha and 4.1e-05 in f0`, without the SSIM if it is unknown.
-std::string errors_text(const ConverterInfo& info);
+// `pictures differ by 8.0 %, with copied numbers by 14.1 %`, an estimate `pictures differ by about 8.4 %`,
+// `both models have the same lobe, so that numbers are copied`, `nobody has compared pictures`.
+std::string difference_text(const ConverterPath& path);
 
 // `mitsuba/ward -> mitsuba/beckmann -> mitsuba/ggx`.
 std::string models_text(const ConverterPath& path);
 
-// `SSIM 0.819`, of a path of several steps `SSIM 0.819 in the worst step`; empty if it is unknown.
-std::string ssim_text(const ConverterPath& path);
+// `mitsuba/ward to cycles-5/ggx: pictures differ by about 8.2 %; cycles-5/beckmann matches the highlight more
+// closely`, or one of the two, or that numbers are copied. Else empty: people see no difference below 1 %.
+std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer);
 
-// `cycles-5/ggx will look different from mitsuba/ward (expected error 0.371, SSIM 0.819 in the worst step);
-// cycles-5/beckmann would look closer (expected error 0.0545)`, or one of the two; empty if there is neither.
-std::string closeness_text(const ConverterPath& path, const Closeness& closeness);
-
-// `cycles-5/beckmann is the closest model of cycles-5 (expected error 0.0545)`: what `--to cycles-5` chose.
-std::string closest_text(const std::string& model, double error);
+// `cycles-5/beckmann is the closest model of cycles-5`: what `--to cycles-5` chose.
+std::string closest_text(const std::string& model);
 
 // The ids of the steps.
 Json path_json(const ConverterPath& path);
-// `looks_different`, `worst_step_ssim` and `closer_model` (null, or the model with its path and expected
-// error); all null for a path without steps.
-Json closeness_json(const ConverterPath& path, const Closeness& closeness);
+// `pictures` (`converted` and `copied`, in per cent, `is_estimate`; null where nobody has compared them),
+// `same_lobe` (whether numbers are copied) and `closer_model` (null, or the model with its path and expected
+// error).
+Json pictures_json(const ConverterPath& path, const std::optional<ConverterPath>& closer);
 
 }  // namespace remap

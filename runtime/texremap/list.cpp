@@ -29,15 +29,15 @@ struct ListOptions {
 struct ListedConverter {
   const Converter& converter;
   ConverterPath path;
-  Closeness closeness;
+  std::optional<ConverterPath> closer;
 };
 
 ListedConverter listed(const ConverterGraph& graph, const Converter& converter) {
   const ConverterInfo& info = converter.info();
   ConverterPath path{{&converter}, expected_error(info)};
-  Closeness closeness =
-      closeness_of(path, graph.paths_to_renderer({info.source.model, renderer_of(info.target.model), {}}));
-  return {converter, std::move(path), std::move(closeness)};
+  auto closer =
+      closer_path(path, graph.paths_to_renderer({info.source.model, renderer_of(info.target.model), {}}));
+  return {converter, std::move(path), std::move(closer)};
 }
 
 Json converter_json(const ListedConverter& entry) {
@@ -51,7 +51,7 @@ Json converter_json(const ListedConverter& entry) {
                {"expected_error", entry.path.expected_error},
                {"instructions", std::string(instruction_set_name(info.instructions))},
                {"self_test", entry.converter.self_test()}};
-  json.update(closeness_json(entry.path, entry.closeness));
+  json.update(pictures_json(entry.path, entry.closer));
   return json;
 }
 
@@ -62,11 +62,11 @@ void print_converter(const ListedConverter& entry) {
             << "  from   " << info.source.model << ", " << domain_text(info) << '\n'
             << "  to     " << info.target.model << ", " << convention_name(info.target.roughness) << " and "
             << info.target.specular << '\n'
-            << "  error  " << errors_text(info) << '\n'
             << "  test   " << (converter.self_test() ? "passed" : "FAILED") << " with "
             << instruction_set_name(info.instructions) << " instructions\n";
-  if (const std::string text = closeness_text(entry.path, entry.closeness); !text.empty())
-    std::cout << "  note   " << text << '\n';
+  std::cout << "  note   " << difference_text(entry.path) << '\n';
+  if (entry.closer)
+    std::cout << "  note   " << target_model(*entry.closer) << " matches the highlight more closely\n";
 }
 
 void list_converters(const ListOptions& options) {
@@ -85,19 +85,17 @@ void list_converters(const ListOptions& options) {
     throw Error(ErrorKind::kNumeric, failed + ": self-test failed (results would be wrong)");
 }
 
-Json reached_json(const ConverterPath& path, const Closeness& closeness) {
+Json reached_json(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
   Json json = {
       {"model", target_model(path)}, {"path", path_json(path)}, {"expected_error", path.expected_error}};
-  json.update(closeness_json(path, closeness));
+  json.update(pictures_json(path, closer));
   return json;
 }
 
-void print_reached(const ConverterPath& path, const Closeness& closeness) {
-  std::cout << "  reaches  " << target_model(path) << ", expected error "
-            << expected_text(path.expected_error);
+void print_reached(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  std::cout << "  reaches  " << target_model(path) << ", " << difference_text(path);
   if (path.steps.size() > 1) std::cout << ", in " << path.steps.size() << " steps";
-  if (closeness.looks_different) std::cout << ", will look different";
-  if (closeness.closer) std::cout << ", " << target_model(*closeness.closer) << " would look closer";
+  if (closer) std::cout << "; " << target_model(*closer) << " matches the highlight more closely";
   std::cout << '\n';
 }
 
@@ -115,11 +113,11 @@ void list_models(const ListOptions& options) {
     for (const std::string& target : graph.reachable_from(model))
       paths.push_back(graph.find_paths({model, target, {}}).front());
     for (const ConverterPath& path : paths) {
-      const Closeness closeness = closeness_of(path, paths);
+      const std::optional<ConverterPath> closer = closer_path(path, paths);
       if (options.json)
-        entry["reaches"].push_back(reached_json(path, closeness));
+        entry["reaches"].push_back(reached_json(path, closer));
       else
-        print_reached(path, closeness);
+        print_reached(path, closer);
     }
     all.push_back(entry);
   }

@@ -22,45 +22,40 @@ constexpr std::size_t kPathsShown = 3;
 
 // What is printed of a conversion that needs converters.
 struct Plan {
-  std::vector<ConverterPath> paths;  // the chosen one and the next best
-  ConverterInfo whole;               // of the chosen one
-  Closeness closeness;               // of the chosen one
+  std::vector<ConverterPath> paths;     // the chosen one and the next best
+  ConverterInfo whole;                  // of the chosen one
+  std::optional<ConverterPath> closer;  // than the chosen one
 };
 
 // The reason why the first of `paths` was chosen.
 std::string reason(const std::vector<ConverterPath>& paths) {
   if (paths.size() == 1) return "it is the only path";
   const ConverterPath &best = paths[0], &next = paths[1];
-  if (best.expected_error < next.expected_error) return "its expected error is the least";
+  if (best.expected_error < next.expected_error) return "its highlight is the closest";
   if (best.steps.size() < next.steps.size())
-    return "it has the fewest steps of the paths with the least expected error";
-  return "it is the first, by its ids, of the shortest paths with the least expected error";
+    return "its highlight is the closest, as that of longer paths is";
+  return "its highlight is the closest, and its ids come first";
 }
 
-void print_step(std::size_t number, const ConverterInfo& info) {
-  std::cout << "  " << number << "  " << info.id << '\n'
-            << "     errors   " << errors_text(info) << '\n'
-            << "     covers   " << domain_text(info) << '\n'
-            << "     expected error " << expected_text(expected_error(info));
-  if (!info.image_rms_error)
-    std::cout << ", with " << figure_text(kAssumedImageError) << " for the unknown image error";
-  std::cout << '\n';
+void print_step(std::size_t number, const Converter& step) {
+  std::cout << "  " << number << "  " << step.info().id << '\n'
+            << "     " << difference_text({{&step}}) << '\n'
+            << "     covers " << domain_text(step.info()) << '\n';
 }
 
 void print_text(const Plan& plan) {
   const std::vector<ConverterPath>& paths = plan.paths;
   const ConverterPath& path = paths.front();
   std::cout << models_text(path) << '\n';
-  for (std::size_t i = 0; i < path.steps.size(); ++i) print_step(i + 1, path.steps[i]->info());
-  std::cout << "expected error " << expected_text(path.expected_error)
-            << (path.steps.size() > 1 ? ", the sum of the steps'" : "") << '\n'
+  for (std::size_t i = 0; i < path.steps.size(); ++i) print_step(i + 1, *path.steps[i]);
+  std::cout << difference_text(path) << '\n'
             << "covers " << domain_text(plan.whole) << '\n'
             << "chosen because " << reason(paths) << '\n';
-  if (const std::string text = closeness_text(path, plan.closeness); !text.empty())
-    std::cout << "note: " << text << '\n';
+  if (plan.closer)
+    std::cout << "note: " << target_model(*plan.closer) << " matches the highlight more closely\n";
   for (std::size_t i = 1; i < paths.size(); ++i) {
-    std::cout << (i == 1 ? "next best: " : "           ") << models_text(paths[i]) << ", expected error "
-              << expected_text(paths[i].expected_error) << " (";
+    std::cout << (i == 1 ? "next best: " : "           ") << models_text(paths[i]) << ", "
+              << difference_text(paths[i]) << " (";
     for (std::size_t k = 0; k < paths[i].steps.size(); ++k)
       std::cout << (k == 0 ? "" : ", ") << paths[i].steps[k]->info().id;
     std::cout << ")\n";
@@ -93,7 +88,7 @@ Json plan_json(const Plan& plan) {
                  {"steps", steps},
                  {"reason", reason(paths)},
                  {"alternatives", alternatives}};
-  result.update(closeness_json(paths.front(), plan.closeness));
+  result.update(pictures_json(paths.front(), plan.closer));
   return result;
 }
 
@@ -119,8 +114,8 @@ Plan plan_of(const ConverterGraph& graph, const PathRequest& request, const Work
   Plan plan;
   plan.paths = graph.find_paths(request, kPathsShown);
   plan.whole = make_chained_converter(plan.paths.front().steps)->info();
-  plan.closeness =
-      closeness_of(plan.paths.front(), graph.paths_to_renderer({request.source, choice.renderer, {}}));
+  plan.closer =
+      closer_path(plan.paths.front(), graph.paths_to_renderer({request.source, choice.renderer, {}}));
   return plan;
 }
 
@@ -140,8 +135,7 @@ void explain(const ConvertOptions& options) {
     return;
   }
   for (const std::string& note : choice.notes) std::cout << note << '\n';
-  if (choice.is_closest)
-    std::cout << closest_text(choice.target_brdf, plan ? plan->paths.front().expected_error : 0.0) << '\n';
+  if (choice.is_closest) std::cout << closest_text(choice.target_brdf) << '\n';
   for (const std::string& stage : stages) std::cout << stage << '\n';
   if (plan) print_text(*plan);
 }

@@ -28,8 +28,6 @@ Row pass_row(const Medians& medians, const std::string& what, const std::string&
              const std::string& maps);
 
 void add_passes();
-Section pass_section(const Medians& medians, const std::string& code, const std::string& title);
-Section other_pass_section(const Medians& medians);
 Section texel_section(const Medians& medians);
 
 void add_converters();
@@ -38,17 +36,11 @@ Section converter_section(const Medians& medians);
 void add_maps();
 Section maps_section(const Medians& medians);
 
-void add_chains();
-Section chain_section(const Medians& medians);
-
 void add_rivals();
 Section rival_section(const Medians& medians);
 
 void add_networks();
 Section network_section(const Medians& medians);
-
-void add_compilations();
-Section header_section(const Medians& medians);
 
 void add_workflows();
 Section workflow_section(const Medians& medians);

@@ -40,7 +40,6 @@ std::vector<Build<Function>> runnable() {
 std::vector<Build<Pass>> pass_builds() { return runnable<Pass>(); }
 std::vector<Build<TexelPass>> texel_builds() { return runnable<TexelPass>(); }
 std::vector<Build<MaterialPass>> material_builds() { return runnable<MaterialPass>(); }
-std::vector<Build<NetworkPass>> network_builds() { return runnable<NetworkPass>(); }
 std::vector<Build<ProductsPass>> products_builds() { return runnable<ProductsPass>(); }
 
 std::string flags_text(const std::string& flags) {

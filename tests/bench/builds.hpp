@@ -20,17 +20,16 @@ enum class TexelUse { kRgba, kRgb, kSingle };
 using TexelPass = void (*)(TexelUse use, std::size_t count, const float* width, const float* in,
                            float* width_out, float* out);
 
+// The header that is also measured over large maps and interleaved texels.
+inline constexpr const char* kLargeHeader = "mitsuba_ward_to_mitsuba_as";
+
 // The header of a network of whole materials that ships.
 inline constexpr const char* kNetworkHeader = "specular_to_metallic_network_sztrajman_2019";
 
 // evaluate_batch of a header of whole materials. Returns texels out of domain.
 using MaterialPass = std::size_t (*)(std::size_t count, const float* const* in, float* const* out);
 
-// A network of 6 x 300 x 4 over planar rows of `texels` floats, a multiple of 1024: inputs one after the
-// other, then outputs the same.
-using NetworkPass = void (*)(std::size_t texels, const float* in, float* out);
-
-// Its multiplications alone as Eigen's products of matrices, `batch` texels at a time.
+// The multiplications of a network of 6 x 300 x 4 as Eigen's products of matrices, `batch` texels at a time.
 struct NetworkProducts {
   std::size_t batch;
   bool texels_innermost;                         // whether a column of the matrices is a row of texels
@@ -50,7 +49,6 @@ struct Build {
 std::vector<Build<Pass>> pass_builds();
 std::vector<Build<TexelPass>> texel_builds();
 std::vector<Build<MaterialPass>> material_builds();
-std::vector<Build<NetworkPass>> network_builds();
 std::vector<Build<ProductsPass>> products_builds();
 
 // The flags in words.

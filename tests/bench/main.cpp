@@ -1,6 +1,6 @@
 // What the tools and the code they generate cost, as ratios to rivals in the same run. Never passes or fails;
 // scripts/bench runs it. `--json` prints the tables as JSON; other arguments are Google Benchmark's, such as
-// --benchmark_filter=svr.
+// --benchmark_filter=data.
 #include <cstring>
 #include <string>
 #include <vector>
@@ -26,31 +26,16 @@ int main(int argc, char** argv) {
   add_passes();
   add_converters();
   add_maps();
-  add_chains();
   add_rivals();
   add_networks();
   add_workflows();
   add_warps();
-  add_compilations();
   add_fits();
   Medians medians;
   benchmark::RunSpecifiedBenchmarks(&medians);
   const std::vector<Section> sections = {
-      pass_section(medians, "svr", "Lowered SVR pass"),
-      pass_section(medians, "parametric", "Lowered parametric pass (the paper's form)"),
-      pass_section(medians, "fused",
-                   "Three converters as one pass (remapc chain: ward, ward-balanced, beckmann, as)"),
-      converter_section(medians),
-      maps_section(medians),
-      chain_section(medians),
-      rival_section(medians),
-      network_section(medians),
-      other_pass_section(medians),
-      texel_section(medians),
-      workflow_section(medians),
-      warp_section(medians),
-      header_section(medians),
-      fit_section(medians)};
+      converter_section(medians), maps_section(medians),     rival_section(medians), network_section(medians),
+      texel_section(medians),     workflow_section(medians), warp_section(medians),  fit_section(medians)};
   if (json)
     print_json(sections);
   else

@@ -1,5 +1,5 @@
-// The kernel of a network of 6 x 300 x 4 (Sztrajman et al. 2019, section 8) against Eigen's products of the
-// same matrices, which leave out biases and activations.
+// The header of a network of 6 x 300 x 4 (Sztrajman et al. 2019, section 8) against Eigen's products of such
+// matrices, which leave out biases and activations.
 #include <random>
 
 #include "bench/bench.hpp"
@@ -49,11 +49,6 @@ std::string best_products(const Medians& medians, const std::string& flags) {
 }  // namespace
 
 void add_networks() {
-  for (const Build<NetworkPass>& build : network_builds()) {
-    const NetworkPass pass = build.function;
-    add_benchmark(build.code + "_" + build.flags, kTexels, 15,
-                  [pass] { pass(kTexels, rows().in.data(), rows().out.data()); });
-  }
   for (const Build<ProductsPass>& build : products_builds())
     for (const std::size_t batch : kBatches)
       for (const bool innermost : {true, false}) {
@@ -67,7 +62,8 @@ void add_networks() {
 }
 
 Section network_section(const Medians& medians) {
-  Section section{"Exact MLP 6 x 300 x 4 against Eigen's products (GEMM) at the same flags, one core", {}};
+  Section section{"The network of 6 x 300 x 4 against Eigen's products (GEMM) at the same flags, one core",
+                  {}};
   const auto add = [&](const std::string& what, const std::string& name, const std::string& flags) {
     const std::string rival = best_products(medians, flags);
     section.rows.push_back({what + " at " + flags_text(flags), mega_items(medians, name), "Mtexel/s",
@@ -75,8 +71,6 @@ Section network_section(const Medians& medians) {
                             "Eigen, batches of " + rival.substr(rival.find('/') + 1),
                             flags != "o3" ? std::optional(0.8) : std::nullopt});
   };
-  for (const Build<NetworkPass>& build : network_builds())
-    add(build.code.substr(build.code.find('_') + 1), build.code + "_" + build.flags, build.flags);
   for (const Build<MaterialPass>& build : material_builds())
     if (build.code == kNetworkHeader && build.flags != "o2")
       add("the header of whole materials", build.code + "_" + build.flags + "/small", build.flags);

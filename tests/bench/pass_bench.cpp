@@ -1,4 +1,4 @@
-// Passes of headers against a memcpy of the same four channels.
+// Passes of headers, over planes and over interleaved texels.
 #include <cstring>
 #include <memory>
 #include <random>
@@ -54,20 +54,6 @@ void add_texels(Maps& maps, const char* size, int repetitions) {
                     });
 }
 
-// Whether a pass is fast enough for large maps.
-bool is_lowered(const std::string& code) {
-  return code == "svr" || code == "parametric" || code == "fused" || code == "mlp";
-}
-
-std::optional<double> goal(const std::string& code, const std::string& flags) {
-  const bool parametric = code == "parametric";
-  if (code == "fused" && flags == "avx2") return 0.5;
-  if (code == "fused" || code == "mlp" || flags == "o2") return std::nullopt;
-  if (flags == "o3") return parametric ? 0.5 : 0.3;
-  if (flags == "avx2") return parametric ? 0.95 : 0.6;
-  return parametric ? 1.0 : 0.8;
-}
-
 }  // namespace
 
 Row pass_row(const Medians& medians, const std::string& what, const std::string& name,
@@ -106,7 +92,7 @@ void add_passes() {
     const std::string name = build.code + "_" + build.flags;
     const Pass pass = build.function;
     add_benchmark(name + "/small", small_maps().texels, 7, [pass] { convert(small_maps(), pass); });
-    if (is_lowered(build.code))
+    if (build.code == kLargeHeader)
       add_benchmark(name + "/large", large_maps().texels, 15, [pass] { convert(large_maps(), pass); });
   }
 }
@@ -122,35 +108,6 @@ Section texel_section(const Medians& medians) {
                                 mega_items(medians, name), "Mtexel/s", speed_ratio(medians, name, planar),
                                 "planar", use == TexelUse::kSingle ? std::nullopt : std::optional(0.8)});
       }
-  return section;
-}
-
-Section pass_section(const Medians& medians, const std::string& code, const std::string& title) {
-  Section section{title + ", roughness + RGB, one core", {}};
-  section.rows.push_back(pass_row(medians, "memcpy of the four channels, 4096 x 4096", "memcpy", "large"));
-  section.rows.back().ratio.reset();
-  for (const Build<Pass>& build : pass_builds()) {
-    if (build.code != code) continue;
-    const std::string name = code + "_" + build.flags;
-    section.rows.push_back(
-        pass_row(medians, "header at " + flags_text(build.flags) + ", 4096 x 4096", name, "large"));
-    section.rows.back().goal = goal(code, build.flags);
-  }
-  for (const Build<Pass>& build : pass_builds())
-    if (build.code == code && build.flags != "o2")
-      section.rows.push_back(pass_row(medians, "header at " + flags_text(build.flags) + ", 64 x 64, in cache",
-                                      code + "_" + build.flags, "small"));
-  return section;
-}
-
-Section other_pass_section(const Medians& medians) {
-  Section section{"Other headers of the same table, roughness + RGB, one core", {}};
-  for (const Build<Pass>& build : pass_builds()) {
-    const std::string name = build.code + "_" + build.flags, flags = flags_text(build.flags);
-    if (build.code == "mlp")
-      section.rows.push_back(
-          pass_row(medians, "lowered MLP 2 x 8 at " + flags + ", 4096 x 4096", name, "large"));
-  }
   return section;
 }
 

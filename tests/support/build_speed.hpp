@@ -1,7 +1,7 @@
 // For tests that train or search: how long they took, and whether this build is slow enough to do less.
 #pragma once
 
-#include <chrono>
+#include <ctime>
 #include <functional>
 
 #if defined(__has_feature)
@@ -22,10 +22,11 @@ inline constexpr bool kSlowBuild = true;
 inline constexpr bool kSlowBuild = false;
 #endif
 
+// Of processor time: other programs on the machine do not count.
 inline double seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 }  // namespace remap

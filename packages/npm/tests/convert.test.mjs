@@ -162,7 +162,9 @@ test('names: models, aliases, renderers, paths', () => {
   assert.equal(found.models[0], 'mitsuba/ward');
   assert.match(found.models.at(-1), /^cycles-5\//);
   assert.ok(found.expectedError > 0 && found.expectedError < 1);
+  assert.ok(found.pictureDifference > 1 && found.pictureDifference < 20);
   assert.equal(path('gltf', 'metallic').expectedError, 0);
+  assert.equal(path('gltf', 'metallic').pictureDifference, 0);
   assert.throws(() => path('mitsuba/wrd', 'mitsuba/ggx'), /source: unknown model 'mitsuba\/wrd' \(nearest: mitsuba\/ward/);
 });
 

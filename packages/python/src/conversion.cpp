@@ -232,9 +232,9 @@ nb::dict MaterialConversion::describe() const {
   for (const Converter* step : built_->path.steps) steps.push_back(step->info().id);
   text["steps"] = steps;
   text["expected_error"] = built_->path.expected_error;
-  text["looks_different"] = built_->closeness.looks_different;
-  text["closer"] =
-      built_->closeness.closer ? nb::object(nb::cast(target_model(*built_->closeness.closer))) : nb::none();
+  const auto difference = picture_difference(built_->path);
+  text["picture_difference"] = difference ? nb::object(nb::cast(difference->converted)) : nb::none();
+  text["closer"] = built_->closer ? nb::object(nb::cast(target_model(*built_->closer))) : nb::none();
   text["notes"] = choice_.notes;
   text["assumptions"] = choice_.assumptions;
   text["instructions"] = std::string(instruction_set_name(info.instructions));

@@ -42,7 +42,8 @@ class Path(NamedTuple):
     """Ids of the converters; none where both ends share a BRDF."""
     expected_error: float
     """The expected RMS difference of the pictures, relative to the source's."""
-    looks_different: bool
+    picture_difference: Optional[float]
+    """How far pictures differ: RMSE of display values in per cent; None where nobody has compared them."""
     closer: Optional[str]
     """Another model of the target's renderer that looks closer; else None."""
 
@@ -197,7 +198,7 @@ class Converter:
     def path(self) -> Path:
         """The :class:`Path` of its BRDF."""
         about = self._about
-        return Path(tuple(about["models"]), tuple(about["steps"]), about["expected_error"], about["looks_different"],
+        return Path(tuple(about["models"]), tuple(about["steps"]), about["expected_error"], about["picture_difference"],
                     about["closer"])
 
     def convert(self, *, roughness: Optional[Map] = None, glossiness: Optional[Map] = None,

@@ -88,7 +88,7 @@ struct BuiltConversion {
   std::unique_ptr<Converter> owned_brdf;  // unless `brdf` is one of the graph
   const Converter* brdf = nullptr;        // of width and specular; null if both ends share a BRDF
   ConverterPath path;                     // the steps of `brdf`
-  Closeness closeness;                    // of the path
+  std::optional<ConverterPath> closer;    // to a model that matches the highlight more closely (path.hpp)
   std::unique_ptr<Converter> material;    // of whole materials; null if width and specular are all
 
   // The whole conversion.

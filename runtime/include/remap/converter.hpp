@@ -104,6 +104,14 @@ class MaterialRows {
   std::array<ParameterRows<Float>, kParameterCount> rows_;
 };
 
+// How far pictures of spheres differ from those of the source: RMSE of display values under environments, in
+// percent of the display's range. Mean over materials and lights that had no part in the fit.
+struct PictureDifference {
+  double converted = 0.0;
+  double copied = 0.0;  // where the numbers are copied instead
+  bool operator==(const PictureDifference&) const = default;
+};
+
 // What a person or a program needs to know of a converter before using it.
 struct ConverterInfo {
   std::string id;
@@ -119,6 +127,8 @@ struct ConverterInfo {
   // Structural similarity of spheres at the best parameters, mean over widths; none if unknown. Of a chained
   // converter: that of its worst step.
   std::optional<double> ssim;
+  std::optional<PictureDifference> pictures;  // none where the built-in renderer lacks a model
+  bool is_copy = false;  // alpha and specular stay what they are: both models have one lobe
   InstructionSet instructions = InstructionSet::kBaseline;  // that it runs on; changes no bit of the results
   std::vector<std::string> steps;  // ids of what a chained converter runs; otherwise empty
   bool operator==(const ConverterInfo&) const = default;

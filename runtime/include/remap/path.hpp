@@ -37,6 +37,21 @@ struct ConverterPath {
   double expected_error = 0.0;
 };
 
+// How far pictures of a path's results differ from those of its source: the figure for people.
+struct PathDifference {
+  double converted = 0.0;        // RMSE of display values, percent
+  std::optional<double> copied;  // of copied numbers; known for a single step that was measured
+  bool is_estimate = false;      // of several steps, or from an image error
+};
+
+// The RMSE that is expected for an image error of 1: the median of the hub's 42 pairs, of which half lie
+// between 13 and 28. Image errors are of one light from the side, pictures of environments.
+inline constexpr double kPercentOfImageError = 23.0;
+
+// The steps' differences add in quadrature, since they are unrelated as a rule. 0 for a path without steps;
+// none if a step has neither pictures nor an image error.
+std::optional<PathDifference> picture_difference(const ConverterPath& path);
+
 // The models of the path, from the source to the target.
 std::vector<std::string> path_models(const ConverterPath& path);
 // The last of them.
@@ -132,14 +147,10 @@ struct SourceDomain {
 };
 SourceDomain chained_domain(std::span<const Converter* const> steps);
 
-// How closely the target of a path can look like its source, and which other model of the same renderer would
-// look closer. Judged by expected errors (path.hpp) and by the structural similarity of spheres.
+// Which model of a renderer matches the highlight of a source best. Judged by expected errors: environments
+// hide the shape of a highlight.
 
-// Above this expected error, a tenth of the picture, a conversion will look different. Below it all shipped
-// converters have a mean SSIM of at least 0.96 (fits/converters.csv).
-inline constexpr double kLooksDifferent = 0.1;
-
-// Another model looks closer if its expected error is at most this share. Expected errors are estimates, and
+// Another model is closer if its expected error is at most this share. Expected errors are estimates, and
 // those of two models are of different domains: a smaller gain may be none.
 inline constexpr double kCloserShare = 0.5;
 
@@ -152,9 +163,8 @@ inline constexpr double kUnseenError = 0.03;
 // 0.04 or 0.08, cover at most 0.11 of what models of conductors do.
 inline constexpr double kLeastCoverage = 0.15;
 
-// The least SSIM of the steps whose pictures were compared; none if no step's were. Similarities of steps do
-// not compose: that of the whole path may be lower.
-std::optional<double> worst_step_ssim(const ConverterPath& path);
+// Whether no step changes alpha or specular: all models have one lobe. Also for a path without steps.
+bool is_copy(const ConverterPath& path);
 
 // Whether the pictures of every step were compared.
 bool is_measured(const ConverterPath& path);
@@ -164,16 +174,8 @@ bool is_measured(const ConverterPath& path);
 // taken. Paths that cover less than kLeastCoverage of what the widest covers are left out.
 const ConverterPath& closest_path(const std::vector<ConverterPath>& paths);
 
-struct Closeness {
-  // Whether the steps whose pictures were compared have an expected error above kLooksDifferent together.
-  bool looks_different = false;
-  // A path to another model of the target's renderer that looks closer; none if there is none, or if one of
-  // the two paths is not measured.
-  std::optional<ConverterPath> closer;
-};
-
-// Judges `path` against `others`: paths from the same source, of which only those to other models of the same
-// renderer count.
-Closeness closeness_of(const ConverterPath& path, const std::vector<ConverterPath>& others);
+// The closest of the `others` that lead to another model of the renderer of `path`, if it is closer. None if
+// no such path is, or if one of the two paths is not measured. All start at one source.
+std::optional<ConverterPath> closer_path(const ConverterPath& path, const std::vector<ConverterPath>& others);
 
 }  // namespace remap

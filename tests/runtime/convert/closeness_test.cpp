@@ -1,4 +1,4 @@
-// Which model looks closest: made-up converters with known errors, SSIMs and domains.
+// Which model looks closest: made-up converters with known errors, pictures and domains.
 #include <algorithm>
 
 #include <catch2/catch.hpp>
@@ -15,10 +15,10 @@ namespace {
 class RatedConverters : public NamedConverters {
  public:
   void add(const std::string& source, const std::string& target, std::optional<double> image_error,
-           std::optional<double> ssim = {}, double largest_specular = 1.0) {
+           std::optional<PictureDifference> pictures = {}, double largest_specular = 1.0) {
     ConverterInfo made = info(source, target, image_error);
     made.specular.max = largest_specular;
-    made.ssim = ssim;
+    made.pictures = pictures;
     NamedConverters::add(std::move(made));
   }
   ConverterGraph graph() const { return ConverterGraph(pointers(), Detours::kRefused); }
@@ -34,11 +34,8 @@ class RatedConverters : public NamedConverters {
     const ConverterGraph whole = graph();
     std::vector<ConverterPath> others;
     for (const std::string& model : whole.reachable_from(source)) others.push_back(path(source, model));
-    const Closeness closeness = closeness_of(path(source, target), others);
-    return closeness.closer ? target_model(*closeness.closer) : "none";
-  }
-  bool looks_different(const std::string& source, const std::string& target) const {
-    return closeness_of(path(source, target), {}).looks_different;
+    const std::optional<ConverterPath> found = closer_path(path(source, target), others);
+    return found ? target_model(*found) : "none";
   }
 };
 
@@ -180,30 +177,21 @@ TEST_CASE("closeness: pictures that were never compared are not judged") {
   CHECK(is_measured(converters.path("a/source", "b/far")));
 }
 
-TEST_CASE("closeness: a conversion looks different above a tenth, by the steps that were compared") {
+TEST_CASE("closeness: differences of pictures are those that were measured, or about those of image errors") {
   RatedConverters converters;
-  converters.add("a/a", "a/b", 0.06);
-  converters.add("a/b", "a/c", 0.05);
-  converters.add("a/b", "a/d", {});
-  converters.add("a/d", "a/e", 0.03);
-  converters.add("a/d", "a/f", 0.2);
-  converters.add("a/a", "a/g", kLooksDifferent);
-  CHECK_FALSE(converters.looks_different("a/a", "a/b"));
-  CHECK(converters.looks_different("a/a", "a/c"));
-  CHECK_FALSE(converters.looks_different("a/a", "a/d"));
-  CHECK_FALSE(converters.looks_different("a/a", "a/e"));
-  CHECK(converters.looks_different("a/a", "a/f"));
-  CHECK_FALSE(converters.looks_different("a/a", "a/g"));
-}
-
-TEST_CASE("closeness: the SSIM of a path is that of its worst step") {
-  RatedConverters converters;
-  converters.add("a/a", "a/b", 0.1, 0.9);
-  converters.add("a/b", "a/c", 0.1, 0.8);
-  converters.add("a/c", "a/d", 0.1, 0.95);
-  converters.add("a/d", "a/e", {});
-  CHECK(worst_step_ssim(converters.path("a/a", "a/b")) == 0.9);
-  CHECK(worst_step_ssim(converters.path("a/a", "a/d")) == 0.8);
-  CHECK(worst_step_ssim(converters.path("a/a", "a/e")) == 0.8);
-  CHECK_FALSE(worst_step_ssim(converters.path("a/d", "a/e")).has_value());
+  converters.add("a/a", "a/b", 0.1, PictureDifference{3.0, 12.0});
+  converters.add("a/b", "a/c", 4.0 / kPercentOfImageError);
+  converters.add("a/c", "a/d", {});
+  const auto measured = picture_difference(converters.path("a/a", "a/b"));
+  CHECK(measured->converted == 3.0);
+  CHECK(measured->copied == 12.0);
+  CHECK_FALSE(measured->is_estimate);
+  const auto estimated = picture_difference(converters.path("a/a", "a/c"));
+  CHECK(estimated->converted == Approx(5.0));  // 3 and 4 in quadrature
+  CHECK_FALSE(estimated->copied.has_value());
+  CHECK(estimated->is_estimate);
+  CHECK(picture_difference(converters.path("a/b", "a/c"))->is_estimate);
+  CHECK_FALSE(picture_difference(converters.path("a/a", "a/d")).has_value());
+  CHECK(picture_difference({})->converted == 0.0);
+  CHECK_FALSE(picture_difference({})->is_estimate);
 }
