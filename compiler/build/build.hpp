@@ -61,7 +61,7 @@ struct BuildResult {
 BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
                   const BuildExecution& execution);
 
-// Returns compose() of model/chain.hpp with the SHA-256 of every step's fit in the comments.
+// Returns compose() of lower/chain.hpp with the SHA-256 of every step's fit in the comments.
 Fit composed_fit(const std::vector<Fit>& steps, const std::string& id);
 
 // Returns the items of earlier builds that are no longer in the manifest and whose fits still exist, by id.

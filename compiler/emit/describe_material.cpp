@@ -6,7 +6,7 @@
 
 #include "core/report_text.hpp"
 #include "emit/header_data.hpp"
-#include "stages/conversion.hpp"
+#include "reference/workflow_conversion.hpp"
 
 namespace remap {
 namespace {

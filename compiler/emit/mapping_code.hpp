@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// `struct Form` of a converter, over which runtime/stages/code/form_block.inc is written.
+// `struct Form` of a converter, over which runtime/stages/code/form_rows.inc is written.
 std::string form_code(const ConverterData& converter);
 
 // What whole materials contribute.

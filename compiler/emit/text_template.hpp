@@ -16,7 +16,7 @@ namespace remap {
 // its handler is a bug.
 std::string fill_template(std::string_view text, const std::map<std::string, std::string>& values);
 
-// The file NAME.in of compiler/emit/templates or NAME.inc of a folder `code` of runtime, as it is. Throws
+// The file NAME.in of compiler/emit/templates or NAME.inc of a folder `code`, as it is. Throws
 // std::logic_error for an unknown name.
 std::string_view code_file(std::string_view name);
 

@@ -2,7 +2,7 @@
 #include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
-#include "stages/conversion_constants.hpp"
+#include "reference/workflow_conversion.hpp"
 
 namespace remap {
 namespace {

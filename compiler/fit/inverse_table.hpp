@@ -9,7 +9,7 @@
 namespace remap {
 
 // Samples the target parameters of `fit` and finds the source parameters that it maps to them
-// (model/inverse.hpp). The target of `fit` is the source of the table. `alpha_count`: alphas over the range
+// (lower/inverse.hpp). The target of `fit` is the source of the table. `alpha_count`: alphas over the range
 // of the fit at its least specular sample. `specular_count`: values up to the largest that the fit reaches at
 // every alpha. Rows that no source parameters in the domain of the fit reach are clamped, or flat if even
 // specular 0 gives more. `bytes`: the fit file, whose SHA-256 is recorded. Errors are NaN, because no

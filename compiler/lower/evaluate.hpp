@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lower/mapping.hpp"
-#include "stages/network_outputs.hpp"
+#include "reference/network.hpp"
 
 namespace remap {
 

@@ -30,7 +30,7 @@ struct Limits {
 };
 
 // How far pictures of converted materials are from those of the source, and pictures of copied numbers.
-// Materials and lights had no part in the choice of the numbers (compiler/fit/pictures.hpp).
+// Materials and lights had no part in the choice of the numbers (compiler/lights/pair_pictures.hpp).
 struct PictureErrors {
   double rmse = 0.0;      // of display values under environments, percent of the display's range
   double relative = 0.0;  // of linear radiance under a point light, relative to the source's rms

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "converter/compact_form.hpp"
+#include "reference/network.hpp"
 #include "remap/model.hpp"
-#include "remap/workflow.hpp"
 
 namespace remap {
 

@@ -1,5 +1,5 @@
 // Taylor models (Makino and Berz 2003): a polynomial over a box and a proven bound on its remainder. The
-// functions of model/evaluate.hpp, applied to them, enclose the function over the whole box, including
+// functions of lower/evaluate.hpp, applied to them, enclose the function over the whole box, including
 // rounding errors. Lowering proves its error bounds with them.
 #pragma once
 

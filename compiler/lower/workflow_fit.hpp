@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lower/fit.hpp"
-#include "remap/workflow.hpp"
+#include "reference/workflow_conversion.hpp"
 
 namespace remap {
 

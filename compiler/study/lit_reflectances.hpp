@@ -54,7 +54,7 @@ class LitReflectances {
   std::vector<BasisPictures> bases_;  // [alpha][light]
 };
 
-// The reflectances of a metallic material (workflow/workflow.hpp). With n = 1 - metallic, diffuse reflectance
+// The reflectances of a metallic material (remap/workflow.hpp). With n = 1 - metallic, diffuse reflectance
 // is diffuse_of_albedo * n * base color, and F0 is dielectric_f0 * n + metallic * base color.
 struct MetallicReflection {
   double dielectric_f0 = 0.04;

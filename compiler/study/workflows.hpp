@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/conversion.hpp"
+#include "reference/workflow_conversion.hpp"
 #include "study/lit_reflectances.hpp"
 #include "study/workflow_materials.hpp"
 

@@ -9,8 +9,8 @@
 #include "converter/compact_form.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
-#include "stages/conversion_constants.hpp"
 #include "stages/packed_warp.hpp"
+#include "stages/workflow_conventions.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define REMAP_HAS_X86_SETS 1
@@ -76,8 +76,8 @@ struct Kernels {
   void (*follow)(const workflow_code::Conventions& use, std::size_t count,
                  const SpecularRows<const float>& in, const float* wanted,
                  const MetallicRows<float>& result) noexcept;
-  // What diagnose() says of each texel. NaN in the material or in the result: residual and width NaN, no
-  // doubt.
+  // Residual, width and doubts of each texel. NaN in the material or in the result: residual and width NaN,
+  // no doubt.
   void (*diagnose)(const workflow_code::Conventions& use, std::size_t count,
                    const SpecularRows<const float>& in, const MetallicRows<const float>& result,
                    const DiagnosisRows& out) noexcept;

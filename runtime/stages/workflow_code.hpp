@@ -27,8 +27,6 @@ namespace remap::workflow_code {
 #include "stages/code/specular_texels.inc"
 #include "stages/code/projection.inc"
 #include "stages/code/diagnosis.inc"
-#include "stages/code/equation_3.inc"
-#include "stages/code/khronos.inc"
 // clang-format on
 }  // namespace remap::workflow_code
 

@@ -7,6 +7,7 @@
 
 #include "remap/error.hpp"
 #include "remap/workflow.hpp"
+#include "stages/workflow_conventions.hpp"
 
 namespace remap {
 namespace {
@@ -17,8 +18,8 @@ float clamped(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
 class ToSpecular final : public Stage {
  public:
-  ToSpecular(const WorkflowConversion& conversion, InstructionSet set)
-      : use_(conventions_of(conversion)), kernel_(kernels(set).to_specular) {}
+  ToSpecular(const workflow_code::Conventions& use, InstructionSet set)
+      : use_(use), kernel_(kernels(set).to_specular) {}
 
   std::size_t run(Block& block, std::uint8_t*) const override {
     const Colors base = block.color(Parameter::kBaseColor);
@@ -131,13 +132,14 @@ class KeepDielectrics final : public Stage {
 // To metallic by the projection, with what is asked for of its diagnosis.
 class Project final : public Stage {
  public:
-  // `conversion`: by projection. `width`: the parameter that the block has; `conversion` has the same or, if
-  // its workflows do not know it, alpha. `widens`: surfaces without a highlight become rough.
-  Project(const WorkflowConversion& conversion, RoughnessConvention width, bool widens, InstructionSet set)
-      : use_(conventions_of(conversion)),
-        prior_(static_cast<float>(std::get<Projection>(conversion.formula).prior)),
+  // `width`: the parameter that the block has. `reads_alpha`: workflows do not know it, and `use` has alpha.
+  // `widens`: surfaces without a highlight become rough.
+  Project(const workflow_code::Conventions& use, double prior, RoughnessConvention width, bool reads_alpha,
+          bool widens, InstructionSet set)
+      : use_(use),
+        prior_(static_cast<float>(prior)),
         width_(width),
-        reads_alpha_(conversion.specular.width != width),
+        reads_alpha_(reads_alpha),
         widens_(widens && !reads_alpha_),
         kernels_(kernels(set)) {}
 
@@ -211,15 +213,14 @@ bool tells_alpha(RoughnessConvention width) {
          width == RoughnessConvention::kGlossiness;
 }
 
-// A metallic workflow and the specular one between the stages; both have the width of the block.
-WorkflowConversion conversion_of(const MetallicWorkflow& metallic, DiffuseConvention diffuse,
-                                 RoughnessConvention width, const WorkflowFormula& formula,
-                                 const std::string& place) {
-  WorkflowConversion made{{}, metallic, formula};
-  made.specular.diffuse = diffuse;
-  made.specular.width = made.metallic.width = width;
-  require_valid(made, place);
-  return made;
+// Between a metallic workflow and the specular one between the stages; both have the width of the block.
+workflow_code::Conventions conventions_between(MetallicWorkflow metallic, DiffuseConvention diffuse,
+                                               RoughnessConvention width, bool to_metallic,
+                                               const std::string& place) {
+  metallic.width = width;
+  const SpecularWorkflow specular{"specular", diffuse, width};
+  require_valid(specular, metallic, place);
+  return conventions_of(specular, metallic, to_metallic);
 }
 
 // Of diffuse between the stages: that of the specular end, so that a conversion without BRDF is the one of a
@@ -241,7 +242,7 @@ std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
                                             RoughnessConvention width, InstructionSet set,
                                             const std::string& place) {
-  return std::make_shared<ToSpecular>(conversion_of(source, diffuse, width, Equation2{}, place), set);
+  return std::make_shared<ToSpecular>(conventions_between(source, diffuse, width, false, place), set);
 }
 
 std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stages, InstructionSet set) {
@@ -279,12 +280,14 @@ std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
     list.push_back(std::make_shared<KeepDielectrics>(brdf, source->dielectric_f0, target->dielectric_f0));
   else
     list.insert(list.end(), brdf.begin(), brdf.end());
-  if (target != nullptr)
-    list.push_back(
-        std::make_shared<Project>(conversion_of(*target, between, width, Projection{stages.prior}, info.id),
-                                  target_width, source == nullptr, set));
-  else if (diffuse_of(stages.target) != between)
+  if (target != nullptr) {
+    require_prior(stages.prior, info.id);
+    list.push_back(std::make_shared<Project>(conventions_between(*target, between, width, true, info.id),
+                                             stages.prior, target_width, width != target_width,
+                                             source == nullptr, set));
+  } else if (diffuse_of(stages.target) != between) {
     list.push_back(std::make_shared<ScaleDiffuse>(diffuse_of(stages.target)));
+  }
   return std::make_unique<Converter>(std::move(info), parameters_of(stages.source), targets_of(stages.target),
                                      std::move(list));
 }

@@ -174,10 +174,10 @@ std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const Wor
   }
   add_target(Parameter::kRoughness, materials.front().width);
   convert_maps(*converter, maps);
-  WorkflowConversion conversion{plain, std::get<MetallicWorkflow>(stages.target), Projection{}};
-  conversion.specular.width = RoughnessConvention::kAlpha;
+  SpecularWorkflow specular = plain;
+  specular.width = RoughnessConvention::kAlpha;
   try {
-    return estimate_dielectric_f0(conversion, materials);
+    return estimate_dielectric_f0(specular, std::get<MetallicWorkflow>(stages.target), materials);
   } catch (const Error&) {
     return std::nullopt;  // all texels are NaN
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "remap/workflow.hpp"
-#include "stages/diagnosis.hpp"
+#include "stages/dielectric_f0.hpp"
 #include "texture/texture_set.hpp"
 
 namespace remap {

@@ -9,8 +9,7 @@
 #include "cli/texremap_session.hpp"
 #include "remap/converter.hpp"
 #include "remap/shipped_converters.hpp"
-#include "stages/conversion.hpp"
-#include "stages/diagnosis.hpp"
+#include "reference/workflow_conversion.hpp"
 #include "support/skip.hpp"
 
 using namespace remap;

@@ -16,7 +16,7 @@
 namespace remap {
 namespace {
 
-constexpr long kIterationBound = 10'000'000;  // the limit of libsvm (svm.cpp, Solver::Solve)
+constexpr long kIterationBound = 10'000'000;  // the limit of libsvm (Solver::Solve)
 constexpr double kLargestTolerance = 1e-3;    // of the optimality conditions; the default of libsvm
 constexpr double kToleranceOfEpsilon = 3.0;   // a larger value costs accuracy, a smaller one only time
 

@@ -134,7 +134,7 @@ struct ConverterInfo {
   bool operator==(const ConverterInfo&) const = default;
 };
 
-// Replaces rows of a block of texels (convert/stage.hpp).
+// Replaces rows of a block of texels (stages/stage.hpp).
 class Stage;
 using StageList = std::vector<std::shared_ptr<const Stage>>;
 

@@ -16,41 +16,6 @@
 
 namespace remap {
 
-// Fully connected networks.
-
-// normalised = (t - offset) * scale, with t = value, or t = value / (value + pole), which spreads values near
-// 0, where curves over alpha bend most.
-struct Scaling {
-  double offset = 0.0;
-  double scale = 1.0;  // not 0
-  double pole = 0.0;   // >= 0; 0: t = value. Outputs have none
-  bool operator==(const Scaling&) const = default;
-};
-
-enum class Activation { kRelu, kTanh, kSilu };
-inline constexpr NamedValues<Activation, 3> kActivations = {
-    {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
-inline std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
-
-// One layer: outputs = weights inputs + biases.
-struct Layer {
-  std::size_t input_count = 0;
-  std::vector<double> weights;  // one row of input_count per output
-  std::vector<double> biases;   // one per output
-  std::size_t output_count() const noexcept { return biases.size(); }
-  bool operator==(const Layer&) const = default;
-};
-
-// A fully connected network of normalised inputs and outputs, with `activation` after every layer but the
-// last.
-struct Network {
-  Activation activation = Activation::kTanh;
-  std::vector<Scaling> inputs;
-  std::vector<Scaling> outputs;
-  std::vector<Layer> layers;  // at least 1
-  bool operator==(const Network&) const = default;
-};
-
 // The meaning of a diffuse color.
 enum class DiffuseConvention {
   kPlain,   // the reflectance of the diffuse lobe
@@ -84,92 +49,11 @@ struct MetallicWorkflow {
   bool operator==(const MetallicWorkflow&) const = default;
 };
 
-// From metallic to specular: equation (2) of the paper, exact.
-struct Equation2 {
-  bool operator==(const Equation2&) const = default;
-};
-
-// From specular to metallic, which cannot represent all specular materials.
-//
-// The projection: the base color and metallic with the least difference in pictures, in closed form. `prior`
-// times the mean weight times metallic (1 - metallic) is added to the error, so that of two similar solutions
-// the one nearer to metallic 0 or 1 is chosen.
-struct Projection {
-  double prior = 0.0;  // >= 0
-  bool operator==(const Projection&) const = default;
-};
+// `prior` times the mean weight times metallic (1 - metallic) is added to the error of the projection, so
+// that of two similar solutions the one nearer to metallic 0 or 1 is chosen.
 inline constexpr double kCleanPrior = 1e-6;  // for maps without noise, 8 bits or more
 inline constexpr double kNoisyPrior = 1e-5;  // for scans and JPEG
 inline constexpr double kLargestPrior = 1.0;
-
-// Equation (3) of the paper: the inverse of equation (2) for each channel separately. Metallic is the mean
-// over the channels.
-enum class MetallicMean {
-  kPlain,
-  kAlbedo,  // weighted by albedo
-};
-inline constexpr NamedValues<MetallicMean, 2> kMetallicMeans = {
-    {{MetallicMean::kPlain, "plain"}, {MetallicMean::kAlbedo, "albedo"}}};
-struct Equation3 {
-  MetallicMean mean = MetallicMean::kAlbedo;
-  bool operator==(const Equation3&) const = default;
-};
-
-// The solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for scaled diffuse.
-struct KhronosSolver {
-  bool operator==(const KhronosSolver&) const = default;
-};
-
-// A network that was trained on the inverse of equation (2) (section 8 of the paper): from diffuse RGB and
-// specular RGB, in the conventions of the specular workflow, to base color RGB and metallic, without
-// roughness.
-struct LearnedNetwork {
-  Network network;  // 6 inputs, 4 outputs
-  bool operator==(const LearnedNetwork&) const = default;
-};
-
-using WorkflowFormula = std::variant<Equation2, Projection, Equation3, KhronosSolver, LearnedNetwork>;
-
-// Whether it was trained on a table; the others are closed forms.
-inline bool is_learned(const WorkflowFormula& formula) noexcept {
-  return std::holds_alternative<LearnedNetwork>(formula);
-}
-
-// `equation-2`, `projection`, `equation-3`, `khronos`, `network`.
-std::string_view formula_name(const WorkflowFormula& formula);
-// A description for cards.
-std::string formula_text(const WorkflowFormula& formula);
-
-// A conversion of whole materials. The formula determines the direction.
-struct WorkflowConversion {
-  SpecularWorkflow specular;
-  MetallicWorkflow metallic;
-  WorkflowFormula formula;
-  bool is_to_metallic() const noexcept { return !std::holds_alternative<Equation2>(formula); }
-  const std::string& source_model() const noexcept {
-    return is_to_metallic() ? specular.model : metallic.model;
-  }
-  const std::string& target_model() const noexcept {
-    return is_to_metallic() ? metallic.model : specular.model;
-  }
-  bool operator==(const WorkflowConversion&) const = default;
-};
-
-// Throws kInput, beginning with `place`, for a width other than roughness, glossiness or alpha, for F0 or a
-// prior out of range, for Khronos' solver unless diffuse is scaled on both sides and F0 is above 0, and for a
-// network without 6 inputs and 4 outputs.
-void require_valid(const WorkflowConversion& conversion, const std::string& place);
-
-// A parameter of a material, with one row of texels per channel.
-struct MaterialParameter {
-  std::string name;
-  int channel_count = 1;  // 1 or 3
-  std::string meaning;
-};
-
-// In the order of the rows: diffuse, specular, width; or base_color, metallic, width.
-std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion);
-std::vector<MaterialParameter> target_parameters(const WorkflowConversion& conversion);
 
 // Workflows with a name, the conventions of their parameters, and their BRDF.
 

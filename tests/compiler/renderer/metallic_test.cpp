@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "renderer/renderer.hpp"
-#include "stages/conversion.hpp"
+#include "reference/workflow_conversion.hpp"
 
 using namespace remap;
 

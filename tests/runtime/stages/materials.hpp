@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "stages/conversion.hpp"
+#include "reference/workflow_conversion.hpp"
 #include "support/srgb.hpp"
 
 namespace workflow_test {

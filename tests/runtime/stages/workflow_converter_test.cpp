@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "remap/workflow.hpp"
+#include "reference/workflow_conversion.hpp"
 #include "runtime/stages/materials.hpp"
 #include "stages/workflow_stages.hpp"
 

@@ -1,14 +1,11 @@
-#include "stages/diagnosis.hpp"
+#include "stages/dielectric_f0.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "remap/error.hpp"
-#include "stages/conversion_constants.hpp"
 
 namespace remap {
-namespace {
 
 namespace code = workflow_code;
 
@@ -16,13 +13,6 @@ bool has_nan(const SpecularMaterial& material) {
   const auto is_nan = [](float value) { return std::isnan(value); };
   return std::any_of(material.diffuse.begin(), material.diffuse.end(), is_nan) ||
          std::any_of(material.specular.begin(), material.specular.end(), is_nan) || is_nan(material.width);
-}
-
-bool has_value_beyond(const SpecularMaterial& material) {
-  const auto is_beyond = [](float value) { return !(value >= 0.0f && value <= 1.0f); };
-  return std::any_of(material.diffuse.begin(), material.diffuse.end(), is_beyond) ||
-         std::any_of(material.specular.begin(), material.specular.end(), is_beyond) ||
-         is_beyond(material.width);
 }
 
 code::Texel texel_of(const code::Conventions& use, const SpecularMaterial& material) {
@@ -39,18 +29,13 @@ code::Texel texel_of(const code::Conventions& use, const SpecularMaterial& mater
   return code::texel_of(texels, code::width_to_alpha(use.width_in, texels.clamped.row[6][0]), 0);
 }
 
-float width_of(const code::Texel& texel, const code::Conventions& use) {
-  std::array<float, code::kMetallicSamples> errors{};
-  code::sample_errors(texel, use, errors.data());
-  return code::metallic_width(errors.data(), code::good_error(texel, use));
-}
+namespace {
 
 // The root mean square of the residuals of the projection.
-double mean_residual(const WorkflowConversion& conversion, std::span<const SpecularMaterial> materials,
-                     double f0) {
-  WorkflowConversion tried = conversion;
-  tried.metallic.dielectric_f0 = f0;
-  const code::Conventions use = conventions_of(tried);
+double mean_residual(const SpecularWorkflow& specular, MetallicWorkflow metallic,
+                     std::span<const SpecularMaterial> materials, double f0) {
+  metallic.dielectric_f0 = f0;
+  const code::Conventions use = conventions_of(specular, metallic, true);
   double sum = 0.0;
   std::size_t count = 0;
   for (const SpecularMaterial& material : materials) {
@@ -80,26 +65,10 @@ double least_argument(const Function& function, double low, double high) {
 
 }  // namespace
 
-MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularMaterial& material,
-                           const MetallicMaterial& result) {
-  require_valid(conversion, "diagnosis");
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  if (has_nan(material) || std::isnan(result.metallic)) return {kNan, kNan, true};
-  WorkflowConversion direction = conversion;
-  direction.formula = Projection{};
-  const code::Conventions use = conventions_of(direction);
-  const code::Texel texel = texel_of(use, material);
-  const auto& [red, green, blue] = result.base_color;
-  return {code::residual_of(texel, use, result.metallic, red, green, blue), width_of(texel, use),
-          has_value_beyond(material) || code::is_clamped(texel, use, result.metallic)};
-}
-
-DielectricF0 estimate_dielectric_f0(const WorkflowConversion& conversion,
+DielectricF0 estimate_dielectric_f0(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
                                     std::span<const SpecularMaterial> materials) {
   constexpr double kLargest = 0.12, kStepOfF0 = 0.005, kBeside = 0.01, kCertain = 2.0;
-  WorkflowConversion direction = conversion;
-  direction.formula = Projection{};
-  const auto residual = [&](double f0) { return mean_residual(direction, materials, f0); };
+  const auto residual = [&](double f0) { return mean_residual(specular, metallic, materials, f0); };
   double best = 0.0, least = residual(0.0);
   for (double f0 = kStepOfF0; f0 <= kLargest + 1e-9; f0 += kStepOfF0) {
     const double value = residual(f0);

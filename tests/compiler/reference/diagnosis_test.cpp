@@ -1,10 +1,9 @@
 // Diagnoses of metallic materials, and the estimate of a dielectric's F0.
-#include "stages/diagnosis.hpp"
-
 #include <limits>
 
 #include <catch2/catch.hpp>
 
+#include "reference/workflow_conversion.hpp"
 #include "runtime/stages/materials.hpp"
 
 using namespace remap;
@@ -32,6 +31,10 @@ std::vector<SpecularMaterial> stored_family(const WorkflowConversion& there, int
     materials.push_back(material);
   }
   return materials;
+}
+
+DielectricF0 estimated_f0(const WorkflowConversion& conversion, std::span<const SpecularMaterial> materials) {
+  return estimate_dielectric_f0(conversion.specular, conversion.metallic, materials);
 }
 
 }  // namespace
@@ -79,13 +82,13 @@ TEST_CASE("diagnosis: clamped where a base color or a parameter was clamped") {
 TEST_CASE("F0 of a dielectric: found in 8-bit maps, and said to be uncertain in maps of metal alone") {
   for (const double f0 : {0.02, 0.03, 0.04, 0.05}) {
     const auto materials = stored_family(plain(Equation2{}, f0), 2000, 0.0f);
-    const DielectricF0 found = estimate_dielectric_f0(plain(kClean), materials);
+    const DielectricF0 found = estimated_f0(plain(kClean), materials);
     CHECK(found.f0 == Approx(f0).margin(1e-3));
     CHECK(found.is_certain);
     CHECK(found.residual < 0.01);
   }
-  CHECK(!estimate_dielectric_f0(plain(kClean), stored_family(plain(Equation2{}), 500, 1.0f)).is_certain);
+  CHECK(!estimated_f0(plain(kClean), stored_family(plain(Equation2{}), 500, 1.0f)).is_certain);
   const auto scaled = stored_family(gltf(Equation2{}), 2000, 0.0f);
-  CHECK(estimate_dielectric_f0(gltf(kClean), scaled).f0 == Approx(0.04).margin(1e-3));
-  CHECK_THROWS_WITH(estimate_dielectric_f0(plain(kClean), {}), Catch::Contains("without a valid texel"));
+  CHECK(estimated_f0(gltf(kClean), scaled).f0 == Approx(0.04).margin(1e-3));
+  CHECK_THROWS_WITH(estimated_f0(plain(kClean), {}), Catch::Contains("without a valid texel"));
 }

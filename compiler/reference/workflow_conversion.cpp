@@ -1,0 +1,257 @@
+#include "reference/workflow_conversion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/number_text.hpp"
+#include "remap/error.hpp"
+
+#if defined(__clang__)  // silences the warning about loops that cannot be vectorised
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wpass-failed"
+#endif
+namespace remap::workflow_code {
+#include "reference/code/equation_3.inc"
+#include "reference/code/khronos.inc"
+}  // namespace remap::workflow_code
+#if defined(__clang__)
+#pragma clang diagnostic pop
+#endif
+
+namespace remap {
+namespace {
+
+namespace code = workflow_code;
+
+struct Name {
+  std::string_view operator()(const Equation2&) const { return "equation-2"; }
+  std::string_view operator()(const Projection&) const { return "projection"; }
+  std::string_view operator()(const Equation3&) const { return "equation-3"; }
+  std::string_view operator()(const KhronosSolver&) const { return "khronos"; }
+  std::string_view operator()(const LearnedNetwork&) const { return "network"; }
+};
+
+struct Text {
+  std::string operator()(const Equation2&) const {
+    return "equation (2) of Sztrajman et al. 2019, exact: every metallic material is a specular one";
+  }
+  std::string operator()(const Projection& projection) const {
+    return "least difference of the pictures over base color and metallic, prior " +
+           number_text(projection.prior);
+  }
+  std::string operator()(const Equation3& equation) const {
+    return std::string("equation (3) of Sztrajman et al. 2019, metallic by the mean over the channels") +
+           (equation.mean == MetallicMean::kAlbedo ? ", weighted by albedo" : "");
+  }
+  std::string operator()(const KhronosSolver&) const {
+    return "the solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017)";
+  }
+  std::string operator()(const LearnedNetwork& learned) const {
+    std::string sizes = std::to_string(learned.network.inputs.size());
+    for (const Layer& layer : learned.network.layers) sizes += " x " + std::to_string(layer.output_count());
+    return "a network of " + sizes + " (" + std::string(activation_name(learned.network.activation)) +
+           "), learned from metallic materials as in section 8 of Sztrajman et al. 2019";
+  }
+};
+
+constexpr std::size_t kNetworkInputs = 6, kNetworkOutputs = 4;
+
+void require_network(const LearnedNetwork& learned, const std::string& place) {
+  const std::size_t inputs = learned.network.inputs.size(), outputs = learned.network.outputs.size();
+  if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !learned.network.layers.empty()) return;
+  throw Error(ErrorKind::kInput,
+              place + ": a network of " + std::to_string(inputs) + " inputs and " + std::to_string(outputs) +
+                  " outputs (diffuse and specular are 6 inputs, base color and metallic 4 outputs)");
+}
+
+std::string width_meaning(RoughnessConvention width) {
+  switch (width) {
+    case RoughnessConvention::kAlpha:
+      return "microfacet width";
+    case RoughnessConvention::kGlossiness:
+      return "1 - square root of the microfacet width";
+    default:
+      return "square root of the microfacet width";
+  }
+}
+
+std::vector<MaterialParameter> parameters(const SpecularWorkflow& workflow) {
+  return {{"diffuse", 3,
+           workflow.diffuse == DiffuseConvention::kPlain
+               ? "diffuse reflectance, linear"
+               : "diffuse reflectance of what the specular lobe leaves, linear"},
+          {"specular", 3, "reflectance at normal incidence, linear"},
+          {std::string(convention_name(workflow.width)), 1, width_meaning(workflow.width)}};
+}
+
+std::vector<MaterialParameter> parameters(const MetallicWorkflow& workflow) {
+  return {{"base_color", 3, "albedo of the dielectric and F0 of the metal, linear"},
+          {"metallic", 1, "share of metal"},
+          {std::string(convention_name(workflow.width)), 1, width_meaning(workflow.width)}};
+}
+
+template <std::size_t Count, typename Pointer>
+std::array<Pointer, Count> rows(std::span<const Pointer> given, const char* what) {
+  if (given.size() != Count)
+    throw Error(ErrorKind::kUsage, std::string("workflow conversion: ") + std::to_string(given.size()) +
+                                       " rows of " + what + " (give " + std::to_string(Count) + ")");
+  std::array<Pointer, Count> all{};
+  std::copy(given.begin(), given.end(), all.begin());
+  return all;
+}
+
+// Interprets a network in double precision, texel by texel.
+std::size_t interpret(const Network& network, const code::Conventions& use,
+                      const std::array<const float*, 7>& in, const std::array<float*, 5>& out) {
+  code::ClampedBlock<7, code::kMetallicBlock> block;
+  const std::size_t outside = code::hold(in, block, std::make_index_sequence<7>());
+  for (std::size_t i = 0; i < code::kMetallicBlock; ++i) {
+    std::vector<double> values;
+    bool is_nan = false;
+    for (std::size_t r = 0; r < 6; ++r) {
+      values.push_back(static_cast<double>(block.row[r][i]));
+      is_nan = is_nan || std::isnan(block.row[r][i]);
+    }
+    const std::vector<double> outputs = network_outputs(network, std::move(values));
+    for (std::size_t r = 0; r < outputs.size(); ++r)
+      out[r][i] = is_nan ? std::numeric_limits<float>::quiet_NaN()
+                         : static_cast<float>(std::clamp(outputs[r], 0.0, 1.0));
+  }
+  code::write_width(use, block, out[4]);
+  return outside;
+}
+
+// Converts a block to metallic by a formula.
+struct ConvertBlock {
+  const code::Conventions& use;
+  const std::array<const float*, 7>& in;
+  const std::array<float*, 5>& out;
+
+  std::size_t operator()(const Equation2&) const { return 0; }
+  std::size_t operator()(const Projection& projection) const {
+    return code::project(use, static_cast<float>(projection.prior), in, out);
+  }
+  std::size_t operator()(const Equation3& equation) const {
+    return code::solve_equation_3(use, equation.mean == MetallicMean::kAlbedo, in, out);
+  }
+  std::size_t operator()(const KhronosSolver&) const { return code::solve_khronos(use, in, out); }
+  std::size_t operator()(const LearnedNetwork& learned) const {
+    return interpret(learned.network, use, in, out);
+  }
+};
+
+void require_direction(const WorkflowConversion& conversion, bool to_metallic) {
+  if (conversion.is_to_metallic() == to_metallic) return;
+  throw Error(ErrorKind::kUsage, std::string("workflow conversion: ") +
+                                     std::string(formula_name(conversion.formula)) + " leads from " +
+                                     conversion.source_model() + " to " + conversion.target_model() +
+                                     ", not the other way (call the other function)");
+}
+
+bool has_value_beyond(const SpecularMaterial& material) {
+  const auto is_beyond = [](float value) { return !(value >= 0.0f && value <= 1.0f); };
+  return std::any_of(material.diffuse.begin(), material.diffuse.end(), is_beyond) ||
+         std::any_of(material.specular.begin(), material.specular.end(), is_beyond) ||
+         is_beyond(material.width);
+}
+
+float width_of(const code::Texel& texel, const code::Conventions& use) {
+  std::array<float, code::kMetallicSamples> errors{};
+  code::sample_errors(texel, use, errors.data());
+  return code::metallic_width(errors.data(), code::good_error(texel, use));
+}
+
+}  // namespace
+
+std::string_view formula_name(const WorkflowFormula& formula) { return std::visit(Name{}, formula); }
+
+std::string formula_text(const WorkflowFormula& formula) { return std::visit(Text{}, formula); }
+
+void require_valid(const WorkflowConversion& conversion, const std::string& place) {
+  require_valid(conversion.specular, conversion.metallic, place);
+  if (const auto* projection = std::get_if<Projection>(&conversion.formula))
+    require_prior(projection->prior, place);
+  if (const auto* learned = std::get_if<LearnedNetwork>(&conversion.formula))
+    require_network(*learned, place);
+  if (!std::holds_alternative<KhronosSolver>(conversion.formula)) return;
+  const bool scaled = conversion.specular.diffuse == DiffuseConvention::kScaled &&
+                      conversion.metallic.diffuse == DiffuseConvention::kScaled;
+  if (!scaled || conversion.metallic.dielectric_f0 == 0.0)
+    throw Error(ErrorKind::kInput,
+                place +
+                    ": Khronos' solver requires a dielectric F0 above 0 and scaled diffuse "
+                    "on both sides");
+}
+
+std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion) {
+  return conversion.is_to_metallic() ? parameters(conversion.specular) : parameters(conversion.metallic);
+}
+
+std::vector<MaterialParameter> target_parameters(const WorkflowConversion& conversion) {
+  return conversion.is_to_metallic() ? parameters(conversion.metallic) : parameters(conversion.specular);
+}
+
+workflow_code::Conventions conventions_of(const WorkflowConversion& conversion) {
+  return conventions_of(conversion.specular, conversion.metallic, conversion.is_to_metallic());
+}
+
+std::size_t convert_workflow(const WorkflowConversion& conversion, std::size_t count,
+                             std::span<const float* const> in, std::span<float* const> out) {
+  require_valid(conversion, "workflow conversion");
+  const code::Conventions use = conventions_of(conversion);
+  if (!conversion.is_to_metallic()) {
+    const auto sources = rows<5>(in, "metallic materials");
+    const auto targets = rows<7>(out, "specular materials");
+    return code::convert_rows<code::kSpecularBlock>(
+        count, sources, targets,
+        [&](const auto& from, const auto& to) { return code::metallic_to_specular(use, from, to); });
+  }
+  const auto sources = rows<7>(in, "specular materials");
+  const auto targets = rows<5>(out, "metallic materials");
+  return code::convert_rows<code::kMetallicBlock>(
+      count, sources, targets, [&](const auto& from, const auto& to) {
+        return std::visit(ConvertBlock{use, from, to}, conversion.formula);
+      });
+}
+
+MetallicMaterial to_metallic(const WorkflowConversion& conversion, const SpecularMaterial& material) {
+  require_direction(conversion, true);
+  const auto& [diffuse, specular, width] = material;
+  MetallicMaterial result;
+  const std::array<const float*, 7> in = {&diffuse[0],  &diffuse[1],  &diffuse[2], &specular[0],
+                                          &specular[1], &specular[2], &width};
+  auto& color = result.base_color;
+  const std::array<float*, 5> out = {&color[0], &color[1], &color[2], &result.metallic, &result.width};
+  convert_workflow(conversion, 1, in, out);
+  return result;
+}
+
+SpecularMaterial to_specular(const WorkflowConversion& conversion, const MetallicMaterial& material) {
+  require_direction(conversion, false);
+  SpecularMaterial result;
+  const auto& color = material.base_color;
+  const std::array<const float*, 5> in = {&color[0], &color[1], &color[2], &material.metallic,
+                                          &material.width};
+  auto& [diffuse, specular, width] = result;
+  const std::array<float*, 7> out = {&diffuse[0],  &diffuse[1],  &diffuse[2], &specular[0],
+                                     &specular[1], &specular[2], &width};
+  convert_workflow(conversion, 1, in, out);
+  return result;
+}
+
+MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularMaterial& material,
+                           const MetallicMaterial& result) {
+  require_valid(conversion, "diagnosis");
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  if (has_nan(material) || std::isnan(result.metallic)) return {kNan, kNan, true};
+  WorkflowConversion direction = conversion;
+  direction.formula = Projection{};
+  const code::Conventions use = conventions_of(direction);
+  const code::Texel texel = texel_of(use, material);
+  const auto& [red, green, blue] = result.base_color;
+  return {code::residual_of(texel, use, result.metallic, red, green, blue), width_of(texel, use),
+          has_value_beyond(material) || code::is_clamped(texel, use, result.metallic)};
+}
+
+}  // namespace remap

@@ -1,0 +1,57 @@
+#include "stages/workflow_conventions.hpp"
+
+#include "core/number_text.hpp"
+#include "remap/error.hpp"
+
+namespace remap {
+namespace {
+
+namespace code = workflow_code;
+
+constexpr double kLargestDielectricF0 = 0.9;
+
+void require_width(RoughnessConvention width, const std::string& place) {
+  if (width == RoughnessConvention::kRoughness || width == RoughnessConvention::kGlossiness ||
+      width == RoughnessConvention::kAlpha)
+    return;
+  throw Error(ErrorKind::kInput, place + ": a workflow cannot hold its roughness as " +
+                                     std::string(convention_name(width)) +
+                                     " (choose roughness, glossiness or alpha)");
+}
+
+}  // namespace
+
+void require_valid(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
+                   const std::string& place) {
+  require_width(specular.width, place);
+  require_width(metallic.width, place);
+  const double f0 = metallic.dielectric_f0;
+  if (!(f0 >= 0.0 && f0 <= kLargestDielectricF0))
+    throw Error(ErrorKind::kInput, place + ": dielectric F0 " + number_text(f0) + " is out of range (0 to " +
+                                       number_text(kLargestDielectricF0) + ")");
+}
+
+void require_prior(double prior, const std::string& place) {
+  if (!(prior >= 0.0 && prior <= kLargestPrior))
+    throw Error(ErrorKind::kInput, place + ": prior " + number_text(prior) + " is out of range (0 to " +
+                                       number_text(kLargestPrior) + ")");
+}
+
+workflow_code::WidthParameter width_parameter(RoughnessConvention width) {
+  if (width == RoughnessConvention::kAlpha) return code::WidthParameter::kAlpha;
+  return width == RoughnessConvention::kGlossiness ? code::WidthParameter::kGlossiness
+                                                   : code::WidthParameter::kRoughness;
+}
+
+workflow_code::Conventions conventions_of(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
+                                          bool to_metallic) {
+  const double f0 = metallic.dielectric_f0;
+  const bool scaled = metallic.diffuse == DiffuseConvention::kScaled;
+  const auto specular_width = width_parameter(specular.width),
+             metallic_width = width_parameter(metallic.width);
+  return {static_cast<float>(f0), static_cast<float>(scaled ? 1.0 - f0 : 1.0),
+          specular.diffuse == DiffuseConvention::kScaled, to_metallic ? specular_width : metallic_width,
+          to_metallic ? metallic_width : specular_width};
+}
+
+}  // namespace remap

@@ -1,0 +1,23 @@
+// The conventions of both workflows as the formulas need them.
+#pragma once
+
+#include <string>
+
+#include "remap/workflow.hpp"
+#include "stages/workflow_code.hpp"
+
+namespace remap {
+
+// Throws kInput, beginning with `place`, for a width other than roughness, glossiness or alpha, and for a
+// dielectric F0 out of range.
+void require_valid(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
+                   const std::string& place);
+// The same for a prior out of range.
+void require_prior(double prior, const std::string& place);
+
+workflow_code::WidthParameter width_parameter(RoughnessConvention width);
+// Of a conversion to metallic, or to specular.
+workflow_code::Conventions conventions_of(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
+                                          bool to_metallic);
+
+}  // namespace remap
