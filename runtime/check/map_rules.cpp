@@ -141,7 +141,7 @@ bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
 }
 
 // What replaces a map of one value. Factors and options take linear numbers.
-Mend number_mend(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
+Fix number_mend(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
   if (use.role == Role::kNormal) return "remove the map: it changes nothing";
   const ImageLayout& layout = material.texels(use)->layout;
   if (is_color_role(use.role) && is_integer(layout.channels.front().type) &&

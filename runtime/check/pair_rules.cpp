@@ -95,8 +95,8 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
                std::vector<MaterialFinding>& findings) {
   std::set<std::filesystem::path> seen;
   const auto add = [&](const MaterialMap& map, Confidence confidence, const std::string& what,
-                       const Mend& mend) {
-    if (seen.insert(map.file).second) findings.push_back({rule.name, confidence, map.shown, "", what, mend});
+                       const Fix& fix) {
+    if (seen.insert(map.file).second) findings.push_back({rule.name, confidence, map.shown, "", what, fix});
   };
   for (const MaterialUse& use : material.uses) {
     const MaterialMap& map = material.maps[use.map];

@@ -106,13 +106,13 @@ std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const 
 void unite_conversions(const std::vector<MaterialFinding*>& findings) {
   std::map<std::string, std::set<std::string>> options;
   for (const MaterialFinding* finding : findings)
-    options[finding->mend.asset].insert(finding->mend.options.begin(), finding->mend.options.end());
+    options[finding->fix.asset].insert(finding->fix.options.begin(), finding->fix.options.end());
   for (MaterialFinding* finding : findings) {
-    Mend& mend = finding->mend;
-    if (mend.asset.empty()) continue;
-    mend.command = "texremap convert " + shell_word(mend.asset) + " --to gltf";
-    for (const std::string& option : options[mend.asset]) mend.command += " " + option;
-    mend.command += " -o " + shell_word(mend.output);
+    Fix& fix = finding->fix;
+    if (fix.asset.empty()) continue;
+    fix.command = "texremap convert " + shell_word(fix.asset) + " --to gltf";
+    for (const std::string& option : options[fix.asset]) fix.command += " " + option;
+    fix.command += " -o " + shell_word(fix.output);
   }
 }
 
@@ -125,18 +125,18 @@ bool is_data_role(Role role) {
          role == Role::kHeight || role == Role::kCavity;
 }
 
-std::filesystem::path mended_folder(const CheckedMaterial& material) {
-  return material.below.empty() ? "mended" : "mended" / material.below;
+std::filesystem::path fixed_folder(const CheckedMaterial& material) {
+  return material.below.empty() ? "fixed" : "fixed" / material.below;
 }
 
-Mend image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
-                const std::string& changes) {
+Fix image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
+               const std::string& changes) {
   if (map.is_embedded) return words + " (the image is part of the asset)";
   const std::filesystem::path home =
       material.kind == MaterialKind::kFolder ? material.place : material.place.parent_path();
   std::filesystem::path name = map.file.lexically_relative(home.empty() ? "." : home);
   if (name.empty() || name == "." || *name.begin() == "..") name = map.name;
-  const std::filesystem::path result = mended_folder(material) / name;
+  const std::filesystem::path result = fixed_folder(material) / name;
   // Without its first option oiiotool would multiply colors by alpha, and divide them again.
   return {words, "mkdir -p " + shell_word(result.parent_path().string()) + " && oiiotool --no-autopremult " +
                      shell_word(map.file.string()) + " " + changes + " -o " + shell_word(result.string())};

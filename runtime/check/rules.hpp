@@ -22,14 +22,14 @@ inline constexpr NamedValues<Confidence, 3> kConfidences = {{{Confidence::kCerta
                                                              {Confidence::kPossible, "possible"}}};
 
 // What puts a finding right.
-struct Mend {
-  Mend() = default;
-  Mend(std::string in_words, std::string as_command = "")
+struct Fix {
+  Fix() = default;
+  Fix(std::string in_words, std::string as_command = "")
       : words(std::move(in_words)), command(std::move(as_command)) {}
-  Mend(const char* in_words) : words(in_words) {}
+  Fix(const char* in_words) : words(in_words) {}
 
   std::string words;  // an edit; of a command what it does
-  // Can be typed where texremap was started, and writes into the folder `mended`; empty for none.
+  // Can be typed where texremap was started, and writes into the folder `fixed`; empty for none.
   std::string command;
   // Of a conversion of an asset: its file, folder of results and options. unite_conversions() makes the
   // command of all findings.
@@ -45,7 +45,7 @@ struct MaterialFinding {
   std::string place;    // the map or material, as messages show it
   std::string channel;  // `G`; empty for the whole map
   std::string message;  // what is seen
-  Mend mend;
+  Fix fix;
 };
 
 // A program that files are checked for, by its documentation (docs/check.md has the links).
@@ -88,13 +88,13 @@ void unite_conversions(const std::vector<MaterialFinding*>& findings);
 bool is_color_role(Role role);
 bool is_data_role(Role role);
 
-// Where a command writes what it makes of a file: `mended`, and there the same folders as in the checked
+// Where a command writes what it makes of a file: `fixed`, and there the same folders as in the checked
 // path.
-std::filesystem::path mended_folder(const CheckedMaterial& material);
+std::filesystem::path fixed_folder(const CheckedMaterial& material);
 // Changes of the image of a map by oiiotool, in words and as its options. An image that is part of an asset
 // has no command: nothing puts it back.
-Mend image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
-                const std::string& changes);
+Fix image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
+               const std::string& changes);
 // A number for each channel of a map: `value` for that of the use, `otherwise` for the others. All channels
 // of a map without names of channels are of the use, but for alpha.
 std::string numbers_for(const CheckedMaterial& material, const MaterialUse& use, double value,

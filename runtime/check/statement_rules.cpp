@@ -31,7 +31,7 @@ bool can_fold(const CheckedMaterial& material, std::string_view extension) {
 }
 
 // A conversion of the asset, with what its maps need to lie on one grid.
-Mend asset_mend(const CheckedMaterial& material, const std::string& words, std::vector<std::string> options) {
+Fix asset_mend(const CheckedMaterial& material, const std::string& words, std::vector<std::string> options) {
   std::vector<MaterialUse> uses = material.uses;
   uses.insert(uses.end(), material.unread.begin(), material.unread.end());
   std::erase_if(uses, [](const MaterialUse& use) {
@@ -47,11 +47,11 @@ Mend asset_mend(const CheckedMaterial& material, const std::string& words, std::
     options.emplace_back("--bake");
   if (!all_agree([&](const auto& a, const auto& b) { return material.same_size(a, b); }))
     options.emplace_back("--resample");
-  Mend mend = words;
-  mend.asset = material.place.string();
-  mend.output = mended_folder(material).string();
-  mend.options = std::move(options);
-  return mend;
+  Fix fix = words;
+  fix.asset = material.place.string();
+  fix.output = fixed_folder(material).string();
+  fix.options = std::move(options);
+  return fix;
 }
 
 bool all_zero(const std::vector<double>& factors) {
@@ -109,8 +109,8 @@ void index_of_refraction(const CheckedMaterial& material, const TargetReader*, c
                          std::vector<MaterialFinding>& findings) {
   if (material.is_all_metal()) return;
   const GltfStatements& stated = material.gltf;
-  const auto add = [&](Confidence confidence, const std::string& message, const std::string& mend) {
-    findings.push_back({rule.name, confidence, material.name, "", message, mend});
+  const auto add = [&](Confidence confidence, const std::string& message, const std::string& fix) {
+    findings.push_back({rule.name, confidence, material.name, "", message, fix});
   };
   constexpr double kLeast = 1.05, kMost = 3.0;
   if (stated.ior && *stated.ior > kMost)
@@ -158,8 +158,8 @@ void ignored_by_reader(const CheckedMaterial& material, const TargetReader* read
           {rule.name, Confidence::kCertain, material.name, "", what,
            can_fold(material, extension)
                ? asset_mend(material, "fold it into base color, metallic and roughness", {"--fold-specular"})
-               : Mend("express it by base color, metallic and roughness, or remove " +
-                      std::string(extension))});
+               : Fix("express it by base color, metallic and roughness, or remove " +
+                     std::string(extension))});
   }
 }
 
@@ -190,8 +190,8 @@ void exponent_range(const CheckedMaterial& material, const TargetReader*, const 
   const std::string place = material.place.string(), all = std::to_string(above_zero) +
                                                            (above_zero == 1 ? " exponent" : " exponents") +
                                                            " (Ns) up to " + number_text(largest);
-  const auto add = [&](Confidence confidence, const std::string& what, const std::string& mend) {
-    findings.push_back({rule.name, confidence, place, "", all + ": " + what, mend});
+  const auto add = [&](Confidence confidence, const std::string& what, const std::string& fix) {
+    findings.push_back({rule.name, confidence, place, "", all + ": " + what, fix});
   };
   if (largest <= 1.0)
     add(above_zero > 1 ? Confidence::kLikely : Confidence::kPossible,

@@ -29,12 +29,12 @@ namespace remap {
 
 // All members, for another process (packed_values.hpp). Names of rules are constants of both.
 template <typename Archive>
-void fields(Archive& archive, Mend& mend) {
-  archive(mend.words, mend.command, mend.asset, mend.output, mend.options);
+void fields(Archive& archive, Fix& fix) {
+  archive(fix.words, fix.command, fix.asset, fix.output, fix.options);
 }
 template <typename Archive>
 void fields(Archive& archive, MaterialFinding& finding) {
-  archive(finding.rule, finding.confidence, finding.place, finding.channel, finding.message, finding.mend);
+  archive(finding.rule, finding.confidence, finding.place, finding.channel, finding.message, finding.fix);
 }
 
 namespace {
@@ -89,14 +89,14 @@ void print(const MaterialFinding& finding) {
   const std::string place = finding.place + (finding.channel.empty() ? "" : ":" + finding.channel);
   std::cout << plain(place + ": " + finding.message) << " [" << finding.rule << ", "
             << name_of(kConfidences, finding.confidence) << "]\n"
-            << "    " << plain(finding.mend.text()) << '\n';
+            << "    " << plain(finding.fix.text()) << '\n';
 }
 
 Json finding_json(const MaterialFinding& finding) {
-  return {{"rule", finding.rule},           {"confidence", name_of(kConfidences, finding.confidence)},
-          {"path", finding.place},          {"channel", finding.channel},
-          {"message", finding.message},     {"mend", finding.mend.text()},
-          {"command", finding.mend.command}};
+  return {{"rule", finding.rule},          {"confidence", name_of(kConfidences, finding.confidence)},
+          {"path", finding.place},         {"channel", finding.channel},
+          {"message", finding.message},    {"fix", finding.fix.text()},
+          {"command", finding.fix.command}};
 }
 
 void check(const CheckOptions& options) {

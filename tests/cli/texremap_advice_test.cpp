@@ -100,7 +100,7 @@ class AdviceSession : public Session {
   }
 };
 
-enum class Help { kCommand, kWords };  // whether a command mends it
+enum class Help { kCommand, kWords };  // whether a command fixes it
 
 struct Fault {
   std::string rule;
@@ -387,21 +387,21 @@ TEST_CASE("texremap check: what each rule advises runs, and the rule is silent a
     CHECK_FALSE(found.empty());
     std::set<std::string> typed;
     for (const nlohmann::json& finding : found) {
-      const std::string mend = finding["mend"], command = finding["command"];
+      const std::string fix = finding["fix"], command = finding["command"];
       CHECK(command.empty() == (fault.help == Help::kWords));
       if (command.empty()) {
         for (const char* word : {"texremap convert", "oiiotool", "DIR", "FOLDER"})
-          CHECK(mend.find(word) == std::string::npos);
+          CHECK(fix.find(word) == std::string::npos);
         continue;
       }
-      CHECK(mend.ends_with(": " + command));
+      CHECK(fix.ends_with(": " + command));
       if (!typed.insert(command).second) continue;  // it puts several findings right
       const ProcessResult run = session.type(command);
       INFO(command + "\n" + run.errors);
       CHECK(run.exit_code == 0);
     }
     if (fault.help == Help::kWords) continue;
-    fs::copy(session.path("mended"), session.path("in"),
+    fs::copy(session.path("fixed"), session.path("in"),
              fs::copy_options::overwrite_existing | fs::copy_options::recursive);
     CHECK(session.findings(fault.rule, fault.checked).empty());
   }
@@ -503,5 +503,5 @@ TEST_CASE("texremap check: an image that is part of an asset has no command, and
   REQUIRE(found.size() == 1);
   CHECK(found[0]["command"] == "");
   CHECK(found[0]["path"] == "in/a.gltf: image 0");
-  CHECK(found[0]["mend"].get<std::string>().find(fs::temp_directory_path().string()) == std::string::npos);
+  CHECK(found[0]["fix"].get<std::string>().find(fs::temp_directory_path().string()) == std::string::npos);
 }

@@ -558,17 +558,17 @@ def main():
     args = parser.parse_args()
     cases = []
 
-    def add(kind, name, report, rules, mend, reader, make):
+    def add(kind, name, report, rules, fix, reader, make):
         folder = args.out / kind / name
         folder.mkdir(parents=True, exist_ok=True)
         path = f"{kind}/{name}" + (f"/{file}" if (file := make(folder)) else "")
-        cases.append({"name": name, "report": report, "path": path, "for": reader, "rules": rules, "mend": mend})
+        cases.append({"name": name, "report": report, "path": path, "for": reader, "rules": rules, "fix": fix})
 
     def seeded(kind, name):
         return material(kind, zlib.crc32(name.encode()) + args.seed_offset, args.size)
 
-    for name, report, rules, mend, reader, kind, make in FAULTS:
-        add("faults", name, report, rules.split(), mend, reader, lambda d: make(d, seeded(kind, name)))
+    for name, report, rules, fix, reader, kind, make in FAULTS:
+        add("faults", name, report, rules.split(), fix, reader, lambda d: make(d, seeded(kind, name)))
     for h, (habit, make) in enumerate(HABITS.items()):
         for i, kind in enumerate(MATERIALS):
             name = f"{habit}_{kind}"

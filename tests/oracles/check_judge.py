@@ -2,7 +2,7 @@
 """check_judge.py TEXREMAP [--size 128] [--seed-offset N] [--json FILE]: how many faults `texremap check` names, and where it cries wolf.
 
 Makes the cases of check_cases.py in a temporary folder and checks each. A fault is found when a finding has one of the expected rules and
-its remedy (`mend`) matches the case's expression. Exit code 1, with the reasons, for fewer than 18 of the 26 reports, for any finding on a
+its fix (`fix`) matches the case's expression. Exit code 1, with the reasons, for fewer than 18 of the 26 reports, for any finding on a
 clean set, and for any run that fails or whose exit code contradicts its findings.
 """
 import argparse
@@ -40,12 +40,12 @@ def check(texremap, paths, reader):
 def judge(case, findings):
     """Adds to the case: found rules, verdict and the findings of other rules."""
     expected = [f for f in findings if f["rule"] in case["rules"]]
-    mended = any(re.search(case["mend"], str(f.get("mend") or ""), re.I | re.S) for f in expected)
+    fixed = any(re.search(case["fix"], str(f.get("fix") or ""), re.I | re.S) for f in expected)
     case["findings"], case["further"] = findings, [f for f in findings if f["rule"] not in case["rules"]]
     if case["report"] == "clean":
         case["verdict"] = "FALSE ALARM" if findings else "right"
     else:
-        case["verdict"] = "right" if mended else "wrong remedy" if expected else "missed"
+        case["verdict"] = "right" if fixed else "wrong fix" if expected else "missed"
 
 
 def main():
