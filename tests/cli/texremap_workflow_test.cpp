@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
+#include "reference/workflow_conversion.hpp"
 #include "remap/converter.hpp"
 #include "remap/shipped_converters.hpp"
-#include "reference/workflow_conversion.hpp"
 #include "support/skip.hpp"
 
 using namespace remap;

@@ -107,5 +107,9 @@ TEST_CASE("form fit: numbers go there and back, and the count leaves out what is
   CHECK(number_count(form) == 11);
   CHECK(number_count(free_form()) == 7);
   CompactForm line;
+  line.alpha = {{0.9f}};
   CHECK(number_count(line) == 2);
+  CHECK_FALSE(is_copy(line));
+  CHECK(is_copy(CompactForm{}));
+  CHECK(number_count(CompactForm{}) == 0);
 }

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "renderer/renderer.hpp"
 #include "reference/workflow_conversion.hpp"
+#include "renderer/renderer.hpp"
 
 using namespace remap;
 
