@@ -23,7 +23,12 @@ std::string percent_text(double percent) {
 }  // namespace
 
 std::string difference_text(const ConverterPath& path) {
-  if (is_copy(path)) return "both models have the same lobe, so that numbers are copied";
+  if (is_copy(path)) {
+    const bool is_equal =
+        path.steps.front()->info().source.roughness == path.steps.back()->info().target.roughness;
+    return std::string("both models have the same lobe, so that ") +
+           (is_equal ? "numbers are copied" : "only the encoding of roughness changes");
+  }
   const std::optional<PathDifference> difference = picture_difference(path);
   if (!difference) return "nobody has compared pictures";
   return std::string("pictures differ by ") + (difference->is_estimate ? "about " : "") +

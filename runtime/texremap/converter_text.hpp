@@ -23,7 +23,8 @@ std::string range_text(std::string_view name, const Range& range);
 std::string domain_text(const ConverterInfo& info);
 
 // `pictures differ by 8.0 %, with copied numbers by 14.1 %`, an estimate `pictures differ by about 8.4 %`,
-// `both models have the same lobe, so that numbers are copied`, `nobody has compared pictures`.
+// `both models have the same lobe, so that numbers are copied`, `nobody has compared pictures`. `path` has
+// steps.
 std::string difference_text(const ConverterPath& path);
 
 // `mitsuba/ward -> mitsuba/beckmann -> mitsuba/ggx`.

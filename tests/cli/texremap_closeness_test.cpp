@@ -76,6 +76,19 @@ TEST_CASE("texremap convert: --json says how far pictures differ, and which mode
   CHECK(json["closest_of"].is_null());
 }
 
+TEST_CASE("texremap convert: numbers are copied between equal lobes, and a note says so") {
+  const std::string equal = ": both models have the same lobe, so that ";
+  const ProcessResult copied = require_success(convert("mitsuba3/ggx", "mitsuba/ggx"));
+  CHECK(copied.output == "alpha 0.3\nf0 0.04\n");
+  CHECK(copied.errors == "texremap: note: mitsuba3/ggx to mitsuba/ggx" + equal + "numbers are copied\n");
+  const ProcessResult encoded = require_success(convert("mitsuba/ggx", "cycles-3.4/ggx"));
+  CHECK(encoded.output == "roughness 0.547723\ncolor 0.04\n");
+  CHECK(encoded.errors ==
+        "texremap: note: mitsuba/ggx to cycles-3.4/ggx" + equal + "only the encoding of roughness changes\n");
+  CHECK(json_of(convert("mitsuba3/ggx", "mitsuba/ggx", "--json"))["same_lobe"] == true);
+  CHECK(json_of(path("mitsuba/ward", "mitsuba/as", "--json"))["same_lobe"] == false);
+}
+
 TEST_CASE("texremap: what nobody sees is not remarked on") {
   CHECK(require_success(convert("mitsuba/ggx", "cycles-5/ggx")).errors.empty());
   CHECK(require_success(convert("mitsuba/beckmann", "mitsuba/as")).errors.empty());
