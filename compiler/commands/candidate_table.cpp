@@ -16,7 +16,7 @@ using Line = std::vector<std::string>;
 
 Line line_of(const CandidateRecord& candidate) {
   return {candidate.name,
-          std::to_string(candidate.number_count),
+          candidate.number_count == 0 ? kNone : std::to_string(candidate.number_count),
           candidate.pictures ? fixed(candidate.pictures->rmse, 2) : kNone,
           candidate.pictures ? fixed(candidate.pictures->relative, 3) : kNone,
           digits(candidate.relative_alpha),

@@ -245,9 +245,7 @@ MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularM
   require_valid(conversion, "diagnosis");
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   if (has_nan(material) || std::isnan(result.metallic)) return {kNan, kNan, true};
-  WorkflowConversion direction = conversion;
-  direction.formula = Projection{};
-  const code::Conventions use = conventions_of(direction);
+  const code::Conventions use = conventions_of(conversion.specular, conversion.metallic, true);
   const code::Texel texel = texel_of(use, material);
   const auto& [red, green, blue] = result.base_color;
   return {code::residual_of(texel, use, result.metallic, red, green, blue), width_of(texel, use),

@@ -141,7 +141,7 @@ bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
 }
 
 // What replaces a map of one value. Factors and options take linear numbers.
-Fix number_mend(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
+Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
   if (use.role == Role::kNormal) return "remove the map: it changes nothing";
   const ImageLayout& layout = material.texels(use)->layout;
   if (is_color_role(use.role) && is_integer(layout.channels.front().type) &&
@@ -198,7 +198,7 @@ void linear_color(const CheckedMaterial& material, const TargetReader*, const Ru
         {rule.name, Confidence::kLikely, map.shown, "",
          "is a color in whole numbers that its file tags as linear; readers that ignore the tag (glTF does) "
          "decode it as sRGB",
-         image_mend(
+         image_fix(
              material, map,
              "export it again as sRGB if its values are linear; if they are sRGB, as in most files, tag "
              "it as sRGB",
@@ -251,7 +251,7 @@ void constant_map(const CheckedMaterial& material, const TargetReader*, const Ru
                         channel_text(use),
                         std::string(role_name(use.role)) + " is " + value + " in every texel" +
                             (map.tile != 0 ? " of every tile" : ""),
-                        number_mend(material, use, values_of(planes))});
+                        number_fix(material, use, values_of(planes))});
   });
 }
 
@@ -305,10 +305,10 @@ void bad_values(const CheckedMaterial& material, const TargetReader*, const Rule
     if (what.empty()) return;
     findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, "",
                         "has values that are no " + std::string(role_name(use.role)) + ": " + what,
-                        image_mend(material, material.maps[use.map],
-                                   has_range ? "move them into the range from 0 to 1"
-                                             : "fill such texels from those around them",
-                                   has_range ? "--fixnan box3 --clamp:min=0:max=1" : "--fixnan box3")});
+                        image_fix(material, material.maps[use.map],
+                                  has_range ? "move them into the range from 0 to 1"
+                                            : "fill such texels from those around them",
+                                  has_range ? "--fixnan box3 --clamp:min=0:max=1" : "--fixnan box3")});
   });
 }
 
@@ -349,8 +349,8 @@ void channel_order(const CheckedMaterial& material, const TargetReader*, const R
                           "metallic is read from " + channel_text(use) +
                               (varies ? ", which varies like roughness; " : ", which is constant; ") + name +
                               " is black and white like metallic",
-                          image_mend(material, map, "swap the channels",
-                                     "--ch " + shell_word(swapped(texels, *material.channel(use), c)))});
+                          image_fix(material, map, "swap the channels",
+                                    "--ch " + shell_word(swapped(texels, *material.channel(use), c)))});
       return;
     }
   });
@@ -395,7 +395,7 @@ void normal_orientation(const CheckedMaterial& material, const TargetReader* rea
         {rule.name, Confidence::kLikely, map.shown, "G",
          "its slopes are those of a surface only as " + text(seen) + ", but " +
              (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or reader says ") + text(name),
-         image_mend(material, map, "invert its green channel", inversion_of(material, green))});
+         image_fix(material, map, "invert its green channel", inversion_of(material, green))});
   });
 }
 

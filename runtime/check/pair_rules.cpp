@@ -109,9 +109,9 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
     add(map, Confidence::kLikely,
         "holds " + std::string(role_name(use.role)) +
             ", which is data, but its file is tagged sRGB: readers that follow the tag decode it",
-        image_mend(material, map, "read it as raw (non-color), or remove the tag",
-                   "--attrib oiio:ColorSpace Linear --eraseattrib Exif:ColorSpace "
-                   "--eraseattrib remap:color_space"));
+        image_fix(material, map, "read it as raw (non-color), or remove the tag",
+                  "--attrib oiio:ColorSpace Linear --eraseattrib Exif:ColorSpace "
+                  "--eraseattrib remap:color_space"));
   }
   for_width_pairs(material, [&](const MaterialUse& a, const MaterialUse& b, const Plane&, const Plane&) {
     const Plane &first = *material.plane(a), &second = *material.plane(b);
@@ -125,8 +125,8 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
       add(map, Confidence::kCertain,
           "holds what " + place_of(material, is_second ? a : b) +
               " holds, through the curve of sRGB: it was exported as a color",
-          image_mend(material, map, "export it again as linear (raw, non-color), or decode it",
-                     "--colorconvert sRGB linear"));
+          image_fix(material, map, "export it again as linear (raw, non-color), or decode it",
+                    "--colorconvert sRGB linear"));
     }
   });
 }
@@ -145,9 +145,9 @@ void gloss_as_roughness(const CheckedMaterial& material, const TargetReader*, co
                             "is read as " + std::string(role_name(wrong.role)) + ", but " +
                                 place_of(material, other) + " (" + std::string(role_name(other.role)) +
                                 ") says the opposite in every texel: one of them is inverted",
-                            image_mend(material, material.maps[wrong.map],
-                                       "keep the right one; if that is the other, invert this one",
-                                       inversion_of(material, wrong))});
+                            image_fix(material, material.maps[wrong.map],
+                                      "keep the right one; if that is the other, invert this one",
+                                      inversion_of(material, wrong))});
       });
 }
 
@@ -172,9 +172,9 @@ void alpha_as_roughness(const CheckedMaterial& material, const TargetReader*, co
                                   ") says: " +
                                   (squared == 2.0 ? "it holds alpha, or its root was taken of the other"
                                                   : "it was squared twice"),
-                              image_mend(material, material.maps[wrong.map],
-                                         "keep the other map, or take the root of this one (alpha)",
-                                         root_of(material, wrong, other.role == Role::kOpacity, squared))});
+                              image_fix(material, material.maps[wrong.map],
+                                        "keep the other map, or take the root of this one (alpha)",
+                                        root_of(material, wrong, other.role == Role::kOpacity, squared))});
           return;
         }
       });
@@ -205,7 +205,7 @@ void sizes(const CheckedMaterial& material, const TargetReader*, const Rule& rul
         {rule.name, other_shape ? Confidence::kCertain : Confidence::kLikely, map.shown, "",
          "is " + text(b) + ", but " + largest->shown + " is " + text(a) +
              (other_shape ? ", of another shape" : ""),
-         image_mend(material, map, "export it again in this size, or resample it", "--resize " + text(a))});
+         image_fix(material, map, "export it again in this size, or resample it", "--resize " + text(a))});
   }
 }
 

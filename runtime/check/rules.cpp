@@ -129,8 +129,8 @@ std::filesystem::path fixed_folder(const CheckedMaterial& material) {
   return material.below.empty() ? "fixed" : "fixed" / material.below;
 }
 
-Fix image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
-               const std::string& changes) {
+Fix image_fix(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
+              const std::string& changes) {
   if (map.is_embedded) return words + " (the image is part of the asset)";
   const std::filesystem::path home =
       material.kind == MaterialKind::kFolder ? material.place : material.place.parent_path();

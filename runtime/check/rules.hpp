@@ -93,8 +93,8 @@ bool is_data_role(Role role);
 std::filesystem::path fixed_folder(const CheckedMaterial& material);
 // Changes of the image of a map by oiiotool, in words and as its options. An image that is part of an asset
 // has no command: nothing puts it back.
-Fix image_mend(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
-               const std::string& changes);
+Fix image_fix(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
+              const std::string& changes);
 // A number for each channel of a map: `value` for that of the use, `otherwise` for the others. All channels
 // of a map without names of channels are of the use, but for alpha.
 std::string numbers_for(const CheckedMaterial& material, const MaterialUse& use, double value,

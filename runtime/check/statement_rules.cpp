@@ -31,7 +31,7 @@ bool can_fold(const CheckedMaterial& material, std::string_view extension) {
 }
 
 // A conversion of the asset, with what its maps need to lie on one grid.
-Fix asset_mend(const CheckedMaterial& material, const std::string& words, std::vector<std::string> options) {
+Fix asset_fix(const CheckedMaterial& material, const std::string& words, std::vector<std::string> options) {
   std::vector<MaterialUse> uses = material.uses;
   uses.insert(uses.end(), material.unread.begin(), material.unread.end());
   std::erase_if(uses, [](const MaterialUse& use) {
@@ -152,12 +152,12 @@ void ignored_by_reader(const CheckedMaterial& material, const TargetReader* read
     if (extension == kSpecGlossExtension)
       findings.push_back({rule.name, Confidence::kCertain, material.name, "",
                           what + ", which shows the material by its metallic values instead",
-                          asset_mend(material, "convert the material to the metallic workflow", {})});
+                          asset_fix(material, "convert the material to the metallic workflow", {})});
     else
       findings.push_back(
           {rule.name, Confidence::kCertain, material.name, "", what,
            can_fold(material, extension)
-               ? asset_mend(material, "fold it into base color, metallic and roughness", {"--fold-specular"})
+               ? asset_fix(material, "fold it into base color, metallic and roughness", {"--fold-specular"})
                : Fix("express it by base color, metallic and roughness, or remove " +
                      std::string(extension))});
   }

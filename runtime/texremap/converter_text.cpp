@@ -49,8 +49,12 @@ std::string note_text(const ConverterPath& path, const std::optional<ConverterPa
   if (!is_told && !closer) return "";
   std::string text = path.steps.front()->info().source.model + " to " + target_model(path) + ": ";
   if (is_told) text += difference_text(path);
-  if (closer) text += (is_told ? "; " : "") + target_model(*closer) + " matches the highlight more closely";
+  if (closer) text += (is_told ? "; " : "") + closer_text(*closer);
   return text;
+}
+
+std::string closer_text(const ConverterPath& closer) {
+  return target_model(closer) + " matches the highlight more closely";
 }
 
 std::string closest_text(const std::string& model) {

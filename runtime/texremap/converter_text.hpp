@@ -34,6 +34,9 @@ std::string models_text(const ConverterPath& path);
 // closely`, or one of the two, or that numbers are copied. Else empty: people see no difference below 1 %.
 std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer);
 
+// `cycles-5/beckmann matches the highlight more closely`.
+std::string closer_text(const ConverterPath& closer);
+
 // `cycles-5/beckmann is the closest model of cycles-5`: what `--to cycles-5` chose.
 std::string closest_text(const std::string& model);
 

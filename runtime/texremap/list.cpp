@@ -65,8 +65,7 @@ void print_converter(const ListedConverter& entry) {
             << "  test   " << (converter.self_test() ? "passed" : "FAILED") << " with "
             << instruction_set_name(info.instructions) << " instructions\n";
   std::cout << "  note   " << difference_text(entry.path) << '\n';
-  if (entry.closer)
-    std::cout << "  note   " << target_model(*entry.closer) << " matches the highlight more closely\n";
+  if (entry.closer) std::cout << "  note   " << closer_text(*entry.closer) << '\n';
 }
 
 void list_converters(const ListOptions& options) {
@@ -95,7 +94,7 @@ Json reached_json(const ConverterPath& path, const std::optional<ConverterPath>&
 void print_reached(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
   std::cout << "  reaches  " << target_model(path) << ", " << difference_text(path);
   if (path.steps.size() > 1) std::cout << ", in " << path.steps.size() << " steps";
-  if (closer) std::cout << "; " << target_model(*closer) << " matches the highlight more closely";
+  if (closer) std::cout << "; " << closer_text(*closer);
   std::cout << '\n';
 }
 

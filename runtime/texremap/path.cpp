@@ -51,8 +51,7 @@ void print_text(const Plan& plan) {
   std::cout << difference_text(path) << '\n'
             << "covers " << domain_text(plan.whole) << '\n'
             << "chosen because " << reason(paths) << '\n';
-  if (plan.closer)
-    std::cout << "note: " << target_model(*plan.closer) << " matches the highlight more closely\n";
+  if (plan.closer) std::cout << "note: " << closer_text(*plan.closer) << '\n';
   for (std::size_t i = 1; i < paths.size(); ++i) {
     std::cout << (i == 1 ? "next best: " : "           ") << models_text(paths[i]) << ", "
               << difference_text(paths[i]) << " (";
