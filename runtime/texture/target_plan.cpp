@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -40,15 +41,6 @@ void require_safe(const fs::path& output, const fs::path& input) {
                                        " (choose another folder)");
 }
 
-void require_free(const fs::path& output, bool force) {
-  std::error_code ignored;
-  const fs::file_status status = fs::symlink_status(output, ignored);
-  if (!fs::exists(status)) return;
-  if (fs::is_directory(output, ignored))
-    throw Error(ErrorKind::kOutput, output.string() + ": is a folder (choose another name)");
-  if (!force) throw Error(ErrorKind::kOutput, output.string() + ": already exists (--force overwrites)");
-}
-
 void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetChoice& choice) {
   std::error_code ignored;
   for (const fs::path& folder : {choice.folder, choice.diagnosis_folder})
@@ -64,7 +56,6 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
                     results[i].string() + ": two results have this name (rename an input)");
     for (const ImageReader& map : set.maps) require_safe(results[i], map.path());
     for (const PlannedCopy& copy : plan.copies) require_safe(results[i], copy.source);
-    require_free(results[i], choice.force);
   }
 }
 
@@ -82,7 +73,7 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
     const ImageReader& reader = set.maps[place.map];
     if (held)
       throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
-                                         reader.layout().channels[place.channel].name + " is used as both " +
+                                         plain(reader.layout().channels[place.channel].name) + " is used as both " +
                                          plain_name(*held) + " and " + plain_name(parameter) +
                                          " (choose channels with FILE:CHANNEL)");
     held = parameter;

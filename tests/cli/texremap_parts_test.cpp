@@ -413,7 +413,7 @@ TEST_CASE("texremap parts: the union of the parts of assets is what one process 
       std::istringstream lines(result.output);
       for (std::string line; std::getline(lines, line);) {
         const auto json = nlohmann::json::parse(line);
-        if (json.contains("asset")) all += json["was_done"] == true ? 'd' : 'c';
+        if (json.contains("asset")) all += json["asset"]["state"] == "done before" ? 'd' : 'c';
       }
     }
     return all;

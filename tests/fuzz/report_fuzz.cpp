@@ -7,7 +7,7 @@
 #include "core/json_field.hpp"
 #include "core/plain_text.hpp"
 #include "fuzz/fuzz.hpp"
-#include "texremap/part_report.hpp"
+#include "texremap/report/part_report.hpp"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "remap/workflow.hpp"
-#include "texremap/commands.hpp"
+#include "texremap/commands/commands.hpp"
 
 namespace nb = nanobind;
 

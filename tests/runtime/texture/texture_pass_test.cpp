@@ -59,7 +59,6 @@ struct Scene {
     TextureSet set = open_texture_set(request);
     TargetChoice choice;
     choice.folder = folder.path() / "out";
-    choice.force = true;
     std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice));
     return run_texture_pass(set, targets, converter, options);
   }
@@ -151,7 +150,6 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands", "[
   choice.layout = separate();
   choice.parameters = {Parameter::kRoughness, Parameter::kBaseColor, Parameter::kMetallic};
   choice.diagnoses = {ConvertedChannel{Parameter::kDoubts}};
-  choice.force = true;
   std::optional<MapStatistics> first;
   for (const int threads : {1, 3})
     for (const std::size_t bytes : {std::size_t{64} << 20, std::size_t{1}}) {
