@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "assets/asset_uri.hpp"
-#include "assets/gltf_bytes.hpp"
-#include "assets/gltf_container.hpp"
-#include "assets/gltf_extensions.hpp"
-#include "assets/gltf_images.hpp"
-#include "assets/json_spans.hpp"
+#include "assets/document/asset_uri.hpp"
+#include "assets/gltf/gltf_bytes.hpp"
+#include "assets/gltf/gltf_container.hpp"
+#include "assets/document/gltf_extensions.hpp"
+#include "assets/gltf/gltf_images.hpp"
+#include "assets/document/json_spans.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"

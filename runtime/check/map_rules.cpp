@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "assets/map_pixels.hpp"
+#include "assets/maps/map_pixels.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"

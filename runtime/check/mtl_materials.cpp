@@ -3,9 +3,9 @@
 #include <array>
 #include <string_view>
 
-#include "assets/mtl_asset.hpp"
-#include "assets/mtl_document.hpp"
-#include "assets/mtl_material.hpp"
+#include "assets/mtl/mtl_asset.hpp"
+#include "assets/document/mtl_document.hpp"
+#include "assets/mtl/mtl_material.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"

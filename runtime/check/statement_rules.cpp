@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/gltf_extensions.hpp"
+#include "assets/document/gltf_extensions.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
 

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "assets/asset.hpp"
+#include "assets/document/asset.hpp"
 #include "command_line/command.hpp"
 #include "remap/conversion.hpp"
 #include "remap/converter.hpp"

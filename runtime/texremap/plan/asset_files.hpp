@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/asset.hpp"
+#include "assets/document/asset.hpp"
 #include "core/files.hpp"
 #include "core/input_file.hpp"
 #include "texremap/plan/job.hpp"

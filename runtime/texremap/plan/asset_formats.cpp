@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "assets/gltf_asset.hpp"
-#include "assets/mtl_asset.hpp"
-#include "assets/obj_gltf.hpp"
+#include "assets/gltf/gltf_asset.hpp"
+#include "assets/mtl/mtl_asset.hpp"
+#include "assets/obj/obj_gltf.hpp"
 #include "core/errors.hpp"
 #include "sets/folder_walk.hpp"
 #include "sets/name_pieces.hpp"

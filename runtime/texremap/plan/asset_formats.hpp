@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/asset.hpp"
+#include "assets/document/asset.hpp"
 
 namespace remap {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "assets/asset_uri.hpp"
+#include "assets/document/asset_uri.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "assets/specgloss_factors.hpp"
+#include "assets/maps/specgloss_factors.hpp"
 #include "command_line/run_app.hpp"
 #include "convert/converter_file.hpp"
 #include "core/errors.hpp"

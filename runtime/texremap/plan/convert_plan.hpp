@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "assets/asset.hpp"
+#include "assets/document/asset.hpp"
 #include "texremap/options/convert_options.hpp"
 #include "texremap/plan/chosen_converter.hpp"
 #include "texremap/plan/conversion_note.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/asset.hpp"
+#include "assets/document/asset.hpp"
 #include "stages/dielectric_f0.hpp"
 #include "texremap/plan/job.hpp"
 #include "texremap/run/planned_roles.hpp"
