@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "assets/document/asset_uri.hpp"
+#include "assets/document/gltf_extensions.hpp"
+#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_bytes.hpp"
 #include "assets/gltf/gltf_container.hpp"
-#include "assets/document/gltf_extensions.hpp"
 #include "assets/gltf/gltf_images.hpp"
-#include "assets/document/json_spans.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"

@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
-#include "assets/mtl/mtl_asset.hpp"
 #include "assets/document/mtl_document.hpp"
+#include "assets/mtl/mtl_asset.hpp"
 #include "assets/mtl/mtl_material.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"

@@ -88,7 +88,7 @@ Reader<std::vector<Value>> list_of(const Reader<Value>& item) {
 
 // An option that the command line gave.
 struct GivenOption {
-  std::string name;   // `--type`; of words without an option the name in the help
+  std::string name;                // `--type`; of words without an option the name in the help
   std::vector<std::string> words;  // none of a flag
   OptionTags tags = 0;
 };

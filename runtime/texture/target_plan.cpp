@@ -73,9 +73,9 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
     const ImageReader& reader = set.maps[place.map];
     if (held)
       throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
-                                         plain(reader.layout().channels[place.channel].name) + " is used as both " +
-                                         plain_name(*held) + " and " + plain_name(parameter) +
-                                         " (choose channels with FILE:CHANNEL)");
+                                         plain(reader.layout().channels[place.channel].name) +
+                                         " is used as both " + plain_name(*held) + " and " +
+                                         plain_name(parameter) + " (choose channels with FILE:CHANNEL)");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
     if (is_wanted(choice, parameter)) content = ConvertedChannel{parameter, is_color(parameter) ? index : 0};

@@ -233,7 +233,8 @@ std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Param
     if (channels.empty() && name.channels.empty()) channels = layer_channels(reader.layout(), parameter);
     if (!channels.empty()) candidates.emplace_back();
     for (const std::size_t channel : channels) candidates.back().push_back({map, channel});
-    part_names.push_back(reader.part_name().empty() ? std::to_string(reader.part()) : plain(reader.part_name()));
+    part_names.push_back(reader.part_name().empty() ? std::to_string(reader.part())
+                                                    : plain(reader.part_name()));
   }
   if (candidates.size() == 1) return candidates.front();
   if (candidates.empty()) fail_missing(set.maps[parts.front()], name, expected);

@@ -70,7 +70,8 @@ TEST_CASE("Other assets go on after a failure", "[assets]") {
   CHECK(run.errors.find("1 of 2 assets failed") != std::string::npos);
   CHECK(session.content("out/b.gltf") == session.content("b.gltf"));
   CHECK(session.file_count() == 1);
-  CHECK(std::count(run.output.begin(), run.output.end(), '\n') == 4);  // the conversion, two assets, the summary
+  CHECK(std::count(run.output.begin(), run.output.end(), '\n') ==
+        4);  // the conversion, two assets, the summary
 }
 
 TEST_CASE("Textures of an asset become new files beside the old ones", "[assets][slow]") {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_direction.hpp"
 #include "assets/gltf/gltf_factors.hpp"
-#include "assets/document/json_spans.hpp"
 #include "assets/maps/core_factors.hpp"
 
 namespace remap {

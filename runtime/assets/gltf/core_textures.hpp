@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "assets/maps/core_maps.hpp"
 #include "assets/gltf/core_material.hpp"
 #include "assets/gltf/material_textures.hpp"
+#include "assets/maps/core_maps.hpp"
 
 namespace remap {
 

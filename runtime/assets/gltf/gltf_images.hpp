@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "assets/gltf/gltf_bytes.hpp"
 #include "assets/document/image_codec.hpp"
 #include "assets/document/json_spans.hpp"
+#include "assets/gltf/gltf_bytes.hpp"
 #include "assets/maps/texture_bake.hpp"
 
 namespace remap {

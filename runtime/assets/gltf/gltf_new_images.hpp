@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "assets/document/asset_uri.hpp"
-#include "assets/gltf/gltf_container.hpp"
-#include "assets/gltf/gltf_direction.hpp"
-#include "assets/gltf/gltf_spares.hpp"
 #include "assets/document/image_codec.hpp"
 #include "assets/document/json_spans.hpp"
 #include "assets/document/text_edits.hpp"
+#include "assets/gltf/gltf_container.hpp"
+#include "assets/gltf/gltf_direction.hpp"
+#include "assets/gltf/gltf_spares.hpp"
 
 namespace remap {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <memory>
 
+#include "assets/document/gltf_extensions.hpp"
 #include "assets/gltf/core_material.hpp"
 #include "assets/gltf/gltf_direction.hpp"
-#include "assets/document/gltf_extensions.hpp"
 #include "assets/gltf/specgloss_material.hpp"
 #include "assets/gltf/specgloss_textures.hpp"
 #include "core/errors.hpp"

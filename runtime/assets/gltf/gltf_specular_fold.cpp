@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "assets/document/gltf_extensions.hpp"
 #include "assets/gltf/core_material.hpp"
 #include "assets/gltf/core_textures.hpp"
 #include "assets/gltf/gltf_direction.hpp"
-#include "assets/document/gltf_extensions.hpp"
 #include "assets/maps/specgloss_factors.hpp"
 #include "core/errors.hpp"
 

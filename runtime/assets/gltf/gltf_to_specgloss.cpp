@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "assets/document/gltf_extensions.hpp"
 #include "assets/gltf/core_material.hpp"
 #include "assets/gltf/core_textures.hpp"
 #include "assets/gltf/gltf_direction.hpp"
-#include "assets/document/gltf_extensions.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 

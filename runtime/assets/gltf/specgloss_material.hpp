@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "assets/gltf/gltf_factors.hpp"
 #include "assets/document/json_spans.hpp"
+#include "assets/gltf/gltf_factors.hpp"
 #include "assets/maps/specgloss_factors.hpp"
 
 namespace remap {

@@ -9,8 +9,8 @@
 
 #include "assets/gltf/core_material.hpp"
 #include "assets/gltf/material_textures.hpp"
-#include "assets/maps/specgloss_maps.hpp"
 #include "assets/gltf/specgloss_material.hpp"
+#include "assets/maps/specgloss_maps.hpp"
 
 namespace remap {
 

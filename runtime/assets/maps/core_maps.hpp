@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "assets/maps/core_factors.hpp"
 #include "assets/document/image_codec.hpp"
+#include "assets/maps/core_factors.hpp"
 #include "assets/maps/metal_rough_maps.hpp"
 #include "remap/converter.hpp"
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/maps/legacy_material.hpp"
 #include "assets/document/mtl_document.hpp"
 #include "assets/document/mtl_maker.hpp"
+#include "assets/maps/legacy_material.hpp"
 
 namespace remap {
 

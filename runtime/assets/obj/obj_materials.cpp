@@ -8,11 +8,11 @@
 #include <limits>
 
 #include "assets/document/gltf_extensions.hpp"
+#include "assets/gltf/specgloss_material.hpp"
 #include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
 #include "assets/mtl/mtl_asset.hpp"
 #include "assets/mtl/mtl_material.hpp"
-#include "assets/gltf/specgloss_material.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"

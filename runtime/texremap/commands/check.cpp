@@ -21,8 +21,8 @@
 #include "sets/naming.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/options/convert_options.hpp"
-#include "texremap/run/job_processes.hpp"
 #include "texremap/plan/named_paths.hpp"
+#include "texremap/run/job_processes.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {

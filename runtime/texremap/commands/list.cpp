@@ -12,8 +12,8 @@
 #include "remap/path.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/commands/commands.hpp"
-#include "texremap/plan/converter_text.hpp"
 #include "texremap/options/used_converters.hpp"
+#include "texremap/plan/converter_text.hpp"
 
 namespace remap {
 namespace {

@@ -1,7 +1,5 @@
 // `texremap plan`: files that hand a conversion in parts to a scheduler. It measures a few entries to say
 // what a part needs, and submits nothing.
-#include "texremap/commands/farm_plan.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -17,6 +15,7 @@
 #include "core/system.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/commands/convert.hpp"
+#include "texremap/commands/farm_plan.hpp"
 #include "texremap/plan/convert_plan.hpp"
 #include "texremap/plan/manifest.hpp"
 
@@ -106,8 +105,7 @@ ConvertOptions options_of(const std::vector<std::string>& words) {
   run_words(command, words);
   note_given(command, options);
   refuse(options, kOfPlan, ": is written by texremap plan itself (remove it after --)");
-  if (options.output.empty())
-    throw usage_error("--output is required after -- (the folder of the results)");
+  if (options.output.empty()) throw usage_error("--output is required after -- (the folder of the results)");
   return options;
 }
 

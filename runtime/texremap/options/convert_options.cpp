@@ -136,15 +136,21 @@ Reader<GivenPart> given_part() {
 
 void add_source_options(Command& command, ConvertOptions& options) {
   command.option_group("Source and target");
-  command.add_option(
-      "DIR", options.folder,
-      "Folder of texture sets, found by the names of their maps; or an asset: a glTF, MTL or OBJ file")->tag(kOfPlan | kForAssets);
+  command
+      .add_option(
+          "DIR", options.folder,
+          "Folder of texture sets, found by the names of their maps; or an asset: a glTF, MTL or OBJ file")
+      ->tag(kOfPlan | kForAssets);
   command.add_option("ASSET", options.more_assets, "More assets")->tag(kNeedsAsset);
-  command.add_option("--from MODEL", options.from, model_name(), "Source model, e.g. mitsuba/ward or unity")->tag(kForAssets);
-  command.add_option(
-      "--to MODEL", options.to, model_name(),
-      "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models")->tag(kForAssets);
-  command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter")->tag(kIsPath);
+  command.add_option("--from MODEL", options.from, model_name(), "Source model, e.g. mitsuba/ward or unity")
+      ->tag(kForAssets);
+  command
+      .add_option(
+          "--to MODEL", options.to, model_name(),
+          "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models")
+      ->tag(kForAssets);
+  command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter")
+      ->tag(kIsPath);
   command
       .add_flag("-r,--recursive", options.recursive,
                 "Convert the subfolders of DIR, too; results mirror the tree")
@@ -165,16 +171,20 @@ void add_source_options(Command& command, ConvertOptions& options) {
       .add_flag("--follow-links", options.follow_links,
                 "Read files that links in DIR, or in the folder of an asset, lead to elsewhere")
       ->tag(kForAssets | kNeedsFiles);
-  Option* manifest = command.add_option(
-      "--manifest FILE", options.manifest,
-      "Convert the sets or assets that texremap index has listed; DIR is where the tree lies now")->tag(kOfPlan | kForAssets);
+  Option* manifest =
+      command
+          .add_option(
+              "--manifest FILE", options.manifest,
+              "Convert the sets or assets that texremap index has listed; DIR is where the tree lies now")
+          ->tag(kOfPlan | kForAssets);
   manifest->excludes(command.option("--recursive"));
   manifest->excludes(command.option("--assets"));
   command
       .add_option("--part I/N", options.part, given_part(),
                   "Convert part I of N of the manifest; auto takes both from the array of jobs that this "
                   "process belongs to, auto/N takes I from it")
-      ->needs(manifest)->tag(kOfPlan | kForAssets);
+      ->needs(manifest)
+      ->tag(kOfPlan | kForAssets);
   command
       .add_option("--via MODEL", options.via, "Model that the path must pass through; repeatable, in order")
       ->allow_extra_args(false)
@@ -321,13 +331,17 @@ void add_output_options(Command& command, ConvertOptions& options) {
       .add_flag("--dry-run", options.dry_run,
                 "Show what would happen to each map, and the files that would be written; write nothing")
       ->tag(kOfPlan | kForAssets | kNeedsFiles);
-  Option* json = command.add_flag(
-      "--json", options.json,
-      "Print a report as JSON; of a folder a line for each set as it is finished, then a summary")->tag(kOfPlan | kForAssets);
+  Option* json =
+      command
+          .add_flag(
+              "--json", options.json,
+              "Print a report as JSON; of a folder a line for each set as it is finished, then a summary")
+          ->tag(kOfPlan | kForAssets);
   command.add_flag("--histograms", options.histograms, "With --json, also histograms of the values")
       ->tag(kNeedsFiles)
       ->needs(json);
-  Option* quiet = command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error")->tag(kForAssets);
+  Option* quiet = command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error")
+                      ->tag(kForAssets);
   command
       .add_flag("--verbose", options.verbose,
                 "Print every warning, and measures of each set that pictures do not show")
@@ -411,11 +425,13 @@ void add_rare_options(Command& command, ConvertOptions& options) {
       ->default_text("keep")
       ->tag(kChangesResults);
   command.option_group("Rare: speed");
-  command.add_option(
-      "--instructions NAME", options.instructions, instructions(),
-      "baseline, avx2 or avx512; results are identical (default: the widest of this processor)")->tag(kForAssets);
+  command
+      .add_option("--instructions NAME", options.instructions, instructions(),
+                  "baseline, avx2 or avx512; results are identical (default: the widest of this processor)")
+      ->tag(kForAssets);
   command.add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core")
-      ->range(0, 1024)->tag(kOfPlan | kForAssets);
+      ->range(0, 1024)
+      ->tag(kOfPlan | kForAssets);
   add_memory_option(command, options.memory_megabytes)->tag(kForAssets);
 }
 

@@ -64,10 +64,10 @@ struct ConvertOptions {
 
   std::filesystem::path folder;  // of texture sets, or a glTF file; empty where the options name one set
   std::vector<std::filesystem::path> more_assets;
-  bool assets = false;                               // the folder is of assets, not of texture sets
-  std::filesystem::path asset_root;                  // below which assets may name files
-  std::optional<MaterialProfile> profile;            // of assets; none: core
-  std::optional<MtlMaker> mtl_maker;                 // of MTL files; none: as they say
+  bool assets = false;                     // the folder is of assets, not of texture sets
+  std::filesystem::path asset_root;        // below which assets may name files
+  std::optional<MaterialProfile> profile;  // of assets; none: core
+  std::optional<MtlMaker> mtl_maker;       // of MTL files; none: as they say
   bool fold_specular = false, keep_unused = false, bake = false;
   std::optional<int> jpeg;  // quality
   ModelName from, to;
@@ -101,7 +101,8 @@ struct ConvertOptions {
   std::optional<PixelType> type;
   std::optional<int> compression;  // level
   std::optional<RoughnessConvention> output_encoding;
-  std::optional<double> output_roughness_factor;  // the exponent that a stored 1 stands for, where it is known
+  std::optional<double>
+      output_roughness_factor;  // the exponent that a stored 1 stands for, where it is known
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
   std::filesystem::path diagnose;  // folder for the maps of diagnoses; empty for none

@@ -45,7 +45,8 @@ void add_named(const ConvertOptions& options, JobList& list) {
           "--root: cannot be used with an output file, since the tree of results mirrors it "
           "(name a folder)");
     require_format(options.folder, options.output);
-    add({options.folder, options.output, folder_of_asset(options.folder), folder_of_asset(options.output)}, list);
+    add({options.folder, options.output, folder_of_asset(options.folder), folder_of_asset(options.output)},
+        list);
     return;
   }
   for (const fs::path& input : inputs) {
@@ -198,7 +199,8 @@ class NamePlan {
 
   bool may_have_stems(const AssetWork& asset) const {
     return std::ranges::all_of(stems_of(asset), [&](const std::string& stem) {
-      if (const auto found = stems_.find(stem); found != stems_.end() && found->second != &asset) return false;
+      if (const auto found = stems_.find(stem); found != stems_.end() && found->second != &asset)
+        return false;
       const auto named = names_.find(stem);
       return named == names_.end() || std::ranges::all_of(named->second, [&](const fs::path& name) {
                return std::ranges::any_of(asset.files, [&](const fs::path& file) {

@@ -244,8 +244,8 @@ void require_asset_options(const ConvertOptions& options) {
 
 // Refuses options of which no asset of the run makes use.
 void require_gltf(const ConvertOptions& options, const JobList& list) {
-  if (std::ranges::any_of(
-          list.jobs, [](const Job& job) { return is_gltf_name(std::get<AssetWork>(job.work).input); }))
+  if (std::ranges::any_of(list.jobs,
+                          [](const Job& job) { return is_gltf_name(std::get<AssetWork>(job.work).input); }))
     return;
   refuse(options, kNeedsGltf, ": applies to glTF files only (remove this option)");
   if (options.to.name != "gltf")
@@ -265,14 +265,15 @@ AssetOptions asset_options(const ConvertOptions& options) {
   return asset;
 }
 
-void plan_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest, ConvertPlan& plan) {
+void plan_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest,
+                 ConvertPlan& plan) {
   require_asset_options(options);
   plan.list = asset_jobs(options, manifest ? &manifest->listing : nullptr);
   require_gltf(options, plan.list);
   plan.work = asset_options(options);
-  plan.conversion =
-      conversion_note("assets", options.to.name, "", *specgloss_projection(options.prior, options.instructions),
-                      result_options_text(options));
+  plan.conversion = conversion_note("assets", options.to.name, "",
+                                    *specgloss_projection(options.prior, options.instructions),
+                                    result_options_text(options));
 }
 
 // Whether the run converts assets; refuses options of assets where it does not.

@@ -22,9 +22,9 @@ namespace remap {
 // What is done with texture sets, or with numbers.
 struct SetPlan {
   ChosenConverter chosen;
-  TextureSetRequest request;  // what the options say about one set, or about all sets of a folder
-  TargetChoice targets;       // without the members that differ between sets
-  PassOptions pass;           // target_convention: what --output-encoding says
+  TextureSetRequest request;      // what the options say about one set, or about all sets of a folder
+  TargetChoice targets;           // without the members that differ between sets
+  PassOptions pass;               // target_convention: what --output-encoding says
   bool scales_exponents = false;  // whether it is known which exponent a stored 1 stands for in the results
 };
 

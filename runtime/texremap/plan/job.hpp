@@ -46,10 +46,10 @@ struct AssetWork {
 struct Job {
   // Path of the set or the asset, as bytes; empty for the one set of a command line. Messages use shown().
   std::string name;
-  std::string tile = {};        // number of the tile; empty where there are none
-  std::string owner = {};       // of the names of its results, for WrittenNames: two sets may have one name
-  ListedSizes listed = {};      // sizes of files that a manifest states
-  std::string refusal = {};     // why it is not converted; empty for none
+  std::string tile = {};     // number of the tile; empty where there are none
+  std::string owner = {};    // of the names of its results, for WrittenNames: two sets may have one name
+  ListedSizes listed = {};   // sizes of files that a manifest states
+  std::string refusal = {};  // why it is not converted; empty for none
   std::variant<SetWork, AssetWork> work = {};
 
   // Where its results and copies go.
@@ -70,8 +70,8 @@ struct JobList {
   std::vector<std::string> notes;                   // about all sets
   std::vector<std::filesystem::path> unrecognised;  // images of a folder whose names no habit matches
   std::size_t asset_count = 0;                      // assets in a folder of sets, which are left as they are
-  bool is_of_folder = false;  // of a folder or a manifest: the output folder belongs to this conversion
-  bool has_several = false;   // a job that fails does not stop the others
+  bool is_of_folder = false;       // of a folder or a manifest: the output folder belongs to this conversion
+  bool has_several = false;        // a job that fails does not stop the others
   std::string tile_noun = "tile";  // "frame" for sequences
 };
 

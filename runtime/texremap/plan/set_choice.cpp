@@ -79,8 +79,8 @@ std::string model_of_maps(bool metallic, bool base_color, bool specular, bool gl
 
 std::string model_of_set(const FoundSet& set) {
   return model_of_maps(!uses(set, is<Role::kMetallic>).empty(), !uses(set, is<Role::kBaseColor>).empty(),
-                    !uses(set, is<Role::kSpecular>).empty(), !uses(set, is<Role::kGlossiness>).empty(),
-                    !uses(set, is<Role::kDiffuse>).empty());
+                       !uses(set, is<Role::kSpecular>).empty(), !uses(set, is<Role::kGlossiness>).empty(),
+                       !uses(set, is<Role::kDiffuse>).empty());
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
   const auto has = [&](Parameter parameter) { return options.map_of(parameter) != nullptr; };
   std::string model =
       model_of_maps(has(Parameter::kMetallic), has(Parameter::kBaseColor), has(Parameter::kSpecular),
-                 options.reads_glossiness(), has(Parameter::kDiffuse));
+                    options.reads_glossiness(), has(Parameter::kDiffuse));
   if (!sets) {
     if (model.empty())
       throw usage_error(

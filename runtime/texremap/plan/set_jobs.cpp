@@ -78,7 +78,7 @@ FoundSet of_diffuse_alone(FoundSet set) {
 class SetJobs {
  public:
   SetJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& defaults,
-             Discovery found)
+          Discovery found)
       : options_(options),
         workflow_(workflow),
         choice_(target_choice(options, workflow)),
@@ -91,7 +91,8 @@ class SetJobs {
  private:
   void add(FoundSet set);
   void add_tile(const FoundSet& set, int tile, const std::vector<std::string>& notes);
-  bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile, SetWork& work);
+  bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
+                   SetWork& work);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
   void place_others(const FoundSet& set, int tile, SetWork& work);
   bool comes_along(const FoundMap& map) const;
@@ -178,8 +179,7 @@ bool is_file(const fs::path& path) {
 }
 
 // The file that an option gives for a set: one for all sets, or one in the folder of the set.
-fs::path SetJobs::file_of_set(const fs::path& given, const FoundSet& set,
-                                 const std::string& number) const {
+fs::path SetJobs::file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const {
   return shared_map(options_, given).value_or(root_ / set.folder / named_after(given, set, number));
 }
 
@@ -239,7 +239,8 @@ void SetJobs::add(FoundSet set) {
   for (const int tile : tiles_of(set)) add_tile(set, tile, notes);
 }
 
-// Puts the map of a parameter into the request. Notes a message and returns false where the set lacks the tile.
+// Puts the map of a parameter into the request. Notes a message and returns false where the set lacks the
+// tile.
 bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                           SetWork& work) {
   const bool is_glossiness = parameter == Parameter::kRoughness && options_.reads_glossiness();
@@ -277,8 +278,13 @@ bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::s
 
 void SetJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::string>& notes) {
   const std::string number = tile == 0 ? "" : std::to_string(tile);
-  SetWork work{defaults_, options_.output / set.folder, options_.diagnose / set.folder,
-               {set.name, tile == 0 ? "" : "." + number}, {}, {}, notes};
+  SetWork work{defaults_,
+               options_.output / set.folder,
+               options_.diagnose / set.folder,
+               {set.name, tile == 0 ? "" : "." + number},
+               {},
+               {},
+               notes};
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, work)) return;
   if (!choice_.layout.keeps_names) carry(set, tile, work.request);
@@ -481,8 +487,8 @@ JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled)
       *files[tiled[i].index] = tiled[i].tile(number);
       if (!present.contains(i))
         list.skipped.push_back({tiled[i].tile(number).string() +
-                                     ": not found, but other maps of the set have this " + list.tile_noun,
-                                 true});
+                                    ": not found, but other maps of the set have this " + list.tile_noun,
+                                true});
     }
     if (present.size() < tiled.size()) continue;
     Job& job = list.jobs.emplace_back(Job{tiled.front().file.string(), std::to_string(number)});
@@ -511,7 +517,7 @@ std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
 }
 
 JobList set_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
-                        const TextureSetRequest& request, std::optional<Discovery> sets) {
+                 const TextureSetRequest& request, std::optional<Discovery> sets) {
   if (sets) return SetJobs(options, workflow, request, *std::move(sets)).list();
   SetWork set{request, options.output, options.diagnose, {}, copied_files(options, workflow), {}, {}};
   if (const std::vector<TiledFile> tiled = tiled_files(set); !tiled.empty()) return tile_jobs(set, tiled);

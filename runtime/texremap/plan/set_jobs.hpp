@@ -19,6 +19,6 @@ std::optional<Discovery> discovered_sets(const ConvertOptions& options);
 // has no sets; of two sets that would write one file the second is left out. Throws kInput if the folder or a
 // naming file cannot be read.
 JobList set_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
-                        const TextureSetRequest& request, std::optional<Discovery> sets);
+                 const TextureSetRequest& request, std::optional<Discovery> sets);
 
 }  // namespace remap

@@ -194,7 +194,8 @@ std::string_view state_text(const ConvertPlan& plan, const JobReport& report) {
 }
 
 Json conversion_json(const ConvertPlan& plan) {
-  return plan.sets() != nullptr ? converter_json(plan.sets()->chosen) : Json{{"target", plan.conversion.target}};
+  return plan.sets() != nullptr ? converter_json(plan.sets()->chosen)
+                                : Json{{"target", plan.conversion.target}};
 }
 
 Json job_json(const ConvertPlan& plan, const JobReport& report) {

@@ -73,9 +73,10 @@ void print_confidence(const std::string& place, const ChosenConverter& chosen, c
   const MetallicStatistics& metallic = counts.metallic;
   if (const auto& f0 = report.estimated_f0;
       f0 && (verbose || chosen.workflow.estimates_f0 || report.name.empty()))
-    print_message(kProgram, place + "dielectric F0 estimated from the maps: " + number_text(rounded(f0->f0, 4)) +
-                               (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
-                               number_text(f0_of(chosen, *f0)) + " is used");
+    print_message(kProgram, place +
+                                "dielectric F0 estimated from the maps: " + number_text(rounded(f0->f0, 4)) +
+                                (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
+                                number_text(f0_of(chosen, *f0)) + " is used");
   if (metallic.texel_count == 0) return;
   const double difference = kPictureOfResidual * metallic.rms_residual();
   const auto percent = [](double share, int decimals) { return fixed(100.0 * share, decimals) + " %"; };
@@ -88,7 +89,7 @@ void print_confidence(const std::string& place, const ChosenConverter& chosen, c
     return percent(static_cast<double>(count) / static_cast<double>(metallic.texel_count), 2);
   };
   print_message(kProgram, place + "residual of metal-rough: " + fixed(metallic.rms_residual(), 4) + " rms, " +
-                             fixed(static_cast<double>(metallic.largest_residual), 3) + " at most");
+                              fixed(static_cast<double>(metallic.largest_residual), 3) + " at most");
   print_message(kProgram,
                 place + "metallic undetermined, no visible effect: " + share(metallic.undetermined.count) +
                     " (too dark: " + share(metallic.dark.count) + "); ambiguous: " +
@@ -235,8 +236,7 @@ void print_colors(const ColorNotes& colors, bool has_several) {
     }
   std::string text;
   for (const auto& [phrase, count] : phrases)
-    text +=
-        (text.empty() ? "" : ", ") + phrase + (has_several ? " in " + counted(count, "map") : "");
+    text += (text.empty() ? "" : ", ") + phrase + (has_several ? " in " + counted(count, "map") : "");
   if (text.empty()) return;
   print_message(kProgram, "color: " + text + "; --color-space and --output-color-space change this");
 }

@@ -1,4 +1,5 @@
-// Reports of the parts of a conversion: the lines of `convert --json` (reporter.hpp) after one about the part:
+// Reports of the parts of a conversion: the lines of `convert --json` (reporter.hpp) after one about the
+// part:
 //
 //   {"part": {"index": 12, "count": 400, "manifest": "HASH", "sets": 100000, "version": "1.2.0",
 //    "conversion": "HASH", "converter": "...", "options": "...", "host": "node7", "note": "Slurm: ..."}}

@@ -37,7 +37,7 @@ void print_unrecognised(const JobList& list) {
     say("not recognised: " + list.unrecognised[i].string());
   if (count == 0) return;
   say(counted(count, "image") + " left out, because no habit knows the name" +
-                             (count > kShown ? "; --json lists all" : "") + " (--names FILE teaches one)");
+      (count > kShown ? "; --json lists all" : "") + " (--names FILE teaches one)");
 }
 
 void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
@@ -55,13 +55,14 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
     texels += report.statistics.texel_count;
     materials += report.count(MaterialState::kConverted);
   }
-  std::string text = counted(done, noun_of(list.kind)) + (plan.dry_run ? " would be converted" : " converted") +
+  std::string text = counted(done, noun_of(list.kind)) +
+                     (plan.dry_run ? " would be converted" : " converted") +
                      (plan.sets() == nullptr ? "" : " by " + converter_text(plan.sets()->chosen)) + ", " +
                      std::to_string(outcome.failed_count()) + " failed";
   if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
   if (!plan.dry_run)
-    text += "; " + (plan.sets() == nullptr ? counted(materials, "material") : counted(texels, "texel")) + " in " +
-            fixed(outcome.seconds, 2) + " s, " + fixed(outcome.used.processor_seconds, 2) +
+    text += "; " + (plan.sets() == nullptr ? counted(materials, "material") : counted(texels, "texel")) +
+            " in " + fixed(outcome.seconds, 2) + " s, " + fixed(outcome.used.processor_seconds, 2) +
             " s of processor time";
   say(text);
 }

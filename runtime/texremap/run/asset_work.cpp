@@ -77,8 +77,8 @@ class AssetWorker final : public JobWorker {
     const AssetConversion conversion = convert_asset(source, asset.input, asset.output, options_, files);
     report.materials = conversion.materials;
     report.warnings = conversion.warnings;
-    const ResourcePlan beside = plan_resources(
-        asset, conversion.resources, [&](const fs::path& target) { folder_.require_free(target); });
+    const ResourcePlan beside = plan_resources(asset, conversion.resources,
+                                               [&](const fs::path& target) { folder_.require_free(target); });
     report.warnings.insert(report.warnings.end(), beside.warnings.begin(), beside.warnings.end());
     for (const NewResource& file : conversion.files) {
       const fs::path image = files.output(file.path);
@@ -106,7 +106,8 @@ class AssetWorker final : public JobWorker {
   // materials used are not in the result, and have none.
   bool is_done(const AssetWork& asset, const std::string& inputs, std::vector<AssetResource> named) const {
     if (!folder_.is_done(inputs, folder_.files_of(asset.name()))) return false;
-    const bool is_new_format = asset.input.extension() != asset.output.extension();  // which names other files
+    const bool is_new_format =
+        asset.input.extension() != asset.output.extension();  // which names other files
     if (is_new_format) return true;
     std::set<std::string> kept;
     for (const AssetResource& resource :

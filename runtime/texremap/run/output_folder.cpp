@@ -25,10 +25,9 @@ void OutputFolder::require_free(const fs::path& file) const {
   if (plan_.force) return;
   const bool is_own = journal_ && journal_->is_own(file);
   if (plan_.resume && is_own) return;
-  throw output_error(file.string() + ": already exists" +
-                     (plan_.resume ? ", and is not of this conversion (" : " (") +
-                     (is_own ? "--resume skips finished " + noun_of(plan_.list.kind) + "s, " : "") +
-                     "--force overwrites)");
+  throw output_error(
+      file.string() + ": already exists" + (plan_.resume ? ", and is not of this conversion (" : " (") +
+      (is_own ? "--resume skips finished " + noun_of(plan_.list.kind) + "s, " : "") + "--force overwrites)");
 }
 
 void OutputFolder::take(const fs::path& file, const std::string& owner) const {

@@ -148,8 +148,8 @@ std::vector<JobReport> run_jobs(const ConvertPlan& plan,
   const int threads_a_job = static_cast<int>(threads / at_once);
   set_image_limits({threads_a_job, plan.memory_bytes / at_once});
   OutputFolder folder(plan);
-  const std::unique_ptr<JobWorker> worker = plan.sets() != nullptr ? set_worker(plan, folder, threads_a_job)
-                                                                   : asset_worker(plan, folder);
+  const std::unique_ptr<JobWorker> worker =
+      plan.sets() != nullptr ? set_worker(plan, folder, threads_a_job) : asset_worker(plan, folder);
   RunProgress line(plan);
   MergedReports reports(jobs, [&](const JobReport& report) {
     line.hide();
