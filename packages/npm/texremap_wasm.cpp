@@ -11,11 +11,11 @@
 #include <utility>
 #include <variant>
 
-#include "convert/converter_file.hpp"
 #include "converter/converter_fields.hpp"
 #include "core/error_kind.hpp"
 #include "core/errors.hpp"
 #include "core/json_field.hpp"
+#include "paths/converter_file.hpp"
 #include "remap/conversion.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/version.hpp"

@@ -5,8 +5,8 @@
 
 #include "buffers.hpp"
 #include "command_line/command.hpp"
-#include "convert/converter_file.hpp"
 #include "core/errors.hpp"
+#include "paths/converter_file.hpp"
 #include "remap/error.hpp"
 #include "remap/warp.hpp"
 #include "stages/brdf_stage.hpp"

@@ -7,10 +7,10 @@
 
 #include "assets/maps/specgloss_factors.hpp"
 #include "command_line/run_app.hpp"
-#include "convert/converter_file.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
+#include "paths/converter_file.hpp"
 #include "remap/path.hpp"
 #include "remap/warp.hpp"
 #include "sets/folder_walk.hpp"
@@ -164,7 +164,8 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
   TargetChoice targets = target_choice(options, workflow);
   TextureSetRequest request = set_request(options, workflow);
   BuiltConversion built = conversion_of(options, fit, workflow);
-  SetPlan& sets = plan.work.emplace<SetPlan>(SetPlan{{std::move(built), std::move(workflow)},
+  SetPlan& sets = plan.work.emplace<SetPlan>(SetPlan{options.converters,
+                                                     {std::move(built), std::move(workflow)},
                                                      std::move(request),
                                                      std::move(targets),
                                                      pass_options(options),

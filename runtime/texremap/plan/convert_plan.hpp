@@ -21,6 +21,7 @@ namespace remap {
 
 // What is done with texture sets, or with numbers.
 struct SetPlan {
+  UsedConverters converters;  // of which `chosen` is made
   ChosenConverter chosen;
   TextureSetRequest request;      // what the options say about one set, or about all sets of a folder
   TargetChoice targets;           // without the members that differ between sets

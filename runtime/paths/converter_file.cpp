@@ -1,4 +1,4 @@
-#include "convert/converter_file.hpp"
+#include "paths/converter_file.hpp"
 
 #include <utility>
 

@@ -4,9 +4,9 @@
 #include <utility>
 #include <variant>
 
-#include "convert/converter_file.hpp"
-#include "convert/shipped_text.hpp"
 #include "core/read_file.hpp"
+#include "paths/converter_file.hpp"
+#include "paths/shipped_text.hpp"
 #include "remap/error.hpp"
 #include "stages/brdf_stage.hpp"
 

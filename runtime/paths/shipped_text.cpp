@@ -1,5 +1,5 @@
 // The assembler copies the file: as a string literal it would take the compiler seconds.
-#include "convert/shipped_text.hpp"
+#include "paths/shipped_text.hpp"
 
 extern "C" {
 extern const char remap_shipped_text_begin[];

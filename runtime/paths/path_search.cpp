@@ -1,4 +1,4 @@
-#include "convert/path_search.hpp"
+#include "paths/path_search.hpp"
 
 #include <algorithm>
 #include <optional>

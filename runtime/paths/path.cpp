@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convert/path_search.hpp"
 #include "core/nearest_name.hpp"
+#include "paths/path_search.hpp"
 #include "remap/error.hpp"
 #include "remap/shipped_converters.hpp"
 
