@@ -164,6 +164,8 @@ class Command {
   void callback(std::function<void()> work);
   // How often the option was given.
   std::size_t count(const std::string& option) const;
+  // The tags of an option by its name, such as `--type`; 0 where there is none.
+  OptionTags tags_of(const std::string& name) const;
   // The options of the command line, in the order in which they were added.
   std::vector<GivenOption> given() const;
 

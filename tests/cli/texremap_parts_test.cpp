@@ -469,7 +469,7 @@ TEST_CASE("texremap parts: manifests of assets and of sets take the options of t
   write_library(tree);
   index(tree);
   refused("convert --manifest sets.jsonl --to gltf --profile core -o out",
-          "--profile: applies to assets alone");
+          "--profile: applies to assets only");
 }
 
 TEST_CASE("texremap parts: plans hand out assets as they hand out sets") {

@@ -309,7 +309,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--roughness-factor says"));
   CHECK(session.texremap(back + "--roughness-factor 1000 -o back").exit_code == 0);
   CHECK_THAT(session.texremap(command + "--to unity --output-roughness-factor 128 -o none").last_error(),
-             Contains("applies to exponents alone"));
+             Contains("applies to exponents only"));
 }
 
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {

@@ -102,9 +102,13 @@ ConvertOptions options_of(const std::vector<std::string>& words) {
   Command command("The options of texremap convert", "texremap convert");
   ConvertOptions options;
   add_convert_options(command, options);
+  const std::string reason = ": is written by texremap plan itself (remove it after --)";
+  for (const std::string& word : words)
+    if (const std::string name = word.substr(0, word.find('=')); (command.tags_of(name) & kOfPlan) != 0)
+      throw usage_error(name + reason);
   run_words(command, words);
   note_given(command, options);
-  refuse(options, kOfPlan, ": is written by texremap plan itself (remove it after --)");
+  refuse(options, kOfPlan, reason);
   if (options.output.empty()) throw usage_error("--output is required after -- (the folder of the results)");
   return options;
 }
