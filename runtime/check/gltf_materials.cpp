@@ -14,13 +14,13 @@
 
 #include "assets/document/asset_uri.hpp"
 #include "assets/document/gltf_extensions.hpp"
-#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_bytes.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_images.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/json_spans.hpp"
 #include "core/plain_text.hpp"
 #include "sets/folder_walk.hpp"
 

@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "cli/texremap_session.hpp"
-#include "core/json.hpp"
+#include "core/json_field.hpp"
 #include "support/shared_data.hpp"
 
 using namespace remap;
@@ -55,7 +55,7 @@ TEST_CASE("A dry run tells what each material would become", "[assets]") {
         std::string::npos);
   CHECK(run.errors.find("names a b.bin, which is not there") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(session.path("out")));
-  const Json json = std::get<Json>(json_of(run.output));
+  const Json json = parse_json(run.output, "output");
   CHECK(*json.find("state")->text() == "planned");
   CHECK((*json.find("materials")->entries())[1].find("metallic")->number() == 1.0);
 }

@@ -12,8 +12,8 @@
 
 #include "assets/document/asset_uri.hpp"
 #include "assets/document/image_codec.hpp"
-#include "assets/document/json_spans.hpp"
 #include "assets/document/mtl_maker.hpp"
+#include "core/json_spans.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
 #include "remap/workflow.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/document/json_spans.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/document/json_spans.hpp"
 #include "assets/document/text_splices.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "assets/document/json_spans.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 namespace {

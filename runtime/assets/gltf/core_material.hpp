@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_direction.hpp"
 #include "assets/gltf/gltf_factors.hpp"
 #include "assets/maps/core_factors.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "assets/document/json_spans.hpp"
 #include "core/errors.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "assets/document/asset.hpp"
-#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_container.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

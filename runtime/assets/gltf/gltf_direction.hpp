@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "assets/document/asset.hpp"
-#include "assets/document/json_spans.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

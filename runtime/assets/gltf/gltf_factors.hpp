@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "assets/document/asset.hpp"
-#include "assets/document/json_spans.hpp"
+#include "core/json_spans.hpp"
 #include "core/number_text.hpp"
 
 namespace remap {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "assets/document/image_codec.hpp"
-#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_bytes.hpp"
 #include "assets/maps/texture_bake.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

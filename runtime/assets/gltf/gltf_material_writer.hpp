@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/document/json_spans.hpp"
 #include "assets/document/text_edits.hpp"
 #include "assets/gltf/gltf_direction.hpp"
 #include "assets/gltf/gltf_new_images.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

@@ -14,11 +14,11 @@
 
 #include "assets/document/asset_uri.hpp"
 #include "assets/document/image_codec.hpp"
-#include "assets/document/json_spans.hpp"
 #include "assets/document/text_edits.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_direction.hpp"
 #include "assets/gltf/gltf_spares.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

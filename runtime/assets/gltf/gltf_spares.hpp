@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_direction.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_factors.hpp"
 #include "assets/maps/specgloss_factors.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

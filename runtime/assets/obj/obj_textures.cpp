@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "assets/document/asset_uri.hpp"
-#include "assets/document/json_spans.hpp"
 #include "core/errors.hpp"
+#include "core/json_spans.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 

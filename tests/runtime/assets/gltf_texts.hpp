@@ -10,10 +10,10 @@
 #include <catch2/catch.hpp>
 
 #include "assets/document/gltf_extensions.hpp"
-#include "assets/document/json_spans.hpp"
 #include "assets/gltf/gltf_asset.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "core/errors.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

@@ -1,10 +1,10 @@
-#include "assets/document/json_spans.hpp"
+#include "core/json_spans.hpp"
 
 #include <algorithm>
 #include <charconv>
 
 #include "core/errors.hpp"
-#include "core/json_field.hpp"
+#include "core/json.hpp"
 #include "core/number_text.hpp"
 
 namespace remap {

@@ -22,6 +22,9 @@ enum class SpanKind : std::uint8_t { kNull, kBoolean, kNumber, kText, kList, kOb
 
 class SpanValue;
 
+// Values within values. Files of this project nest six deep; scanning, printing and destroying a value take
+// stack for each level, of which 65,000 are too many.
+inline constexpr std::size_t kDeepestJson = 100;
 // The largest text that is scanned: a glTF file with everything embedded. A value takes 32 bytes of memory.
 inline constexpr std::size_t kLongestSpannedText = std::size_t{1} << 30,
                              kMostSpannedValues = std::size_t{1} << 23;
@@ -30,7 +33,7 @@ inline constexpr std::size_t kLongestSpannedText = std::size_t{1} << 30,
 class SpannedJson {
  public:
   // Throws kInput, beginning with `place`, for a text that is not valid JSON or not UTF-8, with line and
-  // column, for one nested deeper than kDeepestJson (core/json_field.hpp), and beyond the limits above.
+  // column, for one nested deeper than kDeepestJson, and beyond the limits above.
   SpannedJson(std::string_view text, const std::string& place);
 
   std::string_view text() const noexcept { return text_; }
@@ -63,6 +66,7 @@ class SpanValue {
   explicit operator bool() const noexcept { return json_ != nullptr; }
   bool operator==(const SpanValue&) const = default;
   std::size_t index() const noexcept { return index_; }  // of SpannedJson::value()
+  SpanKind kind() const noexcept { return json_ != nullptr ? node().kind : SpanKind::kNull; }
   bool is(SpanKind kind) const noexcept { return json_ != nullptr && node().kind == kind; }
   TextSpan span() const noexcept { return {node().begin, node().end}; }
   // Of the member, with its quotes; empty where this is no member.
