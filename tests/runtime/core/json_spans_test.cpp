@@ -27,8 +27,7 @@ bool is_scanned(const std::string& text) {
 // None where the library refuses a number that no double holds.
 std::optional<bool> is_parsed(const std::string& text) {
   try {
-    (void)nlohmann::json::parse(text);
-    return true;
+    return !nlohmann::json::parse(text).is_discarded();
   } catch (const nlohmann::json::out_of_range&) {
     return std::nullopt;
   } catch (const nlohmann::json::exception&) {
