@@ -102,7 +102,7 @@ Material grey_material(const ModelDescription& model, double alpha, double specu
   return material;
 }
 
-Range canonical_widths(RoughnessConvention convention, const Range& own) {
+Range canonical_widths(RoughnessEncoding convention, const Range& own) {
   const double a = to_alpha(convention, own.min), b = to_alpha(convention, own.max);
   return {std::min(a, b), std::max(a, b)};
 }

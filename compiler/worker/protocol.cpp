@@ -54,10 +54,10 @@ ParameterRole read_role(const Field& field) {
              "\" (choose roughness, specular, diffuse, index, extinction or other)");
 }
 
-ParameterDescription read_parameter(const Field& field, RoughnessConvention* convention) {
+ParameterDescription read_parameter(const Field& field, RoughnessEncoding* convention) {
   ParameterDescription parameter{field["name"].text(), read_role(field["role"]), read_range(field["range"])};
   if (parameter.role == ParameterRole::kRoughness) {
-    const auto known = convention_from_name(field["convention"].text());
+    const auto known = encoding_from_name(field["convention"].text());
     field["convention"].require(known.has_value(), "alpha, roughness, exponent, glossiness or squared");
     *convention = *known;
   }

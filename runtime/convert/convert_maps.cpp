@@ -135,10 +135,10 @@ class Conversion {
   const TargetParameter* wanted(Parameter parameter) const;
   bool is_made(Parameter parameter) const;
   float highest(Parameter parameter) const;
-  RoughnessConvention source_convention() const {
+  RoughnessEncoding source_convention() const {
     return maps_.source_convention.value_or(converter_.info().source.roughness);
   }
-  RoughnessConvention target_convention() const {
+  RoughnessEncoding target_convention() const {
     return maps_.target_convention.value_or(converter_.info().target.roughness);
   }
   void load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,

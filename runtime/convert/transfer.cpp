@@ -126,9 +126,9 @@ std::size_t store_linear(Transfer transfer, PixelType type, const float* values,
   return clipped;
 }
 
-void change_convention(RoughnessConvention from, RoughnessConvention to, std::span<float> widths) noexcept {
+void change_convention(RoughnessEncoding from, RoughnessEncoding to, std::span<float> widths) noexcept {
   if (from == to) return;
-  const float highest = from == RoughnessConvention::kExponent ? INFINITY : 1.0f;
+  const float highest = from == RoughnessEncoding::kExponent ? INFINITY : 1.0f;
   for (float& width : widths) {
     if (std::isnan(width)) continue;
     const double clamped = static_cast<double>(std::clamp(width, 0.0f, highest));

@@ -9,7 +9,7 @@ namespace {
 
 void require_joined(const std::vector<const Converter*>& steps) {
   const auto side_text = [](const ModelSide& side) {
-    return std::string(convention_name(side.roughness)) + " and " + side.specular + " of " + side.model;
+    return std::string(encoding_name(side.roughness)) + " and " + side.specular + " of " + side.model;
   };
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     const ConverterInfo &before = steps[i]->info(), &after = steps[i + 1]->info();

@@ -74,7 +74,7 @@ SourceDomain chained_domain(Steps steps) {
     return images_fit(steps, std::vector<float>(kSpeculars, width), spread(whole.specular, kSpeculars),
                       Look::kRoughness);
   };
-  const RoughnessConvention convention = first.source.roughness;
+  const RoughnessEncoding convention = first.source.roughness;
   const double middle_alpha =
       0.5 * (to_alpha(convention, whole.roughness.min) + to_alpha(convention, whole.roughness.max));
   const float middle = float_of(from_alpha(convention, middle_alpha));

@@ -10,7 +10,7 @@ namespace {
 // The part of the source's alpha and specular plane that all steps cover.
 double covered_area(const ConverterPath& path) {
   const SourceDomain domain = chained_domain(path.steps);
-  const RoughnessConvention convention = path.steps.front()->info().source.roughness;
+  const RoughnessEncoding convention = path.steps.front()->info().source.roughness;
   const double alphas =
       std::fabs(to_alpha(convention, domain.roughness.max) - to_alpha(convention, domain.roughness.min));
   return alphas * (domain.specular.max - domain.specular.min);

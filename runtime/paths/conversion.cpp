@@ -224,7 +224,7 @@ BuiltConversion build_conversion(const ConversionChoice& choice, const std::vect
   return with_material(choice, std::move(conversion), set);
 }
 
-ConversionChoice choice_of_warp(const WarpMapFit& warp, WorkflowKind source, RoughnessConvention width) {
+ConversionChoice choice_of_warp(const WarpMapFit& warp, WorkflowKind source, RoughnessEncoding width) {
   ConversionChoice choice;
   choice.source_brdf = warp.source_model;
   choice.target_brdf = warp.template_model;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kUnitsOfError = 1e9;
 
 double middle_alpha(const ConverterInfo& info) {
-  const RoughnessConvention convention = info.source.roughness;
+  const RoughnessEncoding convention = info.source.roughness;
   return 0.5 * (to_alpha(convention, info.roughness.min) + to_alpha(convention, info.roughness.max));
 }
 

@@ -160,9 +160,9 @@ std::vector<std::string> channel_names(Channels channels) {
   return {std::string(name_of(kChannels, channels))};
 }
 
-std::optional<RoughnessConvention> convention_of(Role role) {
-  if (role == Role::kGlossiness) return RoughnessConvention::kGlossiness;
-  if (role == Role::kAlphaWidth) return RoughnessConvention::kAlpha;
+std::optional<RoughnessEncoding> encoding_of(Role role) {
+  if (role == Role::kGlossiness) return RoughnessEncoding::kGlossiness;
+  if (role == Role::kAlphaWidth) return RoughnessEncoding::kAlpha;
   return std::nullopt;
 }
 

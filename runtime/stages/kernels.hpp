@@ -23,8 +23,8 @@ namespace remap {
 // What a kernel is told of a converter (converter/compact_form.hpp).
 struct FormPass {
   using Terms = std::array<std::array<float, kMostPowersOfAlpha>, kMostPowersOfT>;
-  RoughnessConvention source = RoughnessConvention::kAlpha;
-  RoughnessConvention target = RoughnessConvention::kAlpha;
+  RoughnessEncoding source = RoughnessEncoding::kAlpha;
+  RoughnessEncoding target = RoughnessEncoding::kAlpha;
   float width_min = 0.0f, width_max = 0.0f;    // the domain, in the source's own width parameter
   float width_from = 0.0f, width_to = 0.0f;    // to which widths are clamped
   float alpha_min = 0.0f, least_alpha = 0.0f;  // of the source in the domain; of the target

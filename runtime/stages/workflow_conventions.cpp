@@ -10,12 +10,12 @@ namespace code = workflow_code;
 
 constexpr double kLargestDielectricF0 = 0.9;
 
-void require_width(RoughnessConvention width, const std::string& place) {
-  if (width == RoughnessConvention::kRoughness || width == RoughnessConvention::kGlossiness ||
-      width == RoughnessConvention::kAlpha)
+void require_width(RoughnessEncoding width, const std::string& place) {
+  if (width == RoughnessEncoding::kRoughness || width == RoughnessEncoding::kGlossiness ||
+      width == RoughnessEncoding::kAlpha)
     return;
   throw Error(ErrorKind::kInput, place + ": a workflow cannot hold its roughness as " +
-                                     std::string(convention_name(width)) +
+                                     std::string(encoding_name(width)) +
                                      " (choose roughness, glossiness or alpha)");
 }
 
@@ -37,9 +37,9 @@ void require_prior(double prior, const std::string& place) {
                                        number_text(kLargestPrior) + ")");
 }
 
-workflow_code::WidthParameter width_parameter(RoughnessConvention width) {
-  if (width == RoughnessConvention::kAlpha) return code::WidthParameter::kAlpha;
-  return width == RoughnessConvention::kGlossiness ? code::WidthParameter::kGlossiness
+workflow_code::WidthParameter width_parameter(RoughnessEncoding width) {
+  if (width == RoughnessEncoding::kAlpha) return code::WidthParameter::kAlpha;
+  return width == RoughnessEncoding::kGlossiness ? code::WidthParameter::kGlossiness
                                                    : code::WidthParameter::kRoughness;
 }
 

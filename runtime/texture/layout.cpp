@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr auto kRoughness = RoughnessConvention::kRoughness, kGlossiness = RoughnessConvention::kGlossiness;
+constexpr auto kRoughness = RoughnessEncoding::kRoughness, kGlossiness = RoughnessEncoding::kGlossiness;
 constexpr auto kEightBits = PixelType::kUint8;
 constexpr auto kGreenUp = NormalGreen::kUp;
 
@@ -110,7 +110,7 @@ Layout layout_in(const std::string& option, const std::string& name, std::string
 
 }  // namespace
 
-std::optional<RoughnessConvention> Layout::width() const {
+std::optional<RoughnessEncoding> Layout::width() const {
   for (const LayoutFile& file : files)
     for (const LayoutContent& content : file.content)
       if (const auto* own = std::get_if<LayoutParameter>(&content); own != nullptr && own->width)

@@ -29,6 +29,6 @@ std::vector<std::string> doubts_about(const MaterialSample& sample, const Textur
 // The F0 of the dielectrics after `stages.brdf`, for `stages` from a specular to a metallic workflow. `width`
 // is the encoding of the sampled roughness. None if no texel allows an estimate.
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
-                                         RoughnessConvention width);
+                                         RoughnessEncoding width);
 
 }  // namespace remap

@@ -380,9 +380,9 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
   return set;
 }
 
-void require_scale(const TextureSet& set, RoughnessConvention width) {
+void require_scale(const TextureSet& set, RoughnessEncoding width) {
   const SetParameter* map = set.map_of(Parameter::kRoughness);
-  if (width != RoughnessConvention::kExponent || map == nullptr || !map->factors.empty()) return;
+  if (width != RoughnessEncoding::kExponent || map == nullptr || !map->factors.empty()) return;
   const ChannelPlace place = map->channels.front();
   if (is_integer(set.maps[place.map].layout().channels[place.channel].type))
     throw input_error(

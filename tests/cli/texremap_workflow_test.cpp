@@ -105,7 +105,7 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
                   base = session.image("out/base_color.exr"), orm = session.image("out/orm.exr");
   const Converter& brdf = find_converter("mitsuba/ward", "mitsuba/ggx");
   WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
-  conversion.specular.width = conversion.metallic.width = RoughnessConvention::kAlpha;
+  conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
   conversion.metallic.diffuse = DiffuseConvention::kScaled;
   // The layer over Ward leaves its diffuse open and takes the meaning that glTF has: the reflectance comes
   // first.

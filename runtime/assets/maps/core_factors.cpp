@@ -31,7 +31,7 @@ MaterialValues values_of(const CoreFactors& factors, bool has_dielectric) {
 std::unique_ptr<Converter> make_core_converter(const char* target, bool has_dielectric, double prior,
                                                InstructionSet set) {
   WorkflowStages stages{find_workflow_model("gltf")->end, find_workflow_model(target)->end};
-  stages.width = RoughnessConvention::kRoughness;
+  stages.width = RoughnessEncoding::kRoughness;
   stages.prior = prior;
   return has_dielectric ? make_dielectric_converter(stages, set) : make_workflow_converter(stages, set);
 }

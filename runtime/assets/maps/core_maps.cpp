@@ -61,7 +61,7 @@ MapConversion core_conversion(const CoreMaps& maps, ImagePixels& f0) {
   const ImagePixels& model = *color_model_of(maps);
   conversion.width = model.width;
   conversion.height = model.height;
-  conversion.source_convention = RoughnessConvention::kRoughness;
+  conversion.source_convention = RoughnessEncoding::kRoughness;
   conversion.sources[Parameter::kBaseColor] = color_source(maps.base, maps.factors.base_color, "base color");
   conversion.sources[Parameter::kRoughness] =
       value_source(maps.metal_rough, 1, maps.factors.roughness, "roughness");
@@ -139,7 +139,7 @@ SpecGlossImages specgloss_images(const CoreMaps& maps, const Converter& converte
   ImagePixels diffuse = blank_like(*color_model_of(maps), has_alpha ? 4 : 3),
               specgloss = blank_like(*data_model_of(maps), 4), f0;
   MapConversion conversion = core_conversion(maps, f0);
-  conversion.target_convention = RoughnessConvention::kGlossiness;
+  conversion.target_convention = RoughnessEncoding::kGlossiness;
   conversion.targets[Parameter::kDiffuse] = color_target(diffuse);
   conversion.targets[Parameter::kSpecular] = color_target(specgloss);
   conversion.targets[Parameter::kRoughness] = value_target(specgloss, 3);

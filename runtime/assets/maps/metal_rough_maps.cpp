@@ -26,7 +26,7 @@ MetalRoughMaps metal_rough_maps(const Converter& converter, MetalRoughSources so
   MapConversion& conversion = sources.conversion;
   conversion.width = base.width;
   conversion.height = base.height;
-  conversion.target_convention = RoughnessConvention::kRoughness;
+  conversion.target_convention = RoughnessEncoding::kRoughness;
   conversion.value_statistics = true;
   conversion.targets[Parameter::kBaseColor] = color_target(base);
   conversion.targets[Parameter::kRoughness] = value_target(data, 1);

@@ -15,7 +15,7 @@ std::vector<float> float_color(const std::array<double, 3>& color) {
 
 std::unique_ptr<Converter> specgloss_projection(double prior, InstructionSet set) {
   WorkflowStages stages{find_workflow_model("gltf-specgloss")->end, find_workflow_model("gltf")->end};
-  stages.width = RoughnessConvention::kRoughness;
+  stages.width = RoughnessEncoding::kRoughness;
   stages.prior = prior;
   return make_workflow_converter(stages, set);
 }

@@ -18,7 +18,7 @@ MetalRoughMaps projected(const SpecGlossMaps& maps, const Converter& projection)
   conversion.sources[Parameter::kSpecular] = color_source(maps.specgloss, maps.factors.specular, "specular");
   conversion.sources[Parameter::kRoughness] =
       value_source(maps.specgloss, 3, maps.factors.glossiness, "glossiness");
-  conversion.source_convention = RoughnessConvention::kGlossiness;
+  conversion.source_convention = RoughnessEncoding::kGlossiness;
   return metal_rough_maps(projection, std::move(sources));
 }
 

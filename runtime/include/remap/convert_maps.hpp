@@ -119,7 +119,7 @@ inline constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 
 struct MapTreatment {
-  std::optional<RoughnessConvention> target_convention;  // of the results; by default that of the model
+  std::optional<RoughnessEncoding> target_convention;  // of the results; by default that of the model
   float target_roughness_factor = 1.0f;                  // stored roughness times this is the roughness
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;               // add noise of half a step to 8-bit integers, equal in every run
@@ -140,7 +140,7 @@ struct MapConversion : MapTreatment {
   // Opacity. Texels with coverage 0 or less are converted like all others, but are left out of the
   // statistics.
   std::optional<ConstChannelView> coverage;
-  std::optional<RoughnessConvention> source_convention;  // of the roughness; by default that of the model
+  std::optional<RoughnessEncoding> source_convention;  // of the roughness; by default that of the model
   std::optional<ChannelView> mask;                       // receives 1 for texels outside the domain, else 0
   std::size_t first_row = 0;  // position of row 0 in the whole map, for positions and dithering
 };

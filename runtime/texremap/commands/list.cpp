@@ -60,7 +60,7 @@ void print_converter(const ListedConverter& entry) {
   const ConverterInfo& info = converter.info();
   std::cout << info.id << '\n'
             << "  from   " << info.source.model << ", " << domain_text(info) << '\n'
-            << "  to     " << info.target.model << ", " << convention_name(info.target.roughness) << " and "
+            << "  to     " << info.target.model << ", " << encoding_name(info.target.roughness) << " and "
             << info.target.specular << '\n'
             << "  test   " << (converter.self_test() ? "passed" : "FAILED") << " with "
             << instruction_set_name(info.instructions) << " instructions\n";
@@ -107,7 +107,7 @@ void list_models(const ListOptions& options) {
     entry["reaches"] = Json::list();
     if (!options.json)
       std::cout << model << '\n'
-                << "  takes    " << convention_name(side.roughness) << " and " << side.specular << '\n';
+                << "  takes    " << encoding_name(side.roughness) << " and " << side.specular << '\n';
     std::vector<ConverterPath> paths;
     for (const std::string& target : graph.reachable_from(model))
       paths.push_back(graph.find_paths({model, target, {}}).front());
@@ -128,7 +128,7 @@ Json workflow_json(const WorkflowModel& model) {
                {"workflow", kind_name(model.end)},
                {"diffuse", diffuse_convention_name(diffuse_of(model.end))},
                {"dielectric_f0", Json()},
-               {"width", convention_name(width_of(model.end))},
+               {"width", encoding_name(width_of(model.end))},
                {"brdf", model.brdf},
                {"conventions_known", model.conventions_known},
                {"reason", model.reason}};
@@ -145,7 +145,7 @@ void print_workflow(const WorkflowModel& model) {
   const auto* metallic = std::get_if<MetallicWorkflow>(&model.end);
   std::cout << model_of(model.end) << '\n'
             << "  takes    " << (metallic != nullptr ? "base color, metallic and " : "diffuse, specular and ")
-            << convention_name(width_of(model.end)) << '\n'
+            << encoding_name(width_of(model.end)) << '\n'
             << "  diffuse  " << diffuse_convention_name(diffuse_of(model.end));
   if (metallic != nullptr) std::cout << ", dielectric F0 " << metallic->dielectric_f0;
   std::cout << (model.conventions_known ? "" : " (assumed)") << '\n'

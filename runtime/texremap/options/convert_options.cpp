@@ -241,7 +241,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
                   "Ambient occlusion; --layout places it unconverted")
       ->tag(kChangesResults);
   command
-      .add_option("--roughness-encoding NAME", options.roughness_encoding, one_of(kConventions, "encoding"),
+      .add_option("--roughness-encoding NAME", options.roughness_encoding, one_of(kRoughnessEncodings, "encoding"),
                   "What roughness maps hold; roughness is the square root of alpha (default: what the source "
                   "model takes); maps named glossiness or smoothness hold that")
       ->tag(kChangesResults | kNotWithDiffuseWarp)
@@ -387,7 +387,7 @@ void add_rare_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: encodings and factors");
   command
       .add_option(
-          "--output-encoding NAME", options.output_encoding, one_of(kConventions, "encoding"),
+          "--output-encoding NAME", options.output_encoding, one_of(kRoughnessEncodings, "encoding"),
           "What the roughness results hold (default: as the inputs where that is known, else what the "
           "target model takes; a file named glossiness holds glossiness)")
       ->tag(kChangesResults);

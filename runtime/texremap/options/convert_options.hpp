@@ -82,7 +82,7 @@ struct ConvertOptions {
   std::map<Parameter, std::optional<MapSource>> maps;
   std::optional<MapSource> glossiness;  // read into `maps` as roughness, too
   std::optional<MapSource> occlusion;
-  std::optional<RoughnessConvention> roughness_encoding;  // of roughness maps
+  std::optional<RoughnessEncoding> roughness_encoding;  // of roughness maps
   std::map<Parameter, std::vector<float>> factors;
   std::vector<std::string> prefer;  // among several maps of one parameter
   std::vector<ColorSpaceWord> color_spaces;
@@ -100,7 +100,7 @@ struct ConvertOptions {
   std::string format;
   std::optional<PixelType> type;
   std::optional<int> compression;  // level
-  std::optional<RoughnessConvention> output_encoding;
+  std::optional<RoughnessEncoding> output_encoding;
   std::optional<double>
       output_roughness_factor;  // the exponent that a stored 1 stands for, where it is known
   std::vector<ColorSpaceWord> output_color_spaces;

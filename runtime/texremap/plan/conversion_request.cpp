@@ -123,13 +123,13 @@ std::string one_channel(const std::string& option, const std::filesystem::path& 
 namespace {
 
 // The encoding of the roughness maps. `--roughness` means roughness even for a model that takes glossiness.
-std::optional<RoughnessConvention> given_convention(const ConvertOptions& options,
+std::optional<RoughnessEncoding> given_convention(const ConvertOptions& options,
                                                     const WorkflowChoice& workflow) {
-  if (options.reads_glossiness()) return RoughnessConvention::kGlossiness;
+  if (options.reads_glossiness()) return RoughnessEncoding::kGlossiness;
   if (options.roughness_encoding) return options.roughness_encoding;
   if (!workflow.is_material()) return std::nullopt;
-  const RoughnessConvention own = width_of(*workflow.source);
-  return own == RoughnessConvention::kGlossiness ? RoughnessConvention::kRoughness : own;
+  const RoughnessEncoding own = width_of(*workflow.source);
+  return own == RoughnessEncoding::kGlossiness ? RoughnessEncoding::kRoughness : own;
 }
 
 }  // namespace
@@ -229,12 +229,12 @@ namespace {
 void require_encoding(const ConvertOptions& options, const TargetChoice& choice) {
   const auto& asked = options.output_encoding;
   if (!asked) return;
-  const std::optional<RoughnessConvention> held = choice.layout.width();
-  constexpr auto kGlossiness = RoughnessConvention::kGlossiness;
+  const std::optional<RoughnessEncoding> held = choice.layout.width();
+  constexpr auto kGlossiness = RoughnessEncoding::kGlossiness;
   if (held && (*asked == kGlossiness) != (*held == kGlossiness))
-    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(convention_name(*asked)) +
+    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
                                        " cannot be used with --layout " + choice.layout.name +
-                                       ", which holds " + std::string(convention_name(*held)));
+                                       ", which holds " + std::string(encoding_name(*held)));
   if (options.only == Parameter::kSpecular)
     throw Error(ErrorKind::kUsage,
                 "--output-encoding: applies to nothing, because --only specular writes no roughness");
@@ -242,10 +242,10 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
 
 }  // namespace
 
-RoughnessConvention written_width(std::optional<RoughnessConvention> asked, const TargetChoice& choice,
-                                  const WidthSource& source, RoughnessConvention usual) {
-  constexpr auto kGlossiness = RoughnessConvention::kGlossiness, kRoughness = RoughnessConvention::kRoughness;
-  const RoughnessConvention wanted = asked.value_or(usual);
+RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
+                                  const WidthSource& source, RoughnessEncoding usual) {
+  constexpr auto kGlossiness = RoughnessEncoding::kGlossiness, kRoughness = RoughnessEncoding::kRoughness;
+  const RoughnessEncoding wanted = asked.value_or(usual);
   if (const auto held = choice.layout.width()) {
     if (*held == kGlossiness) return kGlossiness;
     return wanted == kGlossiness ? kRoughness : wanted;
@@ -253,7 +253,7 @@ RoughnessConvention written_width(std::optional<RoughnessConvention> asked, cons
   if (!choice.layout.keeps_names || source.file.empty()) return wanted;
   const bool is_glossy = source.convention == kGlossiness;
   if (asked && is_glossy != (*asked == kGlossiness))
-    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(convention_name(*asked)) +
+    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
                                        ": the result keeps the name " + source.file.filename().string() +
                                        ", which holds " + (is_glossy ? "glossiness" : "roughness") +
                                        " (use --layout separate)");
@@ -311,10 +311,10 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   return choice;
 }
 
-void require_factor_of_exponent(bool is_given, RoughnessConvention width) {
-  if (is_given && width != RoughnessConvention::kExponent)
+void require_factor_of_exponent(bool is_given, RoughnessEncoding width) {
+  if (is_given && width != RoughnessEncoding::kExponent)
     throw usage_error("--output-roughness-factor: applies to exponents only, and the results hold " +
-                      std::string(convention_name(width)) + " (remove this option)");
+                      std::string(encoding_name(width)) + " (remove this option)");
 }
 
 PassOptions pass_options(const ConvertOptions& options) {

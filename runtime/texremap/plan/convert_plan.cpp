@@ -77,12 +77,12 @@ void require_outside(const std::filesystem::path& output, const std::filesystem:
 // A warning where roughness maps of a folder are read in another encoding than most tools write; else empty.
 std::string encoding_warning(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
   if (options.folder.empty() || options.roughness_encoding ||
-      source.roughness == RoughnessConvention::kRoughness)
+      source.roughness == RoughnessEncoding::kRoughness)
     return "";
   const bool matters = std::ranges::any_of(
       list.jobs, [](const Job& job) { return !std::get<SetWork>(job.work).request.convention; });
   if (!matters) return "";
-  return "warning: roughness maps are read as " + std::string(convention_name(source.roughness)) +
+  return "warning: roughness maps are read as " + std::string(encoding_name(source.roughness)) +
          ", the parameter of " + source.model +
          " (use --roughness-encoding roughness if they hold its square root)";
 }
@@ -125,12 +125,12 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
     throw usage_error(option + " " + typed + ": values lie between 0 and 1" +
                       (has_meaning ? " (write " + option + " " + fractions_text(*values) + ")" : ""));
   };
-  const RoughnessConvention width = request.convention.value_or(info.source.roughness);
+  const RoughnessEncoding width = request.convention.value_or(info.source.roughness);
   for (const auto& [parameter, asked] : request.parameters) {
-    const bool is_exponent = parameter == Parameter::kRoughness && width == RoughnessConvention::kExponent;
+    const bool is_exponent = parameter == Parameter::kRoughness && width == RoughnessEncoding::kExponent;
     const bool is_wide = parameter == Parameter::kSpecular && info.specular.max > 1.0;
     if (!is_exponent && !is_wide)
-      require(parameter == Parameter::kRoughness && width == RoughnessConvention::kGlossiness
+      require(parameter == Parameter::kRoughness && width == RoughnessEncoding::kGlossiness
                   ? "--glossiness"
                   : parameter_option(parameter),
               asked);

@@ -10,7 +10,7 @@ std::string range_text(std::string_view name, const Range& range) {
 }
 
 std::string domain_text(const ConverterInfo& info) {
-  return range_text(convention_name(info.source.roughness), info.roughness) + ", " +
+  return range_text(encoding_name(info.source.roughness), info.roughness) + ", " +
          range_text(info.source.specular, info.specular);
 }
 

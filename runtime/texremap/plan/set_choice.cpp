@@ -36,14 +36,14 @@ struct Kept {
   std::string reason;
 };
 std::optional<Kept> kept_of(const FoundSet& set, std::vector<MapUse> found,
-                            const std::vector<std::string>& prefer, std::optional<RoughnessConvention> own) {
+                            const std::vector<std::string>& prefer, std::optional<RoughnessEncoding> own) {
   for (const std::string& word : prefer)
     if (const auto named = those(found, [&](const MapUse& use) { return names(word, set, use); });
         !named.empty())
       found = named;
   if (found.size() == 1) return Kept{found.front(), ""};
   const auto is_own = [&](const MapUse& use) {
-    return convention_of(use.role).value_or(RoughnessConvention::kRoughness) == *own;
+    return encoding_of(use.role).value_or(RoughnessEncoding::kRoughness) == *own;
   };
   if (own && is_roughness(found.front().role))
     if (const auto same = those(found, is_own); !same.empty()) found = same;
@@ -107,7 +107,7 @@ std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
 
 std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>& parameters,
                                      const std::vector<std::string>& prefer,
-                                     std::optional<RoughnessConvention> own) {
+                                     std::optional<RoughnessEncoding> own) {
   std::vector<std::string> notes;
   for (const Parameter parameter : parameters) {
     const std::vector<MapUse> found = uses_of(set, parameter);

@@ -20,7 +20,7 @@ std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter);
 // Returns a line for each choice that nobody asked for.
 std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>& parameters,
                                      const std::vector<std::string>& prefer,
-                                     std::optional<RoughnessConvention> own);
+                                     std::optional<RoughnessEncoding> own);
 
 // A source that the names of maps or the options of maps tell, where --from is left out.
 struct InferredSource {

@@ -110,7 +110,7 @@ class SetJobs {
   fs::path file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const;
   void leave_out_shared();
   // The width that the source model takes, where one is known.
-  std::optional<RoughnessConvention> own_width() const {
+  std::optional<RoughnessEncoding> own_width() const {
     if (workflow_.is_material()) return width_of(*workflow_.source);
     return std::nullopt;
   }
@@ -271,8 +271,8 @@ bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::s
   asked.one_channel = one_channel(use.role == Role::kGlossiness ? "--glossiness" : option,
                                   pattern_of(map.path.filename().string(), set.name));
   // --roughness-encoding speaks of maps that are found as roughness.
-  if (parameter == Parameter::kRoughness && convention_of(use.role))
-    work.request.convention = convention_of(use.role);
+  if (parameter == Parameter::kRoughness && encoding_of(use.role))
+    work.request.convention = encoding_of(use.role);
   return true;
 }
 
@@ -417,7 +417,7 @@ void SetJobs::note_sizes(Job& job) const {
 // --roughness-encoding speaks of maps that are found as roughness.
 void SetJobs::require_encoding_used() const {
   if (!options_.roughness_encoding || converted_.empty()) return;
-  const auto speaks_of = [](const FoundSet& set) { return !set.width || !convention_of(set.width->role); };
+  const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
   if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
     throw Error(ErrorKind::kUsage,
                 "--roughness-encoding: applies to nothing, because the names of all maps say what "

@@ -70,7 +70,7 @@ void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::
 // The source of the warp is a diffuse map alone, so the conversion has neither specular nor roughness maps.
 void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
   refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts a diffuse map alone");
-  std::get<SpecularWorkflow>(*choice.source).width = RoughnessConvention::kAlpha;
+  std::get<SpecularWorkflow>(*choice.source).width = RoughnessEncoding::kAlpha;
   choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kRoughness, {1.0f}}};
 }
 
@@ -92,9 +92,9 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
   require_models_of_fit(options.fit, {options.from.name, options.to.name},
                         {fit.source_model, fit.template_model});
   // The warp was made from maps of roughness.
-  const RoughnessConvention width =
-      options.reads_glossiness() ? RoughnessConvention::kGlossiness
-                                 : options.roughness_encoding.value_or(RoughnessConvention::kRoughness);
+  const RoughnessEncoding width =
+      options.reads_glossiness() ? RoughnessEncoding::kGlossiness
+                                 : options.roughness_encoding.value_or(RoughnessEncoding::kRoughness);
   // `remapc warp` reads metallic sets in the same way.
   WorkflowChoice choice{choice_of_warp(fit, options.from_workflow.value_or(WorkflowKind::kSpecular), width),
                         {}};

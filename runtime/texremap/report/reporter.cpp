@@ -86,8 +86,8 @@ void require_success(const Outcome& outcome) {
 }
 
 // The name of a target parameter; the roughness is called by its encoding.
-std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessConvention width) {
-  if (parameter == Parameter::kRoughness) return std::string(convention_name(width));
+std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessEncoding width) {
+  if (parameter == Parameter::kRoughness) return std::string(encoding_name(width));
   if (!chosen.workflow.is_material()) return chosen.info().target.specular;
   return std::string(parameter_name(parameter));
 }
@@ -188,7 +188,7 @@ void print_converted_numbers(const ConvertPlan& plan) {
   if (!maps.target_convention && chosen.workflow.is_material())
     maps.target_convention = width_of(*chosen.workflow.target);
   maps.bad_texels = sets.pass.bad_texels;
-  const RoughnessConvention width = maps.target_convention.value_or(info.target.roughness);
+  const RoughnessEncoding width = maps.target_convention.value_or(info.target.roughness);
   require_factor_of_exponent(sets.scales_exponents, width);
   const auto specular = maps.sources.find(Parameter::kSpecular);
   std::vector<ConvertedNumbers> values;

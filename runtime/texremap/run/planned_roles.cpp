@@ -56,11 +56,11 @@ std::string output_of(const TargetPlan& plan, Parameter parameter) {
 
 std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& plan,
                                        const TargetChoice& choice, const SetWork& work,
-                                       RoughnessConvention own_width, RoughnessConvention width) {
+                                       RoughnessEncoding own_width, RoughnessEncoding width) {
   std::vector<PlannedRole> roles;
   const auto width_text = [&](const std::string& happens) {
-    const RoughnessConvention own = set.convention.value_or(own_width);
-    return own == width ? happens : happens + " to " + std::string(convention_name(width));
+    const RoughnessEncoding own = set.convention.value_or(own_width);
+    return own == width ? happens : happens + " to " + std::string(encoding_name(width));
   };
   for (const auto& [parameter, values] : set.parameters) {
     const bool is_kept = std::ranges::find(choice.unchanged, parameter) != choice.unchanged.end();
@@ -71,7 +71,7 @@ std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& 
                      : is_target ? "converted"
                                  : "read",
                      output_of(plan, parameter)};
-    if (is_width) role.encoding = convention_name(set.convention.value_or(own_width));
+    if (is_width) role.encoding = encoding_name(set.convention.value_or(own_width));
     if (is_width && is_target) role.happens = width_text(is_kept ? "encoded" : role.happens);
     if (is_color(parameter) && values.is_map()) role.encoding = name_of(kTransfers, values.transfer);
     roles.push_back(std::move(role));

@@ -23,7 +23,7 @@ struct PlannedRole {
 // `own_width` is the encoding of the source where the set does not say one, `width` that of the results.
 std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& plan,
                                        const TargetChoice& choice, const SetWork& work,
-                                       RoughnessConvention own_width, RoughnessConvention width);
+                                       RoughnessEncoding own_width, RoughnessEncoding width);
 
 // The rows in columns, under a heading; every line begins with two spaces.
 std::string plan_table(const std::vector<PlannedRole>& roles);

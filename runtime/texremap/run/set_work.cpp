@@ -49,7 +49,7 @@ std::string inputs_hash(const OpenFiles& files, const SetWork& set, const OpenFi
   };
   for (const auto& [parameter, asked] : set.request.parameters) add(plain_name(parameter), asked);
   for (const CarriedRequest& carried : set.request.carried) add(carried.name, carried.parameter);
-  hash.add(set.request.convention ? convention_name(*set.request.convention) : "");
+  hash.add(set.request.convention ? encoding_name(*set.request.convention) : "");
   for (const auto& file : copied) hash.add_file(*file);
   return hash.hex();
 }
@@ -69,7 +69,7 @@ void require_not_converted(const TextureSet& set, const ChosenConverter& chosen,
   const WorkflowEnd end =
       workflow.is_material()
           ? *workflow.source
-          : workflow_over(source, WorkflowKind::kSpecular, RoughnessConvention::kAlpha).end;
+          : workflow_over(source, WorkflowKind::kSpecular, RoughnessEncoding::kAlpha).end;
   const std::string& brdf = workflow.is_material() ? workflow.source_brdf : source;
   for (const ImageReader& map : set.maps) {
     std::optional<std::string> model = map.noted_metadata("remap:target");
@@ -146,7 +146,7 @@ class SetWorker final : public JobWorker {
   void note_issues(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
   // What the roughness results hold where neither a name nor an option says it: what the target model of a
   // workflow takes, else what the inputs hold where that is known, else what the target model takes.
-  RoughnessConvention usual_width(const TextureSet& set) const {
+  RoughnessEncoding usual_width(const TextureSet& set) const {
     if (chosen_.workflow.is_material()) return width_of(*chosen_.workflow.target);
     return set.convention.value_or(chosen_.info().target.roughness);
   }
@@ -168,7 +168,7 @@ std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report)
   for (std::string& doubt : doubts_about(sample, set)) report.warnings.push_back(std::move(doubt));
   if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
   WorkflowStages stages = stages_of(chosen_.workflow, chosen_.brdf);
-  const RoughnessConvention width = set.convention.value_or(chosen_.info().source.roughness);
+  const RoughnessEncoding width = set.convention.value_or(chosen_.info().source.roughness);
   if (!workflow.f0_given) report.estimated_f0 = estimated_f0(sample, stages, width);
   if (!workflow.estimates_f0) return nullptr;
   if (!report.estimated_f0 || !report.estimated_f0->is_certain) {
@@ -277,10 +277,10 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
   choice.names = work.names;
   choice.metadata = metadata_of(chosen_);
   choice.copies = work.copies;
-  const RoughnessConvention width =
+  const RoughnessEncoding width =
       written_width(sets_.pass.target_convention, choice, width_source(set), usual_width(set));
-  const bool is_exponent = width == RoughnessConvention::kExponent;
-  choice.width_name = width == RoughnessConvention::kGlossiness ? "glossiness"
+  const bool is_exponent = width == RoughnessEncoding::kExponent;
+  choice.width_name = width == RoughnessEncoding::kGlossiness ? "glossiness"
                       : is_exponent                             ? "exponent"
                                                                 : "roughness";
   require_factor_of_exponent(sets_.scales_exponents, width);

@@ -58,8 +58,8 @@ class InTurn {
 Fit proportional_fit(const std::string& source, const std::string& target, double slope, double factor) {
   Fit fit = example_fit();
   fit.id = converter_id(source, target);
-  fit.source = {source, RoughnessConvention::kAlpha, "specular"};
-  fit.target = {target, RoughnessConvention::kAlpha, "specular"};
+  fit.source = {source, RoughnessEncoding::kAlpha, "specular"};
+  fit.target = {target, RoughnessEncoding::kAlpha, "specular"};
   fit.mapping = Parametric{{{slope}}, {{1, {factor, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
   return fit;
 }
@@ -69,12 +69,12 @@ std::vector<Fit> three_fits() {
   Fit first = example_fit(), second = example_fit(), third = example_fit();
   second.id = "example_b_to_example_c";
   second.source = first.target;
-  second.target = {"example/c", RoughnessConvention::kExponent, "specular"};
+  second.target = {"example/c", RoughnessEncoding::kExponent, "specular"};
   second.domain = {{0.06, 0.55}, {0.0, 0.3}};
   second.mapping = Parametric{{{0.9, 0.1}, {0.05, -0.02}}, {{1, {1.1, -0.2, 0.7, 0.0, 0.0, 0.0}}}};
   third.id = "example_c_to_example_d";
   third.source = second.target;
-  third.target = {"example/d", RoughnessConvention::kGlossiness, "f0"};
+  third.target = {"example/d", RoughnessEncoding::kGlossiness, "f0"};
   third.domain = {{0.08, 0.5}, {0.0, 0.25}};
   third.mapping = Parametric{{{1.2, -0.3}}, {{1, {0.7, 0.0, 0.0, 0.2, 1.0, 0.0}}}};
   return {first, second, third};
@@ -179,7 +179,7 @@ TEST_CASE("chained converter: its domain is the part of the first that every ste
 
 TEST_CASE("chained converter: a step that takes other parameters than the one before gives is refused") {
   Fit first = proportional_fit("r/a", "r/b", 0.8, 1.0), second = proportional_fit("r/b", "r/c", 1.0, 1.0);
-  second.source.roughness = RoughnessConvention::kRoughness;
+  second.source.roughness = RoughnessEncoding::kRoughness;
   const SteppedFits chain({first, second});
   try {
     make_chained_converter(chain.steps);

@@ -87,7 +87,7 @@ TEST_CASE("path: the least expected error wins over the fewest steps") {
 TEST_CASE(
     "path: what is expected of a step holds the errors of its fit, relative to the middle of its domain") {
   ConverterInfo info;
-  info.source.roughness = RoughnessConvention::kRoughness;
+  info.source.roughness = RoughnessEncoding::kRoughness;
   info.roughness = {0.0, 1.0};
   info.specular = {0.0, 0.5};
   info.image_rms_error = 0.06;
