@@ -159,7 +159,7 @@ bool has_value_beyond(const SpecularMaterial& material) {
 float width_of(const code::Texel& texel, const code::Conventions& use) {
   std::array<float, code::kMetallicSamples> errors{};
   code::sample_errors(texel, use, errors.data());
-  return code::metallic_width(errors.data(), code::good_error(texel, use));
+  return code::metallic_uncertainty(errors.data(), code::good_error(texel, use));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ export type ColorMap = number | [number, number, number] | MapArray | [MapArray,
 
 export type Encoding = 'alpha' | 'roughness' | 'exponent' | 'glossiness' | 'squared';
 export type Transfer = 'linear' | 'srgb';
-export type Measure = 'residual' | 'metallicWidth' | 'doubts';
+export type Measure = 'residual' | 'metallicWidth' | 'issues';
 
 /** How a converter is found. */
 export interface ConverterOptions {
@@ -95,7 +95,7 @@ export interface TargetMaps {
   metallic?: any;
   residual?: any;
   metallicWidth?: any;
-  doubts?: any;
+  issues?: any;
   statistics: Statistics;
 }
 

@@ -228,7 +228,7 @@ const TargetParameter* Conversion::wanted(Parameter parameter) const {
 
 // Measures are computed only for maps and statistics that hold them.
 bool Conversion::is_made(Parameter parameter) const {
-  const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicWidth;
+  const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicUncertainty;
   return !is_measure(parameter) || counts || wanted(parameter) != nullptr;
 }
 
@@ -475,7 +475,7 @@ std::size_t Conversion::store_parameter(const TargetParameter& parameter, std::s
 void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
   for (const Parameter parameter : converter_.targets()) {
     const std::size_t made = scratch.target.count(parameter);
-    if (maps_.value_statistics && parameter != Parameter::kDoubts)
+    if (maps_.value_statistics && parameter != Parameter::kMetallicIssues)
       for (std::size_t c = 0; c < made; ++c)
         statistics.targets[parameter] +=
             value_statistics(segment.count, scratch.target.row(parameter, c), scratch);
@@ -523,7 +523,7 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   if (converter_.can_diagnose() && maps_.metallic_statistics)
     statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
                                                  scratch.target.row(Parameter::kResidual, 0),
-                                                 scratch.target.row(Parameter::kDoubts, 0),
+                                                 scratch.target.row(Parameter::kMetallicIssues, 0),
                                                  maps_.coverage ? scratch.coverage.data() : nullptr});
   change_convention(info.target.roughness, target_convention(),
                     {scratch.target.row(Parameter::kRoughness, 0), count});

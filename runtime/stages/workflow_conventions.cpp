@@ -48,10 +48,10 @@ workflow_code::Conventions conventions_of(const SpecularWorkflow& specular, cons
   const double f0 = metallic.dielectric_f0;
   const bool scaled = metallic.diffuse == DiffuseConvention::kScaled;
   const auto specular_width = width_parameter(specular.width),
-             metallic_width = width_parameter(metallic.width);
+             metallic_uncertainty = width_parameter(metallic.width);
   return {static_cast<float>(f0), static_cast<float>(scaled ? 1.0 - f0 : 1.0),
-          specular.diffuse == DiffuseConvention::kScaled, to_metallic ? specular_width : metallic_width,
-          to_metallic ? metallic_width : specular_width};
+          specular.diffuse == DiffuseConvention::kScaled, to_metallic ? specular_width : metallic_uncertainty,
+          to_metallic ? metallic_uncertainty : specular_width};
 }
 
 }  // namespace remap

@@ -160,11 +160,11 @@ class Project final : public Stage {
     kernels_.project(use_, prior_, block.size(), from, to);
     if (block.has(Parameter::kMetalMask))
       kernels_.follow(use_, block.size(), from, block.row(Parameter::kMetalMask), to);
-    if (block.is_wanted(Parameter::kResidual) || block.is_wanted(Parameter::kMetallicWidth) ||
-        block.is_wanted(Parameter::kDoubts))
+    if (block.is_wanted(Parameter::kResidual) || block.is_wanted(Parameter::kMetallicUncertainty) ||
+        block.is_wanted(Parameter::kMetallicIssues))
       kernels_.diagnose(use_, block.size(), from, {to[0], to[1], to[2], to[3], to[4]},
-                        {block.make(Parameter::kResidual), block.make(Parameter::kMetallicWidth),
-                         block.make(Parameter::kDoubts)});
+                        {block.make(Parameter::kResidual), block.make(Parameter::kMetallicUncertainty),
+                         block.make(Parameter::kMetallicIssues)});
     return 0;
   }
 
@@ -179,7 +179,7 @@ class Project final : public Stage {
 std::vector<Parameter> targets_of(const WorkflowEnd& end) {
   std::vector<Parameter> targets = parameters_of(end);
   if (kind_of(end) == WorkflowKind::kMetallic)
-    targets.insert(targets.end(), {Parameter::kResidual, Parameter::kMetallicWidth, Parameter::kDoubts});
+    targets.insert(targets.end(), {Parameter::kResidual, Parameter::kMetallicUncertainty, Parameter::kMetallicIssues});
   return targets;
 }
 

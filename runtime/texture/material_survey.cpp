@@ -139,7 +139,7 @@ MaterialSample sample_materials(TextureSet& set) {
   return sample;
 }
 
-std::vector<std::string> doubts_about(const MaterialSample& sample, const TextureSet& set) {
+std::vector<std::string> issues_in(const MaterialSample& sample, const TextureSet& set) {
   std::vector<std::string> messages;
   if (sample.texel_count == 0) return messages;
   look_at_color_space(sample, set, messages);

@@ -91,7 +91,7 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
   const auto letters = [&](const Words& more) { return set_states(convert(more).output); };
   const auto planned = tree_report(require_success(convert("--dry-run")).output);
   CHECK(planned["sets"][1]["results"].size() == 7);
-  CHECK(planned["sets"][1]["doubts"] == (checks / "wood_doubts.png").string());
+  CHECK(planned["sets"][1]["issues"] == (checks / "wood_doubts.png").string());
   CHECK_FALSE(fs::exists(checks));
   CHECK(letters({}) == "cc");
   for (const char* name : {"wood_mask.png", "wood_residual.png", "wood_metallic_width.png", "wood_doubts.png",

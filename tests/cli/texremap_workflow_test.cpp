@@ -73,7 +73,7 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
   const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
                   base = session.image("out/base_color.exr"), metal = session.image("out/metallic.exr"),
                   residual = session.image("checks/residual.exr"),
-                  width = session.image("checks/metallic_width.exr");
+                  width = session.image("checks/metallic_uncertainty.exr");
   const WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   std::size_t guesses = 0;
   for (int y = 0; y < kWorkflowSize; ++y)
@@ -87,8 +87,8 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
         REQUIRE(base.at(x, y, c) == expected.base_color[static_cast<std::size_t>(c)]);
       REQUIRE(metal.at(x, y, 0) == expected.metallic);
       REQUIRE(residual.at(x, y, 0) == diagnosis.residual);
-      REQUIRE(width.at(x, y, 0) == diagnosis.metallic_width);
-      guesses += diagnosis.metallic_width > 0.2f;
+      REQUIRE(width.at(x, y, 0) == diagnosis.metallic_uncertainty);
+      guesses += diagnosis.metallic_uncertainty > 0.2f;
     }
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["metallic_confidence"]["undetermined"] == guesses);

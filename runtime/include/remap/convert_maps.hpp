@@ -38,7 +38,7 @@ struct TexelPosition {
   std::size_t y = 0;
 };
 
-// Statistics of the texels with one Doubt.
+// Statistics of the texels with one MetallicIssue.
 struct DoubtStatistics {
   std::size_t count = 0;
   std::optional<TexelPosition> first;  // in row order
@@ -86,7 +86,7 @@ ParameterStatistics statistics_of(std::span<const float> values);
 struct DiagnosedRow {
   TexelPosition first;
   const float* residual;
-  const float* doubts;
+  const float* issues;
   const float* coverage;
 };
 MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row);

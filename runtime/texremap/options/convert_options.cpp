@@ -416,8 +416,8 @@ void add_rare_options(Command& command, ConvertOptions& options) {
       .add_option("--diagnose FOLDER", options.diagnose,
                   "Also write maps that check the result: mask, 1 outside the domain; of a metallic result, "
                   "residual, what metal-rough cannot represent (rendered pictures differ by 0.42 of it), "
-                  "metallic_width, the share of [0, 1] in which metallic may lie (above 0.2 it is "
-                  "undetermined), and doubts, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
+                  "metallic_uncertainty, the share of [0, 1] in which metallic may lie (above 0.2 it is "
+                  "undetermined), and issues, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
       ->tag(kIsPath | kNeedsFiles);
   command
       .add_option("--bad-texels NAME", options.bad_texels, one_of(kBadTexels, "treatment"),

@@ -297,7 +297,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   if (!options.diagnose.empty()) {
     choice.diagnoses = {MaskChannel{}};
     if (workflow.finds_metallic())
-      for (const Parameter measure : {Parameter::kResidual, Parameter::kMetallicWidth, Parameter::kDoubts})
+      for (const Parameter measure : {Parameter::kResidual, Parameter::kMetallicUncertainty, Parameter::kMetallicIssues})
         choice.diagnoses.push_back(ConvertedChannel{measure});
   }
   choice.parameters = workflow.targets();

@@ -125,7 +125,7 @@ Json set_json(const ConvertPlan& plan, const JobReport& report) {
     return found == all.end() ? Json() : values_json(found->second, plan.histograms);
   };
   for (const Parameter parameter : named)
-    if (parameter != Parameter::kDoubts)
+    if (parameter != Parameter::kMetallicIssues)
       values[plain_name(parameter)] = {{"source", of(counts.sources, parameter)},
                                        {"target", of(counts.targets, parameter)}};
   json["values"] = values;

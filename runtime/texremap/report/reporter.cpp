@@ -193,7 +193,7 @@ void print_converted_numbers(const ConvertPlan& plan) {
   const auto specular = maps.sources.find(Parameter::kSpecular);
   std::vector<ConvertedNumbers> values;
   for (const Parameter parameter : chosen.converter().targets()) {
-    if (parameter == Parameter::kDoubts) continue;
+    if (parameter == Parameter::kMetallicIssues) continue;
     const std::size_t channels = chosen.converter().target_channels(
         parameter, specular == maps.sources.end() ? 3 : specular->second.constants.size());
     values.push_back(

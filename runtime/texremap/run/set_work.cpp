@@ -165,7 +165,7 @@ std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report)
   const WorkflowChoice& workflow = chosen_.workflow;
   if (!workflow.is_material()) return nullptr;
   const MaterialSample sample = sample_materials(set);
-  for (std::string& doubt : doubts_about(sample, set)) report.warnings.push_back(std::move(doubt));
+  for (std::string& doubt : issues_in(sample, set)) report.warnings.push_back(std::move(doubt));
   if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
   WorkflowStages stages = stages_of(chosen_.workflow, chosen_.brdf);
   const RoughnessEncoding width = set.convention.value_or(chosen_.info().source.roughness);
