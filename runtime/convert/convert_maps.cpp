@@ -153,8 +153,8 @@ class Conversion {
   void require_grey(Parameter parameter, const Segment& segment, Scratch& scratch,
                     MapStatistics& statistics) const;
   void load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
-  void meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
-  [[noreturn]] void fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const;
+  void count_invalid_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
+  [[noreturn]] void throw_invalid_texel(const Segment& segment, std::size_t texel, Scratch& scratch) const;
   void clamp_bad(std::size_t count, Scratch& scratch) const;
   void write_mask(const Segment& segment, Scratch& scratch) const;
   std::size_t store_parameter(const TargetParameter& parameter, std::size_t channel, const Segment& segment,
@@ -385,7 +385,7 @@ void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStati
   }
 }
 
-void Conversion::fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const {
+void Conversion::throw_invalid_texel(const Segment& segment, std::size_t texel, Scratch& scratch) const {
   for (const Parameter parameter : sources_)
     for (std::size_t c = 0; c < scratch.source.count(parameter); ++c) {
       const float value = scratch.source.row(parameter, c)[texel];
@@ -401,7 +401,7 @@ void Conversion::fail_bad(const Segment& segment, std::size_t texel, Scratch& sc
 }
 
 // Counts invalid texels, and throws for the first one with BadTexels::kFail.
-void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+void Conversion::count_invalid_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
   struct CheckedRow {
     const float* values;
     float highest;
@@ -430,7 +430,7 @@ void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapSt
     if (!is_covered(scratch, i)) continue;
     statistics.above_one_count += above;
     if (!(nan || infinite || negative)) continue;
-    if (maps_.bad_texels == BadTexels::kFail) fail_bad(segment, i, scratch);
+    if (maps_.bad_texels == BadTexels::kFail) throw_invalid_texel(segment, i, scratch);
     if (!statistics.first_bad) statistics.first_bad = {segment.x + i, maps_.first_row + segment.y};
     statistics.nan_count += nan;
     statistics.infinite_count += infinite;
@@ -508,7 +508,7 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   }
   load_sources(segment, scratch, statistics);
   statistics.texel_count += count;
-  meet_bad_texels(segment, scratch, statistics);
+  count_invalid_texels(segment, scratch, statistics);
   change_convention(source_convention(), info.source.roughness,
                     {scratch.source.own_row(Parameter::kRoughness, 0), count});
   if (maps_.bad_texels == BadTexels::kClamp) clamp_bad(count, scratch);

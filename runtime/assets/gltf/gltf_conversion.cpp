@@ -118,7 +118,7 @@ class GltfConversion {
 
   void convert(GltfDirection& direction, SpanValue material, AssetMaterial& report) {
     try {
-      require_still(direction, report.index);
+      require_not_animated(direction, report.index);
       edits_.emplace_back(report.index, direction.convert(material, report));
       report.state = MaterialState::kConverted;
     } catch (const Error& error) {
@@ -128,7 +128,7 @@ class GltfConversion {
     }
   }
 
-  void require_still(const GltfDirection& direction, std::size_t index) const {
+  void require_not_animated(const GltfDirection& direction, std::size_t index) const {
     for (auto at = pointers_.lower_bound({index, ""}); at != pointers_.end() && at->first == index; ++at)
       for (const std::string& member : direction.replaced())
         if (at->second.starts_with("/" + member))
