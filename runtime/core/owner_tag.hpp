@@ -9,7 +9,7 @@ namespace remap {
 
 // `TAG-PID` of this process. The tag is eight hexadecimal digits that stand for the machine since it was
 // started and its space of process numbers, which differs from one container to the next.
-std::string process_mark();
+std::string owner_tag();
 
 // Letters of the system's random numbers, for names that nobody can know before they are there.
 std::string random_letters();
@@ -17,6 +17,6 @@ std::string random_letters();
 // Whether `mark` names a process of this machine and this space that has ended. False for every other text,
 // and for a mark of another machine, where nobody can tell. A number that a new process has taken counts as
 // alive until that one ends, too.
-bool is_mark_of_the_dead(std::string_view mark);
+bool is_stale_owner(std::string_view mark);
 
 }  // namespace remap

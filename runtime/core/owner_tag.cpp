@@ -1,4 +1,4 @@
-#include "core/process_mark.hpp"
+#include "core/owner_tag.hpp"
 
 #include <charconv>
 #include <cstdint>
@@ -43,7 +43,7 @@ const std::string& own_tag() {
 
 }  // namespace
 
-std::string process_mark() { return own_tag() + std::to_string(own_process()); }
+std::string owner_tag() { return own_tag() + std::to_string(own_process()); }
 
 std::string random_letters() {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz234567";
@@ -54,7 +54,7 @@ std::string random_letters() {
   return letters;
 }
 
-bool is_mark_of_the_dead(std::string_view mark) {
+bool is_stale_owner(std::string_view mark) {
   if (!mark.starts_with(own_tag())) return false;
   mark.remove_prefix(own_tag().size());
   int process = 0;
