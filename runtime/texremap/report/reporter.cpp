@@ -77,7 +77,7 @@ void require_success(const Outcome& outcome) {
       throw input_error(shown(outcome.reports.front().name) + ": " + *outcome.reports.front().failure_text());
     int passing = 0;  // the code of the first failure that may pass when the run is repeated
     for (const JobReport& report : outcome.reports)
-      if (passing == 0 && report.failure && passes_later(report.failure_code)) passing = report.failure_code;
+      if (passing == 0 && report.failure && is_retryable(report.failure_code)) passing = report.failure_code;
     throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed", passing);
   }
   if (!list.skipped.empty() && outcome.plan.skips_fail)

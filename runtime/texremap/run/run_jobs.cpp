@@ -14,7 +14,7 @@
 #include "sets/folder_walk.hpp"
 #include "texremap/run/job_processes.hpp"
 #include "texremap/run/job_work.hpp"
-#include "texremap/run/repeats.hpp"
+#include "texremap/run/retries.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -122,7 +122,7 @@ JobReport report_of(JobWorker& worker, const OutputFolder& folder, const Convert
     }
   };
   try {
-    for (const std::string& trouble : with_repeats(run))
+    for (const std::string& trouble : with_retries(run))
       report.warnings.push_back("tried again after " + trouble);
   } catch (const Error& error) {
     if (!plan.list.has_several) throw;

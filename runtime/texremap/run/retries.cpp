@@ -1,4 +1,4 @@
-#include "texremap/run/repeats.hpp"
+#include "texremap/run/retries.hpp"
 
 #include <chrono>
 #include <thread>
@@ -18,13 +18,13 @@ void wait_before_repeat(std::size_t repeat) {
 
 }  // namespace
 
-std::vector<std::string> with_repeats(const std::function<void()>& work) {
+std::vector<std::string> with_retries(const std::function<void()>& work) {
   std::vector<std::string> troubles;
   for (;;) try {
       work();
       return troubles;
     } catch (const Error& error) {
-      if (!passes_soon(error.system_code()) || troubles.size() == kMostRepeats || interruption()) throw;
+      if (!is_transient(error.system_code()) || troubles.size() == kMostRepeats || interruption()) throw;
       wait_before_repeat(troubles.size());
       troubles.emplace_back(error.what());
     }
