@@ -234,7 +234,7 @@ bool Conversion::is_made(Parameter parameter) const {
 
 // The largest valid value. Roughness and specular alone have no limit.
 float Conversion::highest(Parameter parameter) const {
-  return !converter_.is_of_brdf() && parameter != Parameter::kRoughness ? 1.0f : kLargest;
+  return !converter_.converts_brdf_only() && parameter != Parameter::kRoughness ? 1.0f : kLargest;
 }
 
 // The row of a map that can be read in place of a loaded one; null if its values must be changed.
@@ -520,7 +520,7 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   statistics.out_of_domain_count += converter_.convert(count, scratch.source.all(), scratch.target.all(),
                                                        maps_.mask ? scratch.outside.data() : nullptr);
   if (maps_.mask) write_mask(segment, scratch);
-  if (converter_.can_diagnose() && maps_.metallic_statistics)
+  if (converter_.has_diagnostics() && maps_.metallic_statistics)
     statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
                                                  scratch.target.row(Parameter::kResidual, 0),
                                                  scratch.target.row(Parameter::kMetallicIssues, 0),

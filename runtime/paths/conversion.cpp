@@ -57,7 +57,7 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
 std::string target_named(const ConversionRequest& request, const NamedEnd& from) {
   const std::string& to = request.target.name;
   const bool is_model = to.find('/') != std::string::npos || find_workflow_model(to) != nullptr;
-  if (request.is_of_fit || from.name.empty() || is_model) return to;
+  if (request.uses_fit_file || from.name.empty() || is_model) return to;
   const ConverterGraph& graph = *from.graph;
   const std::string source = from.workflow().brdf;
   if (graph.has_model(to) || graph.models_of(to).empty()) return to;
@@ -146,7 +146,7 @@ bool ConversionChoice::has_source(Parameter parameter) const {
 
 ConversionChoice choose_conversion(const ConversionRequest& request, const ConverterGraph& graph) {
   const ConversionWords& words = request.words;
-  if (!request.is_of_fit) {
+  if (!request.uses_fit_file) {
     if (!request.source.empty()) require_known(words.source, request.source.name, graph, words.all_names);
     if (!request.target.empty()) require_known(words.target, request.target.name, graph, words.all_names);
   }

@@ -44,7 +44,7 @@ struct ConversionRequest {
   std::optional<double> dielectric_f0;  // of metallic workflows, [0, 0.9]; by default the model's own
   double prior = kCleanPrior;           // of the projection, towards a metallic of 0 and 1
   // The BRDFs are those of a fit, of which the graph need not know.
-  bool is_of_fit = false;
+  bool uses_fit_file = false;
   ConversionWords words;
 };
 

@@ -48,7 +48,7 @@ struct DoubtStatistics {
 };
 
 // The reliability of metallic over all covered texels without NaN. All members are 0 if they were not
-// requested or if the converter cannot diagnose (Converter::can_diagnose).
+// requested or if the converter cannot diagnose (Converter::has_diagnostics).
 struct MetallicStatistics {
   std::size_t texel_count = 0;
   // Sum of squared residuals in units of 2^-40. The integer sum does not depend on the order.

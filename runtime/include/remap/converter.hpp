@@ -161,9 +161,9 @@ class Converter {
   bool has_source(Parameter parameter) const noexcept;
   bool has_target(Parameter parameter) const noexcept;
   // Whether it takes and makes width and specular alone.
-  bool is_of_brdf() const noexcept { return sources_.size() == 2; }
+  bool converts_brdf_only() const noexcept { return sources_.size() == 2; }
   // Whether it can make kResidual, kMetallicUncertainty and kMetallicIssues.
-  bool can_diagnose() const noexcept { return has_target(Parameter::kResidual); }
+  bool has_diagnostics() const noexcept { return has_target(Parameter::kResidual); }
   // The rows that it writes for a parameter if the source has `specular_channels` of specular.
   std::size_t target_channels(Parameter parameter, std::size_t specular_channels) const noexcept;
 

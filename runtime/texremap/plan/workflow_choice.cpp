@@ -50,7 +50,7 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
   request.via = options.via;
   request.diffuse_convention = options.diffuse_convention;
   request.prior = options.prior;
-  request.is_of_fit = !options.fit.empty();
+  request.uses_fit_file = !options.fit.empty();
   request.words = option_words();
   if (f0 != nullptr) request.dielectric_f0 = *f0;
   WorkflowChoice choice{choose_conversion(request, options.converters.graph()), {}};
