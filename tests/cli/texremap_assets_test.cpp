@@ -97,7 +97,7 @@ TEST_CASE("Textures of an asset become new files beside the old ones", "[assets]
   CHECK(session.texremap("convert in/wood.gltf --to gltf -o out --force --quiet").exit_code == 0);
   session.put("in/other.gltf", session.content("in/wood.gltf"));
   CHECK(session.texremap("convert in/wood.gltf in/other.gltf --to gltf -o both").exit_code == 0);
-  // Levels of PNG: other sizes, the same texels.
+  // QuantizationTable of PNG: other sizes, the same texels.
   const auto wavy = [](int x, int y, int c) { return static_cast<float>((x * y + 5 * c) % 23) / 23.0f; };
   session.make("in/d.png", test_spec(128, 64, {"R", "G", "B"}, OIIO::TypeUInt8), wavy);
   session.make("in/s.png", test_spec(128, 64, {"R", "G", "B", "A"}, OIIO::TypeUInt8), wavy);
