@@ -91,19 +91,19 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
   const auto letters = [&](const Words& more) { return set_states(convert(more).output); };
   const auto planned = tree_report(require_success(convert("--dry-run")).output);
   CHECK(planned["sets"][1]["results"].size() == 7);
-  CHECK(planned["sets"][1]["issues"] == (checks / "wood_doubts.png").string());
+  CHECK(planned["sets"][1]["issues"] == (checks / "wood_issues.png").string());
   CHECK_FALSE(fs::exists(checks));
   CHECK(letters({}) == "cc");
-  for (const char* name : {"wood_mask.png", "wood_residual.png", "wood_metallic_width.png", "wood_doubts.png",
-                           "deep/wall_mask.png", "deep/wall_doubts.png"})
+  for (const char* name : {"wood_mask.png", "wood_residual.png", "wood_metallic_uncertainty.png", "wood_issues.png",
+                           "deep/wall_mask.png", "deep/wall_issues.png"})
     CHECK(fs::exists(checks / name));
   CHECK(tree.results().size() == 6);
   CHECK(letters("--resume") == "dd");
   CHECK(letters({}) == "ff");
-  const std::string before = read_file(checks / "wood_doubts.png");
-  write_file(checks / "wood_doubts.png", "no image");
+  const std::string before = read_file(checks / "wood_issues.png");
+  write_file(checks / "wood_issues.png", "no image");
   CHECK(letters("--resume") == "dc");
-  CHECK(read_file(checks / "wood_doubts.png") == before);
+  CHECK(read_file(checks / "wood_issues.png") == before);
   write_file(checks / "wood_mask.png", "of nobody");
   fs::remove(tree.path("out/" + std::string(kJournal)));
   CHECK(letters("--resume") == "ff");
