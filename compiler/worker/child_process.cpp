@@ -16,8 +16,8 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/plain_text.hpp"
 #include "core/owner_tag.hpp"
+#include "core/plain_text.hpp"
 #include "core/read_file.hpp"
 #include "remap/error.hpp"
 

@@ -214,8 +214,10 @@ Json begin_maps(const Field& request) {
   MapConversion maps;
   maps.dither = request.flag("dither");
   maps.bad_texels = named_if(request, "badTexels", kBadTexels).value_or(BadTexels::kKeep);
-  maps.source_convention = named_if(request, "sourceEncoding", kRoughnessEncodings).value_or(held->second.source);
-  maps.target_convention = named_if(request, "targetEncoding", kRoughnessEncodings).value_or(held->second.target);
+  maps.source_convention =
+      named_if(request, "sourceEncoding", kRoughnessEncodings).value_or(held->second.source);
+  maps.target_convention =
+      named_if(request, "targetEncoding", kRoughnessEncodings).value_or(held->second.target);
   for (const Field& source : request["sources"].list(0, [](const Field& field) { return field; }))
     maps.sources[parameter_named(source["parameter"])] = source_of(source);
   for (const Field& target : request["targets"].list(0, [](const Field& field) { return field; }))

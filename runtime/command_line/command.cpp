@@ -191,8 +191,8 @@ void Command::callback(std::function<void()> work) { app_->callback(std::move(wo
 std::size_t Command::count(const std::string& option) const { return app_->count(option); }
 
 OptionTags Command::tags_of(const std::string& name) const {
-  const auto found = std::ranges::find_if(
-      options_, [&](const auto& option) { return name_of(*option->option_) == name; });
+  const auto found =
+      std::ranges::find_if(options_, [&](const auto& option) { return name_of(*option->option_) == name; });
   return found == options_.end() ? 0 : (*found)->tags_;
 }
 

@@ -401,7 +401,8 @@ void Conversion::throw_invalid_texel(const Segment& segment, std::size_t texel, 
 }
 
 // Counts invalid texels, and throws for the first one with BadTexels::kFail.
-void Conversion::count_invalid_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+void Conversion::count_invalid_texels(const Segment& segment, Scratch& scratch,
+                                      MapStatistics& statistics) const {
   struct CheckedRow {
     const float* values;
     float highest;

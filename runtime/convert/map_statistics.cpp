@@ -41,8 +41,8 @@ MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row) {
     const float residual = row.residual[i];
     if (std::isnan(residual) || (row.coverage != nullptr && !(row.coverage[i] > 0.0f))) continue;
     const long issues = std::lround(row.issues[i] * 255.0f);
-    const auto count_if_has = [&](MetallicIssue doubt, DoubtStatistics& texels) {
-      if ((issues & static_cast<long>(doubt)) != 0)
+    const auto count_if_has = [&](MetallicIssue issue, IssueStatistics& texels) {
+      if ((issues & static_cast<long>(issue)) != 0)
         texels += {1, TexelPosition{row.first.x + i, row.first.y}};
     };
     const double square = static_cast<double>(residual) * static_cast<double>(residual);
@@ -62,7 +62,7 @@ double MetallicStatistics::rms_residual() const noexcept {
   return std::sqrt(static_cast<double>(residual_squares) * kResidualUnit / static_cast<double>(texel_count));
 }
 
-DoubtStatistics& DoubtStatistics::operator+=(const DoubtStatistics& other) noexcept {
+IssueStatistics& IssueStatistics::operator+=(const IssueStatistics& other) noexcept {
   count += other.count;
   if (!first) first = other.first;
   return *this;

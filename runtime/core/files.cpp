@@ -63,8 +63,7 @@ void remove_unfinished(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (is_stale_owner(mark_in(name)) && entry.is_regular_file(ignored))
-      fs::remove(entry.path(), ignored);
+    if (is_stale_owner(mark_in(name)) && entry.is_regular_file(ignored)) fs::remove(entry.path(), ignored);
   }
 }
 

@@ -40,7 +40,7 @@ void require_prior(double prior, const std::string& place) {
 workflow_code::WidthParameter width_parameter(RoughnessEncoding width) {
   if (width == RoughnessEncoding::kAlpha) return code::WidthParameter::kAlpha;
   return width == RoughnessEncoding::kGlossiness ? code::WidthParameter::kGlossiness
-                                                   : code::WidthParameter::kRoughness;
+                                                 : code::WidthParameter::kRoughness;
 }
 
 workflow_code::Conventions conventions_of(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,

@@ -179,7 +179,8 @@ class Project final : public Stage {
 std::vector<Parameter> targets_of(const WorkflowEnd& end) {
   std::vector<Parameter> targets = parameters_of(end);
   if (kind_of(end) == WorkflowKind::kMetallic)
-    targets.insert(targets.end(), {Parameter::kResidual, Parameter::kMetallicUncertainty, Parameter::kMetallicIssues});
+    targets.insert(targets.end(),
+                   {Parameter::kResidual, Parameter::kMetallicUncertainty, Parameter::kMetallicIssues});
   return targets;
 }
 

@@ -52,9 +52,9 @@ struct CarriedRequest {
 
 struct TextureSetRequest {
   std::map<Parameter, ParameterRequest> parameters;
-  std::vector<CarriedRequest> carried;            // one channel each
+  std::vector<CarriedRequest> carried;          // one channel each
   std::optional<RoughnessEncoding> convention;  // of the roughness map; by default that of the model
-  bool resample = false;                          // enlarge maps to the largest width and height among them
+  bool resample = false;                        // enlarge maps to the largest width and height among them
 };
 
 // The place of a channel in the set.

@@ -94,8 +94,8 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
   CHECK(planned["sets"][1]["issues"] == (checks / "wood_issues.png").string());
   CHECK_FALSE(fs::exists(checks));
   CHECK(letters({}) == "cc");
-  for (const char* name : {"wood_mask.png", "wood_residual.png", "wood_metallic_uncertainty.png", "wood_issues.png",
-                           "deep/wall_mask.png", "deep/wall_issues.png"})
+  for (const char* name : {"wood_mask.png", "wood_residual.png", "wood_metallic_uncertainty.png",
+                           "wood_issues.png", "deep/wall_mask.png", "deep/wall_issues.png"})
     CHECK(fs::exists(checks / name));
   CHECK(tree.results().size() == 6);
   CHECK(letters("--resume") == "dd");

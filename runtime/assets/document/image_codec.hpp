@@ -28,8 +28,8 @@ inline std::string size_text(const ImagePixels& pixels) {
   return std::to_string(pixels.width) + "x" + std::to_string(pixels.height);
 }
 
-// QuantizationTable of zlib for PNG files: half the time of 6, which is usual elsewhere, and files a tenth larger; and
-// the smallest of several tries.
+// QuantizationTable of zlib for PNG files: half the time of 6, which is usual elsewhere, and files a tenth
+// larger; and the smallest of several tries.
 inline constexpr int kUsualPngLevel = 3, kSmallestPngLevel = 9;
 
 class ImageCodec {

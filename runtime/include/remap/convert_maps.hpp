@@ -39,12 +39,12 @@ struct TexelPosition {
 };
 
 // Statistics of the texels with one MetallicIssue.
-struct DoubtStatistics {
+struct IssueStatistics {
   std::size_t count = 0;
   std::optional<TexelPosition> first;  // in row order
 
   // Adds the statistics of rows below.
-  DoubtStatistics& operator+=(const DoubtStatistics& other) noexcept;
+  IssueStatistics& operator+=(const IssueStatistics& other) noexcept;
 };
 
 // The reliability of metallic over all covered texels without NaN. All members are 0 if they were not
@@ -54,7 +54,7 @@ struct MetallicStatistics {
   // Sum of squared residuals in units of 2^-40. The integer sum does not depend on the order.
   std::uint64_t residual_squares = 0;
   float largest_residual = 0.0f;
-  DoubtStatistics undetermined, dark, ambiguous, clamped;
+  IssueStatistics undetermined, dark, ambiguous, clamped;
 
   double rms_residual() const noexcept;
   MetallicStatistics& operator+=(const MetallicStatistics& other) noexcept;
@@ -120,7 +120,7 @@ inline constexpr NamedValues<BadTexels, 3> kBadTexels = {
 
 struct MapTreatment {
   std::optional<RoughnessEncoding> target_convention;  // of the results; by default that of the model
-  float target_roughness_factor = 1.0f;                  // stored roughness times this is the roughness
+  float target_roughness_factor = 1.0f;                // stored roughness times this is the roughness
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;               // add noise of half a step to 8-bit integers, equal in every run
   bool value_statistics = false;     // fill in ranges and histograms
@@ -141,7 +141,7 @@ struct MapConversion : MapTreatment {
   // statistics.
   std::optional<ConstChannelView> coverage;
   std::optional<RoughnessEncoding> source_convention;  // of the roughness; by default that of the model
-  std::optional<ChannelView> mask;                       // receives 1 for texels outside the domain, else 0
+  std::optional<ChannelView> mask;                     // receives 1 for texels outside the domain, else 0
   std::size_t first_row = 0;  // position of row 0 in the whole map, for positions and dithering
 };
 

@@ -50,10 +50,10 @@ enum class Parameter {
   kDiffuse,    // of the specular workflow
   kBaseColor,  // of the metallic workflow
   kMetallic,
-  kMetalMask,      // source only: chooses among metallic values that look alike
-  kResidual,       // target only: the part of a texel that metal-rough cannot represent
+  kMetalMask,            // source only: chooses among metallic values that look alike
+  kResidual,             // target only: the part of a texel that metal-rough cannot represent
   kMetallicUncertainty,  // target only: the share of [0, 1] that metallic could take
-  kMetallicIssues,         // target only: the sum of MetallicIssue values, divided by 255, so that 8 bits hold it
+  kMetallicIssues,  // target only: the sum of MetallicIssue values, divided by 255, so that 8 bits hold it
 };
 inline constexpr std::size_t kParameterCount = 9;
 
@@ -64,8 +64,8 @@ enum class MetallicIssue {
   kDark = 4,          // metallic is undetermined, because diffuse and specular are dark
   kUndetermined = 8,  // metallic is undetermined: kMetallicUncertainty is above kUndeterminedWidth
 };
-// The value of kMetallicUncertainty above which metallic is undetermined: maps authored in both workflows differ by
-// 0.15 RMS there, and by less than 0.01 below half of it.
+// The value of kMetallicUncertainty above which metallic is undetermined: maps authored in both workflows
+// differ by 0.15 RMS there, and by less than 0.01 below half of it.
 inline constexpr float kUndeterminedWidth = 0.2f;
 // A texel is dark if diffuse and F0, linear, are below this value.
 inline constexpr float kDarkTexel = 0.06f;

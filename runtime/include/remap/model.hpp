@@ -89,9 +89,9 @@ inline std::vector<std::string> convention_names() { return names_of(kRoughnessE
 
 // One end of a conversion: a model and the meaning of its two parameters.
 struct ModelSide {
-  std::string model;                                            // e.g. "mitsuba/ward"
+  std::string model;                                        // e.g. "mitsuba/ward"
   RoughnessEncoding roughness = RoughnessEncoding::kAlpha;  // the model's own width parameter
-  std::string specular = "specular";                            // "specular" (plain scale) or "f0"
+  std::string specular = "specular";                        // "specular" (plain scale) or "f0"
   bool operator==(const ModelSide&) const = default;
 };
 

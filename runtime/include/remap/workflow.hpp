@@ -127,7 +127,7 @@ struct WorkflowStages {
   // Between the BRDFs of both ends; null if they are the same.
   const Converter* brdf = nullptr;
   RoughnessEncoding width = RoughnessEncoding::kRoughness;  // of both ends if `brdf` is null
-  double prior = kCleanPrior;  // of the projection, if the target is metallic
+  double prior = kCleanPrior;                               // of the projection, if the target is metallic
 };
 
 // The stages: equation (2) if the source is metallic, then those of `brdf` for width and specular, then the

@@ -34,10 +34,10 @@ Listing listing_of_sets(const IndexOptions& options) {
   WrittenNames names;
   std::erase_if(listing.found.sets, [&](const FoundSet& set) {
     const std::filesystem::path place = options.folder / set.folder / set.name;
-    const std::string other = names.take(place, shown(options.folder / set.maps.front().path));
+    const std::string other = names.take(place, display_path(options.folder / set.maps.front().path));
     if (!other.empty())
       listing.found.problems.push_back(
-          {set.folder / set.name, shown(options.folder / set.maps.front().path) +
+          {set.folder / set.name, display_path(options.folder / set.maps.front().path) +
                                       ": its set has the name of that of " + other +
                                       " (rename one of the sets; case does not count)"});
     return !other.empty();

@@ -241,7 +241,8 @@ void add_map_options(Command& command, ConvertOptions& options) {
                   "Ambient occlusion; --layout places it unconverted")
       ->tag(kChangesResults);
   command
-      .add_option("--roughness-encoding NAME", options.roughness_encoding, one_of(kRoughnessEncodings, "encoding"),
+      .add_option("--roughness-encoding NAME", options.roughness_encoding,
+                  one_of(kRoughnessEncodings, "encoding"),
                   "What roughness maps hold; roughness is the square root of alpha (default: what the source "
                   "model takes); maps named glossiness or smoothness hold that")
       ->tag(kChangesResults | kNotWithDiffuseWarp)

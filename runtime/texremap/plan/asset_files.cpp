@@ -22,11 +22,11 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
   const fs::path inner = folder.lexically_normal().lexically_relative(root.lexically_normal());
   for (const fs::path& place : {(inner / path).lexically_normal(), (inner / slashes).lexically_normal()})
     if (place.empty() || place.is_absolute() || *place.begin() == "..")
-      throw input_error(shown(path) + ": leads out of " + shown(root) +
+      throw input_error(display_path(path) + ": leads out of " + display_path(root) +
                         " (copy it into this folder, or name one above that holds both by --root)");
   fs::path place = (inner / path).lexically_normal();
   if (std::ranges::any_of(place, is_own_name))
-    throw input_error(shown(path) + ": has a name of texremap's own files (rename it)");
+    throw input_error(display_path(path) + ": has a name of texremap's own files (rename it)");
   return place;
 }
 
@@ -92,9 +92,10 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
   const FolderResources files(job);
   for (const AssetResource& resource : resources) {
     if (resource.kind == UriKind::kRemote) continue;
-    const std::string place = shown(job.input) + ": " + (resource.where.empty() ? "" : resource.where + ": ");
+    const std::string place =
+        display_path(job.input) + ": " + (resource.where.empty() ? "" : resource.where + ": ");
     if (resource.kind == UriKind::kAbsolute)
-      throw input_error(place + shown(resource.path) +
+      throw input_error(place + display_path(resource.path) +
                         " is an absolute path (name the file relative to the asset)");
     fs::path source, target;
     try {
@@ -105,9 +106,9 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
     }
     std::error_code ignored;
     if (same_file(source, job.input))
-      throw input_error(place + shown(resource.path) + " names the asset itself as its part");
+      throw input_error(place + display_path(resource.path) + " names the asset itself as its part");
     if (!fs::is_regular_file(source, ignored)) {
-      plan.warnings.push_back("names " + shown(resource.path) + ", which is not there");
+      plan.warnings.push_back("names " + display_path(resource.path) + ", which is not there");
       continue;
     }
     if (same_file(source, target)) continue;

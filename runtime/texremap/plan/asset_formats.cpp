@@ -63,9 +63,9 @@ std::string result_extension(const fs::path& input, const std::string& format) {
   if (!format.empty() && format != "glb" && format != "gltf")
     throw usage_error("--format " + format + ": OBJ files become glb or gltf");
   const bool is_obj = kind_of_asset(input) == AssetKind::kObj;
-  if (is_obj && format.empty()) throw usage_error(shown(input) + kObjRemedy);
+  if (is_obj && format.empty()) throw usage_error(display_path(input) + kObjRemedy);
   if (!is_obj && !format.empty())
-    throw usage_error("--format " + format + ": " + shown(input) +
+    throw usage_error("--format " + format + ": " + display_path(input) +
                       " stays a file of its kind (OBJ files become glTF)");
   return format.empty() ? "" : "." + format;
 }
@@ -73,9 +73,9 @@ std::string result_extension(const fs::path& input, const std::string& format) {
 void require_format(const fs::path& input, const fs::path& output) {
   if (kind_of_asset(input) == AssetKind::kObj) {
     if (!is_gltf_name(output))
-      throw usage_error("--output " + output.string() + ": " + shown(input) + kObjRemedy);
+      throw usage_error("--output " + output.string() + ": " + display_path(input) + kObjRemedy);
   } else if (extension_of(input) != extension_of(output)) {
-    throw usage_error("--output " + output.string() + ": " + shown(input) +
+    throw usage_error("--output " + output.string() + ": " + display_path(input) +
                       " stays a file of its kind (name it *" + extension_of(input) + ")");
   }
 }
@@ -84,11 +84,11 @@ std::vector<AssetResource> resources_of_asset(const ByteSource& source, const fs
                                               const AssetResources& resources) {
   switch (kind_of_asset(input)) {
     case AssetKind::kMtl:
-      return mtl_resources(source, shown(input), &resources);
+      return mtl_resources(source, display_path(input), &resources);
     case AssetKind::kObj:
-      return obj_resources(source, shown(input), resources);
+      return obj_resources(source, display_path(input), resources);
     default:
-      return gltf_resources(source, shown(input));
+      return gltf_resources(source, display_path(input));
   }
 }
 
@@ -96,12 +96,12 @@ AssetConversion convert_asset(const ByteSource& source, const fs::path& input, c
                               const AssetOptions& options, const AssetResources& resources) {
   switch (kind_of_asset(input)) {
     case AssetKind::kMtl:
-      return convert_mtl(source, shown(input), options, &resources);
+      return convert_mtl(source, display_path(input), options, &resources);
     case AssetKind::kObj:
-      return gltf_of_obj(source, shown(input), options, resources,
+      return gltf_of_obj(source, display_path(input), options, resources,
                          {extension_of(output) == ".glb", output.stem().string()});
     default:
-      return convert_gltf(source, shown(input), options, &resources);
+      return convert_gltf(source, display_path(input), options, &resources);
   }
 }
 

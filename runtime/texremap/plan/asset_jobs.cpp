@@ -29,7 +29,7 @@ AssetWork& asset_in(Job& job) { return std::get<AssetWork>(job.work); }
 
 void add(AssetWork asset, JobList& list) {
   Job& job = list.jobs.emplace_back(Job{asset.input.string()});
-  job.owner = "the conversion of " + shown(asset.input);
+  job.owner = "the conversion of " + display_path(asset.input);
   job.work = std::move(asset);
 }
 
@@ -53,7 +53,7 @@ void add_named(const ConvertOptions& options, JobList& list) {
     const fs::path root = options.asset_root.empty() ? folder_of_asset(input) : options.asset_root;
     const fs::path below = input.lexically_normal().lexically_relative(root.lexically_normal());
     if (below.empty() || *below.begin() == "..")
-      throw usage_error("--root " + root.string() + ": " + shown(input) + " does not lie below it");
+      throw usage_error("--root " + root.string() + ": " + display_path(input) + " does not lie below it");
     add({input, options.output / result_name(below, options), root, options.output}, list);
   }
 }
@@ -74,14 +74,14 @@ void add_tree(const ConvertOptions& options, JobList& list) {
   for (const WalkProblem& problem : walk.problems) list.skipped.push_back({problem.message, true});
   list.is_of_folder = list.has_several = true;
   if (list.jobs.empty())
-    throw usage_error(shown(options.folder) + ": no " + asset_words(options.format) + " in it" +
+    throw usage_error(display_path(options.folder) + ": no " + asset_words(options.format) + " in it" +
                       (options.recursive ? "" : " (--recursive looks into its subfolders)"));
 }
 
 void add_listed(const ConvertOptions& options, const Listing& listing, JobList& list) {
   for (const ListedAsset& asset : listing.assets) {
     if (!is_asset_name(asset.path))
-      throw input_error(shown(asset.path) + ": is no asset (texremap index again)");
+      throw input_error(display_path(asset.path) + ": is no asset (texremap index again)");
     AssetWork work = asset_in_tree(asset.path, options);
     work.image_prefix = asset.image_prefix;
     add(std::move(work), list);
@@ -124,7 +124,7 @@ class NamePlan {
     for (Job& job : list_.jobs) {
       const AssetWork& asset = asset_in(job);
       take(job, asset.output, job.owner);
-      if (name_key(asset.input) != name_key(asset.output)) take(job, asset.input, shown(asset.input));
+      if (name_key(asset.input) != name_key(asset.output)) take(job, asset.input, display_path(asset.input));
     }
   }
 
@@ -137,7 +137,7 @@ class NamePlan {
       const AssetWork& asset = asset_in(job);
       for (const fs::path& file : asset.files)
         for (const fs::path& name : {file, asset.copy_of(file)}) {
-          take(job, name, shown(file));
+          take(job, name, display_path(file));
           note_name(name);
         }
     }

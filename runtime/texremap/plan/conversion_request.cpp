@@ -124,7 +124,7 @@ namespace {
 
 // The encoding of the roughness maps. `--roughness` means roughness even for a model that takes glossiness.
 std::optional<RoughnessEncoding> given_convention(const ConvertOptions& options,
-                                                    const WorkflowChoice& workflow) {
+                                                  const WorkflowChoice& workflow) {
   if (options.reads_glossiness()) return RoughnessEncoding::kGlossiness;
   if (options.roughness_encoding) return options.roughness_encoding;
   if (!workflow.is_material()) return std::nullopt;
@@ -243,7 +243,7 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
 }  // namespace
 
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
-                                  const WidthSource& source, RoughnessEncoding usual) {
+                                const WidthSource& source, RoughnessEncoding usual) {
   constexpr auto kGlossiness = RoughnessEncoding::kGlossiness, kRoughness = RoughnessEncoding::kRoughness;
   const RoughnessEncoding wanted = asked.value_or(usual);
   if (const auto held = choice.layout.width()) {
@@ -297,7 +297,8 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   if (!options.diagnose.empty()) {
     choice.diagnoses = {MaskChannel{}};
     if (workflow.finds_metallic())
-      for (const Parameter measure : {Parameter::kResidual, Parameter::kMetallicUncertainty, Parameter::kMetallicIssues})
+      for (const Parameter measure :
+           {Parameter::kResidual, Parameter::kMetallicUncertainty, Parameter::kMetallicIssues})
         choice.diagnoses.push_back(ConvertedChannel{measure});
   }
   choice.parameters = workflow.targets();

@@ -36,14 +36,14 @@ std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
 // The roughness of a set before the conversion.
 struct WidthSource {
-  std::filesystem::path file;                     // empty for a number
+  std::filesystem::path file;                   // empty for a number
   std::optional<RoughnessEncoding> convention;  // where an option or the name of the file says it
 };
 // What the roughness results of a set hold: `usual`, or what --output-encoding asks for, but what a name says
 // stays true: a map of glossiness that keeps its name stays glossiness, orm and arm hold roughness, specgloss
 // holds glossiness. Throws kUsage if --output-encoding contradicts a name that stays.
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
-                                  const WidthSource& source, RoughnessEncoding usual);
+                                const WidthSource& source, RoughnessEncoding usual);
 // Refuses --output-roughness-factor for results that hold no exponent.
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width);
 

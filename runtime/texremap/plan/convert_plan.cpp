@@ -196,7 +196,7 @@ void refuse_engine(const ConvertOptions& options) {
   throw usage_error(
       (options.preset != nullptr ? "--preset " + std::string(preset->name)
                                  : "--to " + std::string(options.to.word())) +
-      ": textures are not taken out of assets such as " + shown(options.folder) +
+      ": textures are not taken out of assets such as " + display_path(options.folder) +
       " (convert it by --to gltf, which engines import; or export its textures, as with Blender, "
       "and convert their folder by --preset " +
       std::string(preset->name) + ")");
@@ -217,7 +217,7 @@ void require_asset_options(const ConvertOptions& options) {
   const bool is_tree = options.assets || !options.manifest.empty();
   for (const GivenOption& option : options.given)
     if ((option.tags & (kNeedsAsset | kForAssets)) == 0)
-      throw usage_error(option.name + ": applies to nothing, because " + shown(options.folder) +
+      throw usage_error(option.name + ": applies to nothing, because " + display_path(options.folder) +
                         (is_tree ? " is converted as a folder of assets" : " is an asset") +
                         " (remove this option)");
   if (!is_tree)
@@ -227,7 +227,7 @@ void require_asset_options(const ConvertOptions& options) {
     throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
                       (options.more_assets.empty()
                            ? std::string("--root, which is DIR")
-                           : shown(options.more_assets.front()) + " (name one folder)"));
+                           : display_path(options.more_assets.front()) + " (name one folder)"));
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
     throw usage_error("--from " + options.from.name +

@@ -44,7 +44,8 @@ struct AssetWork {
 };
 
 struct Job {
-  // Path of the set or the asset, as bytes; empty for the one set of a command line. Messages use shown().
+  // Path of the set or the asset, as bytes; empty for the one set of a command line. Messages use
+  // display_path().
   std::string name;
   std::string tile = {};     // number of the tile; empty where there are none
   std::string owner = {};    // of the names of its results, for WrittenNames: two sets may have one name

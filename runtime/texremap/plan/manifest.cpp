@@ -43,7 +43,8 @@ struct Listed {
   void add_file(const fs::path& root, const fs::path& file, bool is_read) {
     std::error_code failure;
     const std::uintmax_t size = fs::file_size(root / file, failure);
-    if (failure) throw system_error(ErrorKind::kInput, shown(file) + ": cannot be read", errno_of(failure));
+    if (failure)
+      throw system_error(ErrorKind::kInput, display_path(file) + ": cannot be read", errno_of(failure));
     sizes.push_back(size);
     bytes += size;
     if (is_read) cost += size + kCostOfFile;
@@ -53,9 +54,10 @@ struct Listed {
 // Refuses what JSON cannot hold, and what a reader of the manifest refuses.
 void require_listable(const fs::path& path) {
   if (!is_utf8(path.string()))
-    throw input_error(shown(path) + ": the name is not UTF-8, which a manifest cannot hold (rename it)");
+    throw input_error(display_path(path) +
+                      ": the name is not UTF-8, which a manifest cannot hold (rename it)");
   if (const std::string fault = fault_of_relative(path.string()); !fault.empty())
-    throw input_error(shown(path) + ": the name " + fault + ", which a manifest refuses (rename it)");
+    throw input_error(display_path(path) + ": the name " + fault + ", which a manifest refuses (rename it)");
 }
 
 fs::path place_of(const FoundSet& set) { return set.folder / set.name; }
@@ -307,7 +309,7 @@ std::vector<Listed<Entry>> listed_all(const fs::path& root, const std::vector<En
     try {
       all.push_back(listed(root, entry));
     } catch (const Error& error) {
-      problems.push_back({place_of(entry), shown(root) + "/" + error.what()});
+      problems.push_back({place_of(entry), display_path(root) + "/" + error.what()});
       continue;
     }
     head.file_count += all.back().sizes.size();
@@ -329,7 +331,8 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
   head.root = fs::absolute(root).lexically_normal();
   head.names = names;
   if (!is_utf8(head.root.string()))
-    throw input_error(shown(head.root) + ": the name is not UTF-8, which a manifest cannot hold (rename it)");
+    throw input_error(display_path(head.root) +
+                      ": the name is not UTF-8, which a manifest cannot hold (rename it)");
   const std::vector<Listed<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
   const std::vector<Listed<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
   // The hash stands before the lines, which are made twice rather than kept: a manifest may have gigabytes.

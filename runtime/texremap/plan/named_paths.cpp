@@ -93,8 +93,8 @@ void require_readable(const fs::path& path) {
   std::string remedy(found->remedy);
   if (const std::size_t at = remedy.find("FILE"); at != std::string::npos)
     remedy.replace(at, 4, shell_word(path.string()));
-  throw usage_error(shown(path) + ": " + std::string(found->name) + " files are not read; " + kRead + " (" +
-                    remedy + ")");
+  throw usage_error(display_path(path) + ": " + std::string(found->name) + " files are not read; " + kRead +
+                    " (" + remedy + ")");
 }
 
 void require_one_kind(const fs::path& first, const std::vector<fs::path>& more) {
@@ -102,7 +102,7 @@ void require_one_kind(const fs::path& first, const std::vector<fs::path>& more) 
   for (const fs::path& path : more) require_readable(path);
   if (more.empty()) {
     if (!is_regular(first) || is_asset_name(first)) return;
-    throw usage_error(shown(first) +
+    throw usage_error(display_path(first) +
                       ": not a glTF, GLB, MTL or OBJ file, and not a folder (give the folder of a "
                       "set, or its maps by --roughness, --base-color, ...)");
   }
@@ -113,10 +113,10 @@ void require_one_kind(const fs::path& first, const std::vector<fs::path>& more) 
   const auto other = std::ranges::find_if(all, [](const fs::path& path) { return !is_asset_name(path); });
   if (other == all.end()) return;
   std::error_code ignored;
-  std::string remedy = "put paths with spaces in quotes: \"" + shown(whole) + "\"";
+  std::string remedy = "put paths with spaces in quotes: \"" + display_path(whole) + "\"";
   if (!fs::exists(whole, ignored) && fs::exists(*other, ignored) && fs::exists(first, ignored))
     remedy = fs::is_directory(*other, ignored) ? "convert one folder at a time" : "remove it";
-  throw usage_error(shown(*other) + ": not a glTF, MTL or OBJ file (" + remedy + ")");
+  throw usage_error(display_path(*other) + ": not a glTF, MTL or OBJ file (" + remedy + ")");
 }
 
 }  // namespace remap

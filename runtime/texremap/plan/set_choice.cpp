@@ -9,7 +9,7 @@ namespace remap {
 namespace {
 
 std::string use_text(const FoundSet& set, const MapUse& use) {
-  std::string text = shown(set.maps[use.map].path.filename());
+  std::string text = display_path(set.maps[use.map].path.filename());
   if (use.channels != Channels::kWhole) text += ":" + std::string(name_of(kChannels, use.channels));
   return text;
 }
@@ -144,7 +144,7 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
   for (const FoundSet& set : sets->sets) {
     const std::string inferred = model_of_set(set);
     if (inferred.empty()) continue;
-    const std::string place = shown(set.folder / set.name);
+    const std::string place = display_path(set.folder / set.name);
     if (!first.empty() && inferred != model)
       throw usage_error("--from is required, because the sets differ: " + first + " is of the model " +
                         model + ", " + place + " of " + inferred + " (convert them apart)");

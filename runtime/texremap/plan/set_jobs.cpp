@@ -117,8 +117,8 @@ class SetJobs {
   // Whether a set without a map of width has one by an option, and other maps of the material.
   bool has_given_width(const FoundSet& set) const;
   void fail(const std::string& message) { jobs_.skipped.push_back({message, true}); }
-  std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
-  std::string owner(const FoundSet& set) const { return shown(root_ / set.maps.front().path); }
+  std::string place(const FoundSet& set) const { return display_path(root_ / set.folder / set.name); }
+  std::string owner(const FoundSet& set) const { return display_path(root_ / set.maps.front().path); }
 
   const ConvertOptions& options_;
   const WorkflowChoice& workflow_;
@@ -190,7 +190,7 @@ void SetJobs::leave_out_shared() {
   const auto is_shared = [&](const fs::path& file) {
     return std::ranges::any_of(shared, [&](const fs::path& map) { return same_file(map, root_ / file); });
   };
-  for (const fs::path& map : shared) jobs_.notes.push_back(shown(map) + " is used for every set");
+  for (const fs::path& map : shared) jobs_.notes.push_back(display_path(map) + " is used for every set");
   std::erase_if(found_.sets, [&](const FoundSet& set) {
     return std::ranges::all_of(set.maps, [&](const FoundMap& map) { return is_shared(map.path); });
   });
@@ -219,7 +219,7 @@ void SetJobs::add(FoundSet set) {
   if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
   if (set.state != SetState::kReady) {
     for (const std::string& remark : set.remarks)
-      jobs_.skipped.push_back({shown(root_) + "/" + remark, set.state == SetState::kFaulty});
+      jobs_.skipped.push_back({display_path(root_) + "/" + remark, set.state == SetState::kFaulty});
     return;
   }
   for (const Parameter parameter : workflow_.sources()) {
@@ -249,7 +249,7 @@ bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::s
   if (const MapName* given = given_map(parameter)) {
     const fs::path file = file_of_set(given->file, set, number);
     if (!is_file(file)) {
-      fail(place(set) + ": no " + shown(file.filename()) + ", which " + option + " names");
+      fail(place(set) + ": no " + display_path(file.filename()) + ", which " + option + " names");
       return false;
     }
     asked.source = MapName{file, given->channels};
@@ -263,7 +263,7 @@ bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::s
   const std::optional<fs::path> file = file_of(map, tile);
   if (!file) {
     fail(place(set) + (number.empty() ? "" : ", tile " + number) + ": no " +
-         std::string(role_name(use.role)) + " map found (" + shown(map.path.filename()) +
+         std::string(role_name(use.role)) + " map found (" + display_path(map.path.filename()) +
          " lacks this tile)");
     return false;
   }
@@ -340,10 +340,10 @@ void SetJobs::note_normals() {
   for (const auto& [reason, maps] : normals_) {
     const CopiedFile& first = maps.front();
     const std::string done =
-        first.turned_name.empty() ? "kept" : "inverted in the copy " + shown(first.turned_name);
+        first.turned_name.empty() ? "kept" : "inverted in the copy " + display_path(first.turned_name);
     const std::string more =
         maps.size() == 1 ? "" : " (the same for " + counted(maps.size() - 1, "more normal map") + ")";
-    jobs_.notes.push_back(shown(first.source) + ": green is " + done + ", because " + reason + more);
+    jobs_.notes.push_back(display_path(first.source) + ": green is " + done + ", because " + reason + more);
   }
 }
 
@@ -429,7 +429,7 @@ void SetJobs::require_encoding_used() const {
 bool SetJobs::takes_names(const FoundSet& set) {
   const auto take = [&](const fs::path& path, const fs::path& source) {
     const std::string other = jobs_.names->take(path, owner(set));
-    if (!other.empty()) fail(written_twice_text(path, other, shown(root_ / source)));
+    if (!other.empty()) fail(written_twice_text(path, other, display_path(root_ / source)));
     return other.empty();
   };
   for (const auto& [path, source] : outputs(set))
@@ -510,9 +510,9 @@ std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
   discovery.also = asset_extensions("");
   Discovery found = find_sets(options.folder, discovery);
   if (found.sets.empty() && found.problems.empty() && !found.others.empty())
-    throw usage_error(shown(options.folder) + ": no texture set found by file names, but " +
-                      counted(found.others.size(), "asset") + ", such as " + shown(found.others.front()) +
-                      " (--assets converts them)");
+    throw usage_error(display_path(options.folder) + ": no texture set found by file names, but " +
+                      counted(found.others.size(), "asset") + ", such as " +
+                      display_path(found.others.front()) + " (--assets converts them)");
   return found;
 }
 

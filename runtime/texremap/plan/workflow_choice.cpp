@@ -92,9 +92,9 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
   require_models_of_fit(options.fit, {options.from.name, options.to.name},
                         {fit.source_model, fit.template_model});
   // The warp was made from maps of roughness.
-  const RoughnessEncoding width =
-      options.reads_glossiness() ? RoughnessEncoding::kGlossiness
-                                 : options.roughness_encoding.value_or(RoughnessEncoding::kRoughness);
+  const RoughnessEncoding width = options.reads_glossiness()
+                                      ? RoughnessEncoding::kGlossiness
+                                      : options.roughness_encoding.value_or(RoughnessEncoding::kRoughness);
   // `remapc warp` reads metallic sets in the same way.
   WorkflowChoice choice{choice_of_warp(fit, options.from_workflow.value_or(WorkflowKind::kSpecular), width),
                         {}};

@@ -20,7 +20,7 @@ std::string WrittenNames::take(const fs::path& path, const std::string& owner) {
 }
 
 std::string written_twice_text(const fs::path& path, const std::string& first, const std::string& second) {
-  return shown(path) + ": would be written twice, from " + first + " and from " + second +
+  return display_path(path) + ": would be written twice, from " + first + " and from " + second +
          " (rename one, or convert them into two folders)";
 }
 

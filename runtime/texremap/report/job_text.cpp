@@ -165,7 +165,7 @@ std::string outcome_text(const JobReport& report, bool dry_run) {
     text += ", " + std::to_string(untouched) + " left as " + (untouched == 1 ? "it is" : "they are");
   if (report.results.empty()) return text + "; nothing " + verb + "written";
   if (!dry_run) text += " in " + fixed(report.seconds, 2) + " s";
-  text += ": " + shown(report.results.front().path);
+  text += ": " + display_path(report.results.front().path);
   const std::size_t images = report.results.size() - 1;
   if (images > 0) text += ", plus " + counted(images, "new file");
   if (!report.copies.empty())
@@ -197,7 +197,7 @@ std::size_t WarningKinds::repeated() const {
 
 void print_job(const ConvertPlan& plan, const JobReport& report, WarningKinds& warnings) {
   const bool is_asset = plan.sets() == nullptr;
-  std::string place = report.name.empty() ? "" : shown(report.name) + ": ";
+  std::string place = report.name.empty() ? "" : display_path(report.name) + ": ";
   if (!report.tiles.empty()) place += counted(report.tiles.size(), plan.list.tile_noun) + ": ";
   if (!plan.quiet)
     for (const std::string& warning : report.warnings)

@@ -109,7 +109,7 @@ void ReportMerger::add_entry(const Part& part, const Field& entry) {
   const std::string& state = entry["state"].any_text();
   if (state == "failed") {
     ++merged_.failed;
-    merged_.failures.push_back(shown(name) + ": " + entry["failure"].any_text());
+    merged_.failures.push_back(display_path(name) + ": " + entry["failure"].any_text());
   } else {
     merged_.converted += state == "converted";
     merged_.done_before += state == "done before";
@@ -187,7 +187,7 @@ MergedReport ReportMerger::merge() {
     problem("no report of " + counted(missing.size(), "part") + ": " + named(missing) +
             " (convert them again with --resume)");
   for (const auto& [where, cases] : twice_)
-    problem("the same " + where + ": " + shown(cases.second) +
+    problem("the same " + where + ": " + display_path(cases.second) +
             (cases.first > 1 ? " and " + std::to_string(cases.first - 1) + " more" : "") + " (two " +
             noun_of(merged_.kind) + "s must not give one file: rename one)");
   return std::move(merged_);

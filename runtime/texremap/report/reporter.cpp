@@ -74,7 +74,8 @@ void require_success(const Outcome& outcome) {
   const std::string of_all = " of " + counted(all, noun_of(list.kind)) + " ";
   if (const std::size_t failed = outcome.failed_count(); failed > 0) {
     if (!list.has_several)
-      throw input_error(shown(outcome.reports.front().name) + ": " + *outcome.reports.front().failure_text());
+      throw input_error(display_path(outcome.reports.front().name) + ": " +
+                        *outcome.reports.front().failure_text());
     int passing = 0;  // the code of the first failure that may pass when the run is repeated
     for (const JobReport& report : outcome.reports)
       if (passing == 0 && report.failure && is_retryable(report.failure_code)) passing = report.failure_code;

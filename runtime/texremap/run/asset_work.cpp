@@ -72,7 +72,7 @@ class AssetWorker final : public JobWorker {
     report.results = {{asset.output, {}, false}};
     if (report.was_done) return;
     if (!plan_.force && same_file(asset.input, asset.output))
-      throw output_error(shown(asset.output) + ": is the input itself (--force replaces it)");
+      throw output_error(display_path(asset.output) + ": is the input itself (--force replaces it)");
     folder_.require_free(asset.output);
     const AssetConversion conversion = convert_asset(source, asset.input, asset.output, options_, files);
     report.materials = conversion.materials;

@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-std::string name_of_file(const std::filesystem::path& file) { return shown(file.filename()); }
+std::string name_of_file(const std::filesystem::path& file) { return display_path(file.filename()); }
 
 std::string input_of(const TextureSet& set, const SetParameter& parameter) {
   std::string text;

@@ -99,9 +99,9 @@ class MergedReports {
 
 // What a message calls a job: the set or the asset, or of a set without a name its first map.
 std::string place_of(const Job& job) {
-  if (!job.name.empty()) return shown(job.name);
+  if (!job.name.empty()) return display_path(job.name);
   for (const auto& [parameter, asked] : std::get<SetWork>(job.work).request.parameters)
-    if (const auto* map = std::get_if<MapName>(&asked.source)) return shown(map->file);
+    if (const auto* map = std::get_if<MapName>(&asked.source)) return display_path(map->file);
   return "the set";
 }
 

@@ -66,10 +66,9 @@ Metadata metadata_of(const ChosenConverter& chosen) {
 void require_not_converted(const TextureSet& set, const ChosenConverter& chosen, JournalLookup& journals) {
   const std::string& source = chosen.info().source.model;
   const WorkflowChoice& workflow = chosen.workflow;
-  const WorkflowEnd end =
-      workflow.is_material()
-          ? *workflow.source
-          : workflow_over(source, WorkflowKind::kSpecular, RoughnessEncoding::kAlpha).end;
+  const WorkflowEnd end = workflow.is_material()
+                              ? *workflow.source
+                              : workflow_over(source, WorkflowKind::kSpecular, RoughnessEncoding::kAlpha).end;
   const std::string& brdf = workflow.is_material() ? workflow.source_brdf : source;
   for (const ImageReader& map : set.maps) {
     std::optional<std::string> model = map.noted_metadata("remap:target");
@@ -165,7 +164,7 @@ std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report)
   const WorkflowChoice& workflow = chosen_.workflow;
   if (!workflow.is_material()) return nullptr;
   const MaterialSample sample = sample_materials(set);
-  for (std::string& doubt : issues_in(sample, set)) report.warnings.push_back(std::move(doubt));
+  for (std::string& issue : issues_in(sample, set)) report.warnings.push_back(std::move(issue));
   if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
   WorkflowStages stages = stages_of(chosen_.workflow, chosen_.brdf);
   const RoughnessEncoding width = set.convention.value_or(chosen_.info().source.roughness);
@@ -281,8 +280,8 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
       written_width(sets_.pass.target_convention, choice, width_source(set), usual_width(set));
   const bool is_exponent = width == RoughnessEncoding::kExponent;
   choice.width_name = width == RoughnessEncoding::kGlossiness ? "glossiness"
-                      : is_exponent                             ? "exponent"
-                                                                : "roughness";
+                      : is_exponent                           ? "exponent"
+                                                              : "roughness";
   require_factor_of_exponent(sets_.scales_exponents, width);
   if (sets_.scales_exponents || width != set.convention.value_or(chosen_.info().source.roughness))
     std::erase(choice.unchanged, Parameter::kRoughness);

@@ -218,7 +218,7 @@ TEST_CASE("convert_maps: statistics cover all values, for any number of threads"
 TEST_CASE("convert_maps: every encoding of roughness gives the same result") {
   const auto converter = make_interpreted_converter(example_fit());
   const RoughnessEncoding own = converter->info().source.roughness,
-                            target = converter->info().target.roughness;
+                          target = converter->info().target.roughness;
   for (const std::string& name : convention_names()) {
     INFO(name);
     const RoughnessEncoding encoding = *encoding_from_name(name);

@@ -107,7 +107,7 @@ TEST_CASE("unfinished files: those of processes that were killed are removed, al
   REQUIRE(is_left());
   CHECK(is_stale_owner(tag + std::to_string(dead)));
   const std::vector<std::string> others = {
-      ".a.unfinished-" + owner_tag() + "-abc.png",                 // of a process that lives
+      ".a.unfinished-" + owner_tag() + "-abc.png",                    // of a process that lives
       ".a.unfinished-00000000-" + std::to_string(dead) + "-abc.png",  // of another machine
       ".a.unfinished-" + std::to_string(dead) + "-abc.png",           // without a machine
       ".a.unfinished-" + tag + std::to_string(dead) + "x-abc.png",    // not quite the name
