@@ -64,6 +64,11 @@ Option* Option::default_text(const std::string& text) {
   return this;
 }
 
+Option* Option::common() {
+  option_->group("Options");
+  return this;
+}
+
 Option* Option::tag(OptionTags tags) {
   tags_ |= tags;
   return this;

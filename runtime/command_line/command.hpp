@@ -111,6 +111,8 @@ class Option {
   // Help shows this default.
   Option* default_text(const std::string& text);
   Option* tag(OptionTags tags);
+  // Moves it to the options that `--help` shows first.
+  Option* common();
   // The environment variable that gives the value if the option is not given.
   Option* environment(const std::string& name);
   Option* one_of(const std::vector<std::string>& words);

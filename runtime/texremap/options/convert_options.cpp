@@ -135,25 +135,27 @@ Reader<GivenPart> given_part() {
 }
 
 void add_source_options(Command& command, ConvertOptions& options) {
-  command.option_group("Source and target");
-  command
-      .add_option(
-          "DIR", options.folder,
-          "Folder of texture sets, found by the names of their maps; or an asset: a glTF, MTL or OBJ file")
+  command.option_group("Rare: source and target");
+  command.add_option("DIR", options.folder, "Folder of texture sets; or an asset: a glTF, MTL or OBJ file")
       ->tag(kOfPlan | kForAssets);
   command.add_option("ASSET", options.more_assets, "More assets")->tag(kNeedsAsset);
-  command.add_option("--from MODEL", options.from, model_name(), "Source model, e.g. mitsuba/ward or unity")
+  command
+      .add_option("--from MODEL", options.from, model_name(),
+                  "Model of the maps: unity, blender, gltf-specgloss, mitsuba/ward, ... (default: detected "
+                  "from the maps)")
+      ->common()
       ->tag(kForAssets);
   command
-      .add_option(
-          "--to MODEL", options.to, model_name(),
-          "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models")
+      .add_option("--to MODEL", options.to, model_name(),
+                  "Model of the results: gltf, unity, cycles-5, mitsuba/as, ...; see texremap list --models")
+      ->common()
       ->tag(kForAssets);
   command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter")
       ->tag(kIsPath);
   command
       .add_flag("-r,--recursive", options.recursive,
                 "Convert the subfolders of DIR, too; results mirror the tree")
+      ->common()
       ->tag(kNeedsTree | kForAssets | kNeedsFolder);
   command
       .add_flag("--assets", options.assets,
@@ -221,7 +223,7 @@ void add_source_options(Command& command, ConvertOptions& options) {
 // The footer of the command explains the value MAP.
 void add_map_options(Command& command, ConvertOptions& options) {
   using P = Parameter;
-  command.option_group("Maps");
+  command.option_group("Rare: maps");
   const auto add_map = [&](const std::string& name, P parameter, const std::string& description) {
     return command.add_option(name + " MAP", options.maps[parameter], map_source(), description)
         ->tag(kChangesResults);
@@ -256,6 +258,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
   command
       .add_flag("--resample", options.resample,
                 "Enlarge smaller maps of a set to the largest size, bilinearly")
+      ->common()
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
       .add_option(
@@ -270,10 +273,11 @@ void add_map_options(Command& command, ConvertOptions& options) {
 }
 
 void add_output_options(Command& command, ConvertOptions& options) {
-  command.option_group("Output");
+  command.option_group("Rare: output");
   command
       .add_option("-o,--output DIR", options.output,
-                  "Folder for the results, which keep the names of the inputs")
+                  "Folder for the results, which keep the names of the inputs; of one asset also a file")
+      ->common()
       ->tag(kForAssets | kNeedsFiles);
   command
       .add_option("--layout NAME", options.layout, layout(),
@@ -307,7 +311,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFiles | kNotWithWorkflow);
   command
       .add_flag("--only-converted", options.only_converted,
-                "With DIR, write only converted maps, without normal, height, opacity and others")
+                "Write only converted maps, not normal, height, opacity and others")
+      ->common()
       ->tag(kChangesResults | kNeedsFolder);
   command.retire(
       "--compact",
@@ -315,9 +320,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--copy-others",
                  "all maps of a set come along now (remove this option; --only-converted leaves them out)");
   command
-      .add_flag("--force", options.force,
-                "Overwrite existing results (never an input); accept maps that were already converted and a "
-                "folder of another conversion")
+      .add_flag("--force", options.force, "Overwrite results; convert maps again that were converted before")
+      ->common()
       ->tag(kForAssets | kNeedsFiles);
   command
       .add_flag(
@@ -328,16 +332,14 @@ void add_output_options(Command& command, ConvertOptions& options) {
       .add_flag("--allow-skips", options.allow_skips,
                 "With DIR, sets that are found and not converted do not make the exit code 1")
       ->tag(kNeedsFolder);
-  command
-      .add_flag("--dry-run", options.dry_run,
-                "Show what would happen to each map, and the files that would be written; write nothing")
+  command.add_flag("--dry-run", options.dry_run, "Show what would happen to each map; write nothing")
+      ->common()
       ->tag(kOfPlan | kForAssets | kNeedsFiles);
-  Option* json =
-      command
-          .add_flag(
-              "--json", options.json,
-              "Print a report as JSON; of a folder a line for each set as it is finished, then a summary")
-          ->tag(kOfPlan | kForAssets);
+  Option* json = command
+                     .add_flag("--json", options.json,
+                               "Print a report as JSON; of several sets or assets a line for each")
+                     ->common()
+                     ->tag(kOfPlan | kForAssets);
   command.add_flag("--histograms", options.histograms, "With --json, also histograms of the values")
       ->tag(kNeedsFiles)
       ->needs(json);
@@ -351,7 +353,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
 }
 
 void add_workflow_options(Command& command, ConvertOptions& options) {
-  command.option_group("Whole materials (metallic and specular workflows)");
+  command.option_group("Rare: whole materials (metallic and specular workflows)");
   command
       .add_option("--from-workflow NAME", options.from_workflow, one_of(kWorkflowKinds, "workflow"),
                   "Workflow around the source model: specular (diffuse, specular) or metallic (base color, "
