@@ -395,7 +395,7 @@ void Conversion::throw_invalid_texel(const Segment& segment, std::size_t texel, 
       throw Error(ErrorKind::kInput, source.name + ": " + of + "texel (" + std::to_string(segment.x + texel) +
                                          ", " + std::to_string(maps_.first_row + segment.y) + ") is " +
                                          number_text(static_cast<double>(value)) +
-                                         " (--bad-texels clamp replaces such values)");
+                                         " (--nan clamp replaces such values)");
     }
   throw Error(ErrorKind::kUsage, "convert_maps: no invalid texel found");
 }

@@ -415,7 +415,7 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
           throw usage_error(
               map.path.string() +
               ": would hold whole numbers, and its roughness is an exponent "
-              "(--output-roughness-factor says which exponent white is: 1000 in MTL files, 128 in "
+              "(--exponent-of-white says which exponent white is: 1000 in MTL files, 128 in "
               "OpenGL, 100 for percent; or --format exr)");
     }
 }

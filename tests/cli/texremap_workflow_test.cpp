@@ -298,7 +298,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   CHECK_THAT(session.texremap(whole + "-o none").last_error(),
              Contains("would hold whole numbers, and its roughness is an exponent"));
   CHECK_FALSE(std::filesystem::exists(session.path("none")));
-  REQUIRE(session.texremap(whole + "--output-roughness-factor 1000 -o whole").exit_code == 0);
+  REQUIRE(session.texremap(whole + "--exponent-of-white 1000 -o whole").exit_code == 0);
   const TestImage stored = session.image("whole/exponent.png");
   for (int i = 0; i < kWorkflowSize; ++i)
     CHECK(stored.at(i, i, 0) * 1000.0f ==
@@ -308,7 +308,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
       "--diffuse whole/diffuse.png ";
   CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--roughness-factor says"));
   CHECK(session.texremap(back + "--roughness-factor 1000 -o back").exit_code == 0);
-  CHECK_THAT(session.texremap(command + "--to unity --output-roughness-factor 128 -o none").last_error(),
+  CHECK_THAT(session.texremap(command + "--to unity --exponent-of-white 128 -o none").last_error(),
              Contains("applies to exponents only"));
 }
 

@@ -70,7 +70,6 @@ Measured measured(const TreeManifest& manifest, ConvertOptions options) {
   if (!options.diagnose.empty()) options.diagnose = scratch.file("diagnose");
   options.quiet = true;
   options.thread_count = 1;
-  options.allow_skips = true;
   const ManifestHead head = write_manifest(options.manifest, options.folder, "", sample_of(manifest));
   const Stopwatch stopwatch;
   try {

@@ -317,6 +317,11 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire(
       "--compact",
       "unused images are dropped now (remove this option; --compression 9 makes new images smallest)");
+  command.retire("--allow-skips",
+                 "sets without anything to convert no longer make a run fail (remove this option)");
+  command.retire("--bad-texels", "is called --nan");
+  command.retire("--output-roughness-factor", "is called --exponent-of-white");
+  command.retire("--prior", "is called --metallic-bias");
   command.retire("--copy-others",
                  "all maps of a set come along now (remove this option; --only-converted leaves them out)");
   command
@@ -328,10 +333,6 @@ void add_output_options(Command& command, ConvertOptions& options) {
           "--resume", options.resume,
           "Skip sets that are done; make anew those whose inputs, options, converter or results changed")
       ->tag(kOfPlan | kNeedsTree | kForAssets | kNeedsFiles);
-  command
-      .add_flag("--allow-skips", options.allow_skips,
-                "With DIR, sets that are found and not converted do not make the exit code 1")
-      ->tag(kNeedsFolder);
   command.add_flag("--dry-run", options.dry_run, "Show what would happen to each map; write nothing")
       ->common()
       ->tag(kOfPlan | kForAssets | kNeedsFiles);
@@ -376,7 +377,7 @@ void add_workflow_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
   command.option_group("Rare: how metallic is found");
   command
-      .add_option("--prior VALUE", options.prior, prior(),
+      .add_option("--metallic-bias VALUE", options.prior, prior(),
                   "How strongly 0 and 1 are preferred: clean (default), noisy (scans, JPEG) or a number "
                   "from 0 to 1")
       ->tag(kForAssets | kChangesResults | kNeedsMetallic);
@@ -396,7 +397,7 @@ void add_rare_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults);
   command
       .add_option(
-          "--output-roughness-factor NUMBER", options.output_roughness_factor, positive_number(),
+          "--exponent-of-white NUMBER", options.output_roughness_factor, positive_number(),
           "Exponent that 1, or white, stands for in the result: 1000 as in MTL files, 128 as in OpenGL, "
           "100 for percent")
       ->tag(kChangesResults);
@@ -423,7 +424,7 @@ void add_rare_options(Command& command, ConvertOptions& options) {
                   "undetermined), and issues, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
       ->tag(kIsPath | kNeedsFiles);
   command
-      .add_option("--bad-texels NAME", options.bad_texels, one_of(kBadTexels, "treatment"),
+      .add_option("--nan NAME", options.bad_texels, one_of(kBadTexels, "treatment"),
                   "NaN, infinite and negative values; clamp moves all values into the domain")
       ->default_text("keep")
       ->tag(kChangesResults);

@@ -314,7 +314,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
 
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width) {
   if (is_given && width != RoughnessEncoding::kExponent)
-    throw usage_error("--output-roughness-factor: applies to exponents only, and the results hold " +
+    throw usage_error("--exponent-of-white: applies to exponents only, and the results hold " +
                       std::string(encoding_name(width)) + " (remove this option)");
 }
 

@@ -44,7 +44,7 @@ struct WidthSource {
 // holds glossiness. Throws kUsage if --output-encoding contradicts a name that stays.
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
                                 const WidthSource& source, RoughnessEncoding usual);
-// Refuses --output-roughness-factor for results that hold no exponent.
+// Refuses --exponent-of-white for results that hold no exponent.
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width);
 
 PassOptions pass_options(const ConvertOptions& options);

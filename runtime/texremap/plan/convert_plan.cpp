@@ -320,7 +320,6 @@ ConvertPlan resolve(ConvertOptions options) {
   plan.force = options.force;
   plan.resume = options.resume;
   plan.dry_run = options.dry_run;
-  plan.skips_fail = !options.allow_skips;
   plan.threads = options.threads();
   plan.memory_bytes = options.memory_bytes();
   plan.json = options.json;

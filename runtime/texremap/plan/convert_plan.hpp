@@ -36,7 +36,6 @@ struct ConvertPlan {
 
   std::filesystem::path output;
   bool force = false, resume = false, dry_run = false;
-  bool skips_fail = true;  // whether a set without anything to convert makes the run fail
   int threads = 1;
   std::uint64_t memory_bytes = 0;  // of images, in all threads
   std::optional<GivenPart> part;   // of the manifest

@@ -81,9 +81,9 @@ void require_success(const Outcome& outcome) {
       if (passing == 0 && report.failure && is_retryable(report.failure_code)) passing = report.failure_code;
     throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed", passing);
   }
-  if (!list.skipped.empty() && outcome.plan.skips_fail)
+  if (outcome.reports.empty() && !list.skipped.empty() && !outcome.plan.part)
     throw input_error(std::to_string(list.skipped.size()) + of_all +
-                      "skipped, because there is nothing to convert in them (--allow-skips accepts this)");
+                      "skipped, because there is nothing to convert in them");
 }
 
 // The name of a target parameter; the roughness is called by its encoding.
