@@ -39,7 +39,7 @@ const ParameterDescription& ModelDescription::parameter(ParameterRole role) cons
     if (description.role == role) return description;
   throw Error(ErrorKind::kUsage, name + ": has no parameter for " +
                                      kRoleNames[static_cast<std::size_t>(role)] +
-                                     " (remapc list --models shows those of every model)");
+                                     " (remapc list --models shows the parameters of every model)");
 }
 
 const ParameterDescription& ModelDescription::parameter(const std::string& parameter_name) const {

@@ -304,7 +304,7 @@ void bad_values(const CheckedMaterial& material, const GltfConsumer*, const Rule
     if (has_range) add(texels.above_one_count, "above 1");
     if (what.empty()) return;
     findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, "",
-                        "has values that are no " + std::string(role_name(use.role)) + ": " + what,
+                        "has values that are not " + std::string(role_name(use.role)) + ": " + what,
                         image_fix(material, material.maps[use.map],
                                   has_range ? "move them into the range from 0 to 1"
                                             : "fill such texels from those around them",
@@ -368,7 +368,7 @@ void normal_space(const CheckedMaterial& material, const GltfConsumer*, const Ru
                         percent(shares.inwards) +
                             " of its normals point into the surface: they are of world or object space, "
                             "not of tangent space",
-                        "bake the map again in tangent space; no conversion of the texels alone does that"});
+                        "bake the map again in tangent space; changing its texels does not do that"});
   });
 }
 
@@ -393,7 +393,7 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     };
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "G",
-         "its slopes are those of a surface only as " + text(seen) + ", but " +
+         "its slopes belong to a surface only as " + text(seen) + ", but " +
              (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or reader says ") + text(name),
          image_fix(material, map, "invert its green channel", inversion_of(material, green))});
   });
@@ -435,7 +435,7 @@ void wrong_texture(const CheckedMaterial& material, const GltfConsumer*, const R
       add(use, Confidence::kLikely, "its texels are unit normals of tangent space");
     const bool has_blue = !is_constant(*rgb[2]);  // maps of two channels store none
     if (use.role == Role::kNormal && shares.unit < 0.3 && has_blue && named.insert(use.map).second)
-      add(use, Confidence::kLikely, percent(1.0 - shares.unit) + " of its texels are no unit vectors");
+      add(use, Confidence::kLikely, percent(1.0 - shares.unit) + " of its texels are not unit vectors");
   });
 }
 

@@ -92,7 +92,7 @@ void factor_ignored(const CheckedMaterial& material, const GltfConsumer* reader,
     findings.push_back(
         {rule.name, Confidence::kLikely, material.name, "",
          use.factor_name + " " + factor + " beside a map: " + std::string(reader->title) + " takes " + role +
-             " from the map alone",
+             " only from the map",
          "multiply " + role + " in the map by " + factor + ", and set " + use.factor_name + " to 1"});
   };
   for (const MaterialUse& use : material.uses)
@@ -122,7 +122,7 @@ void index_of_refraction(const CheckedMaterial& material, const GltfConsumer*, c
   if (stated.ior && *stated.ior != 0.0 && *stated.ior < kLeast && !stated.transmits)
     add(Confidence::kLikely,
         "KHR_materials_ior: ior " + number_text(*stated.ior) + " reflects nothing (F0 below 0.001)",
-        "set ior to 1.5, or to that of the material (water 1.33, plastics 1.45 to 1.6)");
+        "set ior to 1.5, or to the index of the material (water 1.33, plastics 1.45 to 1.6)");
   if (!stated.specular_factor) return;
   const double factor = *stated.specular_factor;
   if (factor > 1.0 || factor < 0.0)

@@ -246,7 +246,7 @@ class SpanScanner {
     const char letter = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
     if (letter == 'u') {
       const auto escaped = escaped_code(text_, at_);
-      if (!escaped) fail("an escape that is no character");
+      if (!escaped) fail("an escape that is not a character");
       at_ = escaped->end;
     } else {
       if (short_escape(letter) == '\0') fail("an unknown escape");

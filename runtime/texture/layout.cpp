@@ -79,7 +79,7 @@ LayoutFile file_from(const std::string& option, const std::string& text) {
   file.name = trimmed(std::string_view(text).substr(0, sign));
   if (sign == std::string::npos || file.name.empty() || file.name.find('/') != std::string::npos)
     throw Error(ErrorKind::kUsage, option + ": '" + text +
-                                       "' is no file of a layout (write NAME=CONTENT,..., as orm="
+                                       "' is not a file of a layout (write NAME=CONTENT,..., as orm="
                                        "occlusion,roughness,metallic)");
   std::size_t channels = 0;
   for (const std::string& word : parts_between(std::string_view(text).substr(sign + 1), ',')) {

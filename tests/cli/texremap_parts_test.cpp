@@ -210,7 +210,7 @@ TEST_CASE("texremap parts: schedulers tell the part by their variables", "[slow]
   // A piece of an array would be divided anew.
   CHECK_THAT(note(slurm + "SLURM_ARRAY_TASK_COUNT=2", "auto"),
              Contains("2 texremap: ") && Contains("auto/N"));
-  CHECK_THAT(note("SGE_TASK_ID=undefined LSB_JOBINDEX=0", "auto"), Contains("no job of an array"));
+  CHECK_THAT(note("SGE_TASK_ID=undefined LSB_JOBINDEX=0", "auto"), Contains("not running in an array job"));
   CHECK_THAT(note("PARALLEL_SEQ=9", "auto"), Contains("does not tell the size"));
   CHECK_THAT(note("PARALLEL_SEQ=1 JOB_COMPLETION_INDEX=1", "auto/4"), Contains("are both set"));
   CHECK_THAT(note("JOB_COMPLETION_INDEX=4", "auto/4"), Contains("is none of 0 to 3"));

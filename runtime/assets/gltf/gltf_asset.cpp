@@ -71,7 +71,7 @@ class ViewCheck {
       const std::optional<std::size_t> length = buffer["byteLength"].whole();
       if (!length)
         throw input_error(place_ + ": /buffers/" + std::to_string(lengths_.size()) +
-                          ": its byteLength is no whole number");
+                          ": its byteLength is not a whole number");
       lengths_.push_back(*length);
     }
     std::vector<std::string> warnings = check_chunk();

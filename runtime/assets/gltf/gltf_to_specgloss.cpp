@@ -68,8 +68,7 @@ class CoreToSpecGloss final : public GltfDirection {
           "viewers without spec-gloss show its fallback with an index of 1.5, because KHR_materials_specular "
           "and _ior must not stand beside spec-gloss");
     }
-    if (read.metallic.value > 0.0)
-      edit.colored = "tinted its reflection and now tint its diffuse color alone";
+    if (read.metallic.value > 0.0) edit.colored = "tinted its reflection and now tint only its diffuse color";
     return edit;
   }
 

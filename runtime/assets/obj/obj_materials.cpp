@@ -435,7 +435,7 @@ bool ObjMaterials::add_opacity(Planned& planned) {
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
     if (!options_.enlarges)
       throw input_error(plain(opacity_map->file, kLongestShown) +
-                        ": its size differs from that of map_Kd (--resample enlarges the smaller one)");
+                        ": its size differs from map_Kd (--resample enlarges the smaller one)");
     const std::size_t width = std::max(color->width, opacity->width),
                       height = std::max(color->height, opacity->height);
     color = std::make_shared<const ImagePixels>(resources_.enlarged(*color, width, height));

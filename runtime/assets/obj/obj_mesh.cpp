@@ -438,7 +438,7 @@ class ObjReader {
     stream_.warn();
     if (filled > 0)
       scene_.warnings.push_back("normals of " + counted(filled, "mesh part") +
-                                " that are missing or have length 0 become those of its faces");
+                                " that are missing or have length 0 become the normals of its faces");
     return std::move(scene_);
   }
 

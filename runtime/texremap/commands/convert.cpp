@@ -28,7 +28,7 @@ void add_convert_command(Command& app) {
       "<UDIM>, %(UDIM)d, <UVTILE>, %04d and #### in a file name stand for all tiles or frames.\n\n"
       "Results keep the names of their inputs, and a packed map keeps its other channels bit for bit. "
       "Numbers "
-      "in place of all maps are converted and printed. With DIR, sets are found by the file names that "
+      "instead of all maps are converted and printed. With DIR, sets are found by the file names that "
       "Substance Painter, Poly Haven, ambientCG, Quixel Megascans, glTF exporters and Mari use. A set that "
       "fails does not stop the others; the exit code is then 1.\n\n"
       "Example:\n"

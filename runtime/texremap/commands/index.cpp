@@ -38,7 +38,7 @@ Listing listing_of_sets(const IndexOptions& options) {
     if (!other.empty())
       listing.found.problems.push_back(
           {set.folder / set.name, display_path(options.folder / set.maps.front().path) +
-                                      ": its set has the name of that of " + other +
+                                      ": its set has the same name as the set of " + other +
                                       " (rename one of the sets; case does not count)"});
     return !other.empty();
   });

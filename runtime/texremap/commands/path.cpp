@@ -33,7 +33,7 @@ std::string reason(const std::vector<ConverterPath>& paths) {
   const ConverterPath &best = paths[0], &next = paths[1];
   if (best.expected_error < next.expected_error) return "its highlight is the closest";
   if (best.steps.size() < next.steps.size())
-    return "its highlight is the closest, as that of longer paths is";
+    return "its highlight is the closest, as are the highlights of longer paths";
   return "its highlight is the closest, and its ids come first";
 }
 

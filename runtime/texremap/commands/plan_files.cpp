@@ -75,7 +75,7 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
                             log_line(log, "merge.txt") + "\n" + shell_line(merge_words(paths)) + "\n";
   // Parts may be given, as in `submit.sh 3,17`: those to do again.
   const std::string submit =
-      "#!/bin/sh\n# Submits all parts, or those of its argument (3,17-19), and after them the merge.\n"
+      "#!/bin/sh\n# Submits all parts, or the parts of its argument (3,17-19), and after them the merge.\n"
       "set -e\nhere=" +
       shell_word(farm.folder.string()) +
       "\nmkdir -p \"$here/log\"\n"

@@ -6,7 +6,7 @@
 namespace remap {
 
 int run_texremap(int argc, const char* const* argv) noexcept {
-  Command app("Convert texture maps from the parameters of one BRDF model to those of another.", "texremap");
+  Command app("Convert textures and materials so that they look the same in another renderer.", "texremap");
   app.set_version_flag("--version", version_text("texremap"));
   app.require_subcommand(1);
   add_convert_command(app);

@@ -34,7 +34,7 @@ Reader<std::vector<float>> factors() {
 Reader<int> compression_level() {
   return {[](const std::string& option, const std::string& word) {
             if (word.size() != 1 || word[0] < '1' || word[0] > '9')
-              throw usage_error(option + ": " + word + " is no level (1, fast, to 9, small)");
+              throw usage_error(option + ": invalid compression level '" + word + "' (use 1 to 9)");
             return word[0] - '0';
           },
           {}};
@@ -44,7 +44,7 @@ Reader<int> jpeg_quality() {
   return {[](const std::string& option, const std::string& word) {
             const auto quality = parse_number(word);
             if (!quality || *quality != std::floor(*quality) || *quality < 1.0 || *quality > 100.0)
-              throw usage_error(option + ": " + word + " is no quality (1, small, to 100, near)");
+              throw usage_error(option + ": invalid JPEG quality '" + word + "' (use 1 to 100)");
             return static_cast<int>(*quality);
           },
           {}};
@@ -231,7 +231,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
   add_map("--roughness", P::kRoughness, "Roughness of the source model")->tag(kNotWithDiffuseWarp);
   command
       .add_option("--glossiness MAP", options.glossiness, map_source(),
-                  "Glossiness, 1 - sqrt(alpha), in place of the roughness")
+                  "Glossiness, 1 - sqrt(alpha), instead of the roughness")
       ->tag(kChangesResults | kNotWithDiffuseWarp)
       ->excludes(command.option("--roughness"));
   add_map("--specular", P::kSpecular, "Specular color")->tag(kNotWithDiffuseWarp);
@@ -253,7 +253,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--color-space NAME", options.color_spaces, color_spaces(),
           "How color maps are read: srgb or linear, or per map: specular=linear,diffuse=srgb (default: "
-          "as the file says, else srgb for whole numbers and linear for half and float)")
+          "as the file says; otherwise srgb for integers and linear for half and float)")
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_flag("--resample", options.resample,
@@ -263,7 +263,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
   command
       .add_option(
           "--prefer WORDS", options.prefer,
-          "Of several maps of one parameter, those of this role or with this word in the name: gloss, "
+          "Of several maps of one parameter, take the map of this role or with this word in its name: gloss, "
           "arm, 4k, png; commas between, the first that applies counts")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -299,13 +299,13 @@ void add_output_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--compression LEVEL", options.compression, compression_level(),
           "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
-          "PNG files, 3 in those of assets)")
+          "PNG files, 3 in assets)")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
       .add_option(
           "--output-color-space NAME", options.output_color_spaces, color_spaces(),
           "How colors are written: srgb or linear, or per map (default: whole numbers as the map that "
-          "they follow, else srgb; half and float linear)")
+          "they follow, otherwise srgb; half and float linear)")
       ->tag(kChangesResults | kNeedsFiles);
   command.add_option("--only NAME", options.only, one_of(kOnly, "parameter"), "Write only this parameter")
       ->tag(kChangesResults | kNeedsFiles | kNotWithWorkflow);
@@ -331,7 +331,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command
       .add_flag(
           "--resume", options.resume,
-          "Skip sets that are done; make anew those whose inputs, options, converter or results changed")
+          "Skip sets that are done; convert sets again whose inputs, options, converter or results changed")
       ->tag(kOfPlan | kNeedsTree | kForAssets | kNeedsFiles);
   command.add_flag("--dry-run", options.dry_run, "Show what would happen to each map; write nothing")
       ->common()
@@ -373,7 +373,7 @@ void add_workflow_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--diffuse-convention NAME", options.diffuse_convention, one_of(kDiffuseConventions, "convention"),
           "Meaning of the source's diffuse: plain (reflectance) or scaled (times 1 - max(specular), as "
-          "in glTF; default: that of the source model)")
+          "in glTF; default: as in the source model)")
       ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
   command.option_group("Rare: how metallic is found");
   command

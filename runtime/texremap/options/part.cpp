@@ -60,7 +60,8 @@ class ArrayJob {
     if (text == nullptr) return std::nullopt;
     const auto value = number_in(text);
     if (!value)
-      throw usage_error("--part auto: " + std::string(name) + "=" + text + " is no number (give --part I/N)");
+      throw usage_error("--part auto: " + std::string(name) + "=" + text +
+                        " is not a number (give --part I/N)");
     return value;
   }
   // The size of the array, where the environment tells it.
@@ -110,8 +111,8 @@ GivenPart part_in(const ArrayJob::Environment& environment, std::optional<std::s
     std::string names;
     for (const Scheduler& scheduler : kSchedulers)
       names += (names.empty() ? "" : ", ") + std::string(scheduler.index);
-    throw usage_error("--part auto: this is no job of an array: none of " + names +
-                      " is set (give --part I/N)");
+    throw usage_error("--part auto: not running in an array job (none of " + names +
+                      " is set; give --part I/N)");
   }
   if (jobs.size() > 1)
     throw usage_error("--part auto: " + jobs[0].text() + " and " + jobs[1].text() +

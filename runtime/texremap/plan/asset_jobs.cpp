@@ -81,7 +81,7 @@ void add_tree(const ConvertOptions& options, JobList& list) {
 void add_listed(const ConvertOptions& options, const Listing& listing, JobList& list) {
   for (const ListedAsset& asset : listing.assets) {
     if (!is_asset_name(asset.path))
-      throw input_error(display_path(asset.path) + ": is no asset (texremap index again)");
+      throw input_error(display_path(asset.path) + ": is not an asset (run texremap index again)");
     AssetWork work = asset_in_tree(asset.path, options);
     work.image_prefix = asset.image_prefix;
     add(std::move(work), list);

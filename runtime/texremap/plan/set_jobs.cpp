@@ -211,9 +211,9 @@ void SetJobs::add(FoundSet set) {
   const bool is_metallic =
       !uses(set, is<Role::kMetallic>).empty() && !uses(set, is<Role::kBaseColor>).empty();
   if (is_metallic && !workflow_.is_material())
-    notes.push_back(
-        place(set) + ": has base color and metallic, which " + workflow_.source_brdf +
-        " does not take: its specular is not that of the material (--from metallic converts it whole)");
+    notes.push_back(place(set) + ": has base color and metallic, which " + workflow_.source_brdf +
+                    " does not take: its specular is not the specular of the material (--from metallic "
+                    "converts it whole)");
   if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
     set = of_diffuse_alone(std::move(set));
   if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
@@ -227,7 +227,7 @@ void SetJobs::add(FoundSet set) {
     const std::string name = plain_name(parameter);
     if (!found.empty() && workflow_.constants.contains(parameter))
       return fail(place(set) + ": has a " + std::string(role_name(found.front().role)) +
-                  " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
+                  " map, but the warp converts only a diffuse map (use a warp of all its maps, or "
                   "--diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
     if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))

@@ -69,7 +69,7 @@ void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::
 
 // The source of the warp is a diffuse map alone, so the conversion has neither specular nor roughness maps.
 void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
-  refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts a diffuse map alone");
+  refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts only a diffuse map");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessEncoding::kAlpha;
   choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kRoughness, {1.0f}}};
 }

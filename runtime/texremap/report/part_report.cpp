@@ -172,7 +172,7 @@ MergedReport ReportMerger::merge() {
   merged_.part_count = parts.back().count;
   if (parts.front().count != parts.back().count)
     problem("there are reports of " + std::to_string(parts.front().count) + " and of " +
-            std::to_string(parts.back().count) + " parts (remove those of the earlier run from " +
+            std::to_string(parts.back().count) + " parts (remove the reports of the earlier run from " +
             folder_.string() + ")");
   std::vector<bool> has(merged_.part_count, false);
   for (const Part& part : parts) {

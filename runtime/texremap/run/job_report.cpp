@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "core/report_text.hpp"
 
 namespace remap {
 
@@ -44,7 +45,7 @@ std::optional<std::string> JobReport::failure_text() const {
   const std::size_t failed = count(MaterialState::kFailed);
   if (failure || failed == 0) return failure;
   return std::to_string(failed) + " of " +
-         std::to_string(materials.size() - count(MaterialState::kUntouched)) + " materials failed";
+         counted(materials.size() - count(MaterialState::kUntouched), "material") + " failed";
 }
 
 }  // namespace remap

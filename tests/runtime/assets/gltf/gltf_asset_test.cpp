@@ -74,7 +74,7 @@ TEST_CASE("The fallback goes, and what else it holds stays", "[assets]") {
       R"({"pbrMetallicRoughness": {"extras": {"both": 1,"sg": 1}, "metallicFactor": 0, "baseColorFactor": [1,1,1,1], "roughnessFactor": 0}})");
   const AssetConversion result = result_of(text);
   CHECK(result.materials[0].warnings ==
-        std::vector<std::string>{"loses extras.both of KHR_materials_pbrSpecularGlossiness, because that of "
+        std::vector<std::string>{"loses extras.both of KHR_materials_pbrSpecularGlossiness, because extras of "
                                  "pbrMetallicRoughness stays"});
   CHECK(
       material_of(specgloss_text(R"({"specularFactor":[1,1,1],"extras":[3.50]})")) ==
@@ -182,7 +182,7 @@ TEST_CASE("Views beyond their buffers are refused", "[assets]") {
             R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteOffset":1,"byteLength":4}])")) ==
         "a.glb: /bufferViews/0: ends at byte 5 of buffer 0, which has 4");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4},{}])")) ==
-        "a.glb: /buffers/1: its byteLength is no whole number");
+        "a.glb: /buffers/1: its byteLength is not a whole number");
   CHECK(asset_failure(with(R"("bufferViews":[{"buffer":3,"byteLength":4}])")) ==
         "a.glb: /bufferViews/0: names buffer 3, of which there are 0");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteLength":-4}])")) ==

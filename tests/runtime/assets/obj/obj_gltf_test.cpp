@@ -118,7 +118,7 @@ TEST_CASE("Groups and objects are nodes; normals get length 1, or are those of f
   CHECK(scene.shapes[2].primitives[0].normals.empty());
   CHECK(scene.warnings ==
         std::vector<std::string>{
-            "normals of 1 mesh part that are missing or have length 0 become those of its faces"});
+            "normals of 1 mesh part that are missing or have length 0 become the normals of its faces"});
 }
 
 TEST_CASE("A group that is read in parts is one shape", "[assets]") {
