@@ -61,14 +61,14 @@ void GltfMaterialWriter::carry_extras(SpanValue extras, SpanValue core, AssetMat
   const SpanValue kept = core["extras"];
   if (!kept) return edits_.append_member(core, "extras", std::string(extras.raw()));
   if (!extras.is(SpanKind::kObject) || !kept.is(SpanKind::kObject)) {
-    report.warnings.push_back("loses extras of " + from + ", because extras of " + std::string(kCoreMember) +
-                              " stay");
+    report.warnings.push_back("loses extras of " + from + ", because " + std::string(kCoreMember) +
+                              " has its own");
     return;
   }
   for (const SpanValue& member : extras.children())
     if (kept.find(member.key()))
-      report.warnings.push_back("loses extras." + plain(member.key()) + " of " + from +
-                                ", because extras of " + std::string(kCoreMember) + " stays");
+      report.warnings.push_back("loses extras." + plain(member.key()) + " of " + from + ", because " +
+                                std::string(kCoreMember) + " has its own");
     else
       edits_.append_member(kept, member.key(), std::string(member.raw()));
 }

@@ -74,8 +74,8 @@ TEST_CASE("The fallback goes, and what else it holds stays", "[assets]") {
       R"({"pbrMetallicRoughness": {"extras": {"both": 1,"sg": 1}, "metallicFactor": 0, "baseColorFactor": [1,1,1,1], "roughnessFactor": 0}})");
   const AssetConversion result = result_of(text);
   CHECK(result.materials[0].warnings ==
-        std::vector<std::string>{"loses extras.both of KHR_materials_pbrSpecularGlossiness, because extras of "
-                                 "pbrMetallicRoughness stays"});
+        std::vector<std::string>{"loses extras.both of KHR_materials_pbrSpecularGlossiness, because "
+                                 "pbrMetallicRoughness has its own"});
   CHECK(
       material_of(specgloss_text(R"({"specularFactor":[1,1,1],"extras":[3.50]})")) ==
       R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"metallicFactor":1,"roughnessFactor":0,"extras":[3.50]}})");
