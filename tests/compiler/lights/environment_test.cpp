@@ -150,14 +150,14 @@ TEST_CASE("lit sphere: light is reflected where a mirror ball reflects it") {
   const auto shown = [&](const Direction& light) {
     return centroid(render(cap_environment(light), shiny, 33, 256));
   };
-  const Centroid behind_camera = display_path({0.0, 0.0, 1.0});
+  const Centroid behind_camera = shown({0.0, 0.0, 1.0});
   CHECK(std::hypot(behind_camera.right, behind_camera.up) < 0.1);
   // Light from the side is reflected where the normal halves the angle to the camera: 37.3 degrees from the
   // axis, which the picture shows at 0.777 of its half width.
-  const Centroid right = display_path({1.0, 0.0, 0.0});
+  const Centroid right = shown({1.0, 0.0, 0.0});
   CHECK(right.right == Approx(0.777 * 16.5).epsilon(0.03));
   CHECK(std::fabs(right.up) < 0.1);
-  const Centroid above = display_path({0.0, 1.0, 0.0});
+  const Centroid above = shown({0.0, 1.0, 0.0});
   CHECK(above.up == Approx(right.right).epsilon(0.02));
   CHECK(std::fabs(above.right) < 0.1);
 }
