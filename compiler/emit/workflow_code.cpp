@@ -36,7 +36,7 @@ struct CodeOf {
     MaterialCode code;
     code.functions = code_files({"bits", "floats", "conventions", "rows", "width"}) + functions;
     code.block = block;
-    code.call = function + "(detail::kRoughnessEncodings, " + argument + "from, to)";
+    code.call = function + "(detail::kConventions, " + argument + "from, to)";
     code.within = within;
     return code;
   }
@@ -66,7 +66,7 @@ MaterialCode material_code(const WorkflowConversion& conversion) {
   code.formula = formula_name(conversion.formula);
   code.constants = "static constexpr float kDielectricF0 = " + float_literal(use.dielectric_f0) +
                    ";  // of the metallic workflow";
-  code.functions += "\ninline constexpr Conventions kRoughnessEncodings{" + float_literal(use.dielectric_f0) +
+  code.functions += "\ninline constexpr Conventions kConventions{" + float_literal(use.dielectric_f0) +
                     ", " + float_literal(use.diffuse_of_albedo) + ", " +
                     (use.diffuse_is_scaled ? "true" : "false") + ", " + enumerator(use.width_in) + ", " +
                     enumerator(use.width_out) + "};\n";

@@ -32,6 +32,8 @@ void add_convert_command(Command& app) {
       "Substance Painter, Poly Haven, ambientCG, Quixel Megascans, glTF exporters and Mari use. A set that "
       "fails does not stop the others; the exit code is then 1.\n\n"
       "Example:\n"
+      "  texremap convert textures --from blender --to unity -o out\n"
+      "  texremap convert model.glb -o converted.glb\n"
       "  texremap convert --from mitsuba/ward --to mitsuba/as \\\n"
       "    --roughness r.exr --specular s.exr -o out\n"
       "  texremap convert --from mitsuba/ggx --to mitsuba/ward --roughness orm.png:G \\\n"
@@ -42,7 +44,6 @@ void add_convert_command(Command& app) {
       "    --specular 0.04\n"
       "  texremap convert --from gltf-specgloss --to gltf --diffuse d.png \\\n"
       "    --specular sg.png --glossiness sg.png:A --layout orm -o out\n"
-      "  texremap convert model.glb --to gltf -o converted.glb\n"
       "  texremap convert model.obj --to gltf -o model.glb");
 }
 

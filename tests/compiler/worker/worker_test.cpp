@@ -332,7 +332,7 @@ TEST_CASE("worker: every message names the worker, is short, and has no control 
       {"error-number", "expected a text, found 5"},
       {"error-long", std::string(900, 'x')},
       {"error-lines", "line 1 line 2 \\x1b[31m\\u202e"},
-      {"deep", "JSON nested deeper than 100 levels"},
+      {"deep", "nested deeper than 100 levels"},
       {"talkative", "ended with exit code 3; last lines of its log: ..."},
       {"negative", "in row 16, column 16 (values must not be negative)"},
       {"huge", "the picture is 1e+38 in row 16, column 16 (values must not be above 1e18)"}};

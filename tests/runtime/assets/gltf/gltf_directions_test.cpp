@@ -283,7 +283,7 @@ TEST_CASE("What folding leaves alone", "[assets]") {
   AssetOptions wrong = folding();
   wrong.profile = MaterialProfile::kExtensions;
   CHECK_THROWS_WITH(convert_gltf(MemorySource("{}"), "file", wrong),
-                    Catch::Contains("folded into core alone"));
+                    Catch::Contains("only folded into core"));
 }
 
 TEST_CASE("Spec-gloss beside an index that was ignored is not folded later", "[assets]") {
@@ -299,8 +299,8 @@ TEST_CASE("Vertex colors of metals are named on the way to spec-gloss", "[assets
                R"(,"meshes":[{"primitives":[{"attributes":{"COLOR_0":0},"material":0}]}]})");
   CHECK(
       convert_gltf(MemorySource(text), "file", to_specgloss()).materials[0].warnings ==
-      std::vector<std::string>{"vertex colors of 1 primitive tinted its reflection and now tint its diffuse "
-                               "color alone"});
+      std::vector<std::string>{"vertex colors of 1 primitive tinted its reflection and now tint only its "
+                                 "diffuse color"});
 }
 
 TEST_CASE("Indices and specular colors of public files go into core", "[assets][needs]") {
