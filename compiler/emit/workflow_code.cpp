@@ -66,10 +66,9 @@ MaterialCode material_code(const WorkflowConversion& conversion) {
   code.formula = formula_name(conversion.formula);
   code.constants = "static constexpr float kDielectricF0 = " + float_literal(use.dielectric_f0) +
                    ";  // of the metallic workflow";
-  code.functions += "\ninline constexpr Conventions kConventions{" + float_literal(use.dielectric_f0) +
-                    ", " + float_literal(use.diffuse_of_albedo) + ", " +
-                    (use.diffuse_is_scaled ? "true" : "false") + ", " + enumerator(use.width_in) + ", " +
-                    enumerator(use.width_out) + "};\n";
+  code.functions += "\ninline constexpr Conventions kConventions{" + float_literal(use.dielectric_f0) + ", " +
+                    float_literal(use.diffuse_of_albedo) + ", " + (use.diffuse_is_scaled ? "true" : "false") +
+                    ", " + enumerator(use.width_in) + ", " + enumerator(use.width_out) + "};\n";
   return code;
 }
 
