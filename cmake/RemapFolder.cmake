@@ -1,5 +1,5 @@
 # remap_folder(TARGET FOLDER [PUBLIC LIBRARY...] [PRIVATE LIBRARY...]): the library TARGET of every .cpp file in FOLDER but main.cpp, without
-# its subfolders. A folder is one library; the order of folders in HACKING.md is the order of what they link.
+# its subfolders; with `FOLDER/*` of those. The order of folders in HACKING.md is the order of what they link.
 # New files are found without configuring again, but for a project that has remap as a subfolder.
 set(REMAP_GLOB "")
 if(PROJECT_IS_TOP_LEVEL)

@@ -7,7 +7,7 @@
 #include "core/json.hpp"
 #include "remap/path.hpp"
 #include "remap/workflow.hpp"
-#include "texremap/commands.hpp"
+#include "texremap/commands/commands.hpp"
 #include "texture/layout.hpp"
 
 namespace remap {

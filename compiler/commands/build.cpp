@@ -138,7 +138,7 @@ void add_build_command(Command& app) {
   command->option_group("What to make");
   command->add_flag("--check", options.check,
                     "Write nothing, list the items that are out of date; exit code 1 if there are any");
-  command->add_flag("--force", options.force, "Make every item anew");
+  command->add_flag("--force", options.force, "Make every item again");
   command->add_flag("--prune", options.prune,
                     "Remove files of items that the manifest no longer lists, unless they were edited");
   command->add_flag("--json", options.json, "Print the result as JSON to standard output");

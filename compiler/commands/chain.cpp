@@ -104,7 +104,8 @@ void add_chain_command(Command& app) {
       ->required();
   add_new_fit_options(*command, options);
   command->footer(
-      "The domain of the new fit is where every step is inside its own. Its errors are those of the steps, "
+      "The domain of the new fit is where every step is inside its own. Its errors are the errors of the "
+      "steps, "
       "propagated to the end.\n\n"
       "Example:\n"
       "  remapc chain mitsuba_ward_to_mitsuba_ggx mitsuba_ggx_to_cycles_2_7_ggx \\\n"

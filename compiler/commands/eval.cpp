@@ -34,7 +34,7 @@ std::string grid_text(const Fit& fit, std::size_t steps) {
     return step + 1 == steps ? range.max : range.min + (range.max - range.min) * share;
   };
   const auto names = [](const std::string& prefix, const ModelSide& side) {
-    return prefix + std::string(convention_name(side.roughness)) + "," + prefix + side.specular;
+    return prefix + std::string(encoding_name(side.roughness)) + "," + prefix + side.specular;
   };
   std::string text = names("source_", fit.source) + "," + names("target_", fit.target) + "\n";
   for (std::size_t i = 0; i < steps; ++i)

@@ -23,7 +23,7 @@ std::string text_of(Table table) {
   };
   for (const auto& [role, side] : {std::pair{"source", &table.source}, std::pair{"target", &table.target}}) {
     add(role, side->model);
-    add(std::string(role) + "_roughness", convention_name(side->roughness));
+    add(std::string(role) + "_roughness", encoding_name(side->roughness));
     add(std::string(role) + "_specular", side->specular);
   }
   return table_text(table);

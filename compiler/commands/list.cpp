@@ -30,7 +30,7 @@ void list_models(bool json) {
       text += "  " + parameter.name + " " + range_text(parameter.range);
     }
     list.push_back(
-        {{"model", model.name}, {"roughness", convention_name(model.roughness)}, {"parameters", parameters}});
+        {{"model", model.name}, {"roughness", encoding_name(model.roughness)}, {"parameters", parameters}});
     if (!json) std::cout << std::left << std::setw(26) << model.name << text << "\n";
   }
   if (json) std::cout << list.dump(2) << "\n";

@@ -7,7 +7,8 @@
 
 int main(int argc, char** argv) {
   remap::Command app(
-      "Measures how the parameters of one BRDF model convert to those of another, and compiles the result "
+      "Measures how the parameters of one BRDF model convert to the parameters of another, and compiles the "
+      "result "
       "into a "
       "C++ header: sweep, check, fit, emit.",
       "remapc");

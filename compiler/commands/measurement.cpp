@@ -42,7 +42,7 @@ void add_role_options(Command& app, const std::string& side, ParameterRoles& rol
     const std::size_t colon = word.find(':');
     changed.roughness = word.substr(0, colon);
     if (colon != std::string::npos)
-      changed.convention = one_of(kConventions, "convention").read(option, word.substr(colon + 1));
+      changed.convention = one_of(kRoughnessEncodings, "convention").read(option, word.substr(colon + 1));
     return changed;
   };
   app.add_option(prefix + "-roughness NAME[:CONVENTION]", roles, Reader<ParameterRoles>{roughness, {}},

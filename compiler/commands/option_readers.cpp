@@ -10,7 +10,7 @@ namespace remap {
 
 void add_fits_option(Command& app, std::filesystem::path& folder, const std::string& text) {
   folder = default_fit_folder();
-  app.add_option("--fits FOLDER", folder, text)->default_text("fits, else the installed ones");
+  app.add_option("--fits FOLDER", folder, text)->default_text("fits, or the installed ones");
 }
 
 void add_force_flag(Command& app, bool& force) {

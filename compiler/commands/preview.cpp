@@ -128,7 +128,7 @@ void add_preview_command(Command& app) {
   command->add_option(
       "-o,--output FILE", options.output,
       "PNG to write: a row per light, shape and alpha; source, numbers copied, numbers converted");
-  command->add_flag("--no-labels", options.bare, "Write the pictures alone, without names and numbers");
+  command->add_flag("--no-labels", options.bare, "Write only the pictures, without names and numbers");
   add_force_flag(*command, options.force);
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->option_group("Materials and pictures");
@@ -157,7 +157,7 @@ void add_preview_command(Command& app) {
       ->range(16, 2048);
   command->option_group(kRareOptions);
   command->add_option("--distance", options.distance,
-                      "Distance of a light that is no environment, in sphere radii");
+                      "Distance of a light that is not an environment, in sphere radii");
   command
       ->add_option("--directions", options.options.directions, "Light directions of an environment per pixel")
       ->range(16, 65536);

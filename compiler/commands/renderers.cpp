@@ -24,7 +24,7 @@ Json model_json(const ModelDescription& model) {
     parameters[parameter.name] = {{"role", role_word(parameter.role)},
                                   {"range", {parameter.range.min, parameter.range.max}}};
     if (parameter.role == ParameterRole::kRoughness)
-      parameters[parameter.name]["convention"] = convention_name(model.roughness);
+      parameters[parameter.name]["convention"] = encoding_name(model.roughness);
     if (parameter.role == ParameterRole::kOther) parameters[parameter.name]["default"] = parameter.standard;
   }
   return {{"model", model.name}, {"noise", model.noise}, {"parameters", parameters}};

@@ -29,7 +29,7 @@ struct ShowOptions {
 };
 
 std::string side_text(const ModelSide& side) {
-  return side.model + " (" + std::string(convention_name(side.roughness)) + ", " + side.specular + ")";
+  return side.model + " (" + std::string(encoding_name(side.roughness)) + ", " + side.specular + ")";
 }
 
 std::string figures_text(const ErrorFigures& f, const std::string& p99 = "99 %") {

@@ -10,17 +10,17 @@ struct ConventionText {
   const char* formula;  // of alpha, for people; empty where the parameter is alpha
 };
 
-inline ConventionText convention_text(RoughnessConvention convention) {
+inline ConventionText convention_text(RoughnessEncoding convention) {
   switch (convention) {
-    case RoughnessConvention::kAlpha:
+    case RoughnessEncoding::kAlpha:
       break;
-    case RoughnessConvention::kRoughness:
+    case RoughnessEncoding::kRoughness:
       return {"perceptual roughness, square root of the microfacet width, (0, 1]", "roughness^2"};
-    case RoughnessConvention::kExponent:
+    case RoughnessEncoding::kExponent:
       return {"Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0", "sqrt(2 / (exponent + 2))"};
-    case RoughnessConvention::kGlossiness:
+    case RoughnessEncoding::kGlossiness:
       return {"1 - square root of the microfacet width, [0, 1)", "(1 - glossiness)^2"};
-    case RoughnessConvention::kSquared:
+    case RoughnessEncoding::kSquared:
       return {"square of the microfacet width, (0, 1]", "sqrt(squared)"};
   }
   return {"microfacet width, (0, 1]", ""};

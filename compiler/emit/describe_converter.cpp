@@ -59,7 +59,7 @@ std::string provenance(const Fit& fit) {
 HeaderEnd end_of(const ModelSide& side) {
   return {
       side.model,
-      std::string(convention_name(side.roughness)),
+      std::string(encoding_name(side.roughness)),
       {{"width", 1, convention_text(side.roughness).meaning},
        {"specular", 1,
         side.specular == "f0" ? "reflectance at normal incidence, linear" : "specular reflectance, linear"}}};

@@ -79,35 +79,35 @@ int rank_of(const Expression& expression) {
 
 }  // namespace
 
-Expression alpha_of(RoughnessConvention convention, const std::string& parameter) {
+Expression alpha_of(RoughnessEncoding convention, const std::string& parameter) {
   const Expression own = name(parameter);
   switch (convention) {
-    case RoughnessConvention::kAlpha:
+    case RoughnessEncoding::kAlpha:
       break;
-    case RoughnessConvention::kRoughness:
+    case RoughnessEncoding::kRoughness:
       return own * own;
-    case RoughnessConvention::kExponent:
+    case RoughnessEncoding::kExponent:
       return root(number(2.0f) / (own + number(2.0f)));
-    case RoughnessConvention::kGlossiness:
+    case RoughnessEncoding::kGlossiness:
       return (number(1.0f) - own) * (number(1.0f) - own);
-    case RoughnessConvention::kSquared:
+    case RoughnessEncoding::kSquared:
       return root(own);
   }
   return own;
 }
 
-Expression own_of(RoughnessConvention convention, const std::string& parameter) {
+Expression own_of(RoughnessEncoding convention, const std::string& parameter) {
   const Expression alpha = name(parameter);
   switch (convention) {
-    case RoughnessConvention::kAlpha:
+    case RoughnessEncoding::kAlpha:
       break;
-    case RoughnessConvention::kRoughness:
+    case RoughnessEncoding::kRoughness:
       return root(alpha);
-    case RoughnessConvention::kExponent:
+    case RoughnessEncoding::kExponent:
       return number(2.0f) / (alpha * alpha) - number(2.0f);
-    case RoughnessConvention::kGlossiness:
+    case RoughnessEncoding::kGlossiness:
       return number(1.0f) - root(alpha);
-    case RoughnessConvention::kSquared:
+    case RoughnessEncoding::kSquared:
       return alpha * alpha;
   }
   return alpha;
@@ -138,7 +138,7 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
     return most(value * number(1.0f / limit) - number(1.0f), number(0.0f));
   };
 
-  const bool is_alpha = info.source.roughness == RoughnessConvention::kAlpha;
+  const bool is_alpha = info.source.roughness == RoughnessEncoding::kAlpha;
   add(is_alpha ? "alpha" : "own", least(most(name("width"), number(ends.width_from)), number(ends.width_to)));
   if (!is_alpha) add("alpha", alpha_of(info.source.roughness, "own"));
   add("inside", most(alpha, number(ends.alpha_min)));
@@ -161,7 +161,7 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
   }
   alpha_out = most(std::move(alpha_out), number(ends.least_alpha));
   if (form.alpha_limit) alpha_out = least(std::move(alpha_out), number(*form.alpha_limit));
-  if (info.target.roughness != RoughnessConvention::kAlpha) {
+  if (info.target.roughness != RoughnessEncoding::kAlpha) {
     add("target", std::move(alpha_out));
     alpha_out = own_of(info.target.roughness, "target");
   }

@@ -32,8 +32,8 @@ struct Statement {
 std::vector<Statement> formula_of(const ConverterData& converter);
 
 // Alpha of a model's own width parameter, and the parameter of alpha (runtime/include/remap/converter.hpp).
-Expression alpha_of(RoughnessConvention convention, const std::string& parameter);
-Expression own_of(RoughnessConvention convention, const std::string& parameter);
+Expression alpha_of(RoughnessEncoding convention, const std::string& parameter);
+Expression own_of(RoughnessEncoding convention, const std::string& parameter);
 
 // Factors of a form (converter/compact_form.hpp) of `alpha` and `t`, in the order of operations of every
 // evaluator.

@@ -31,7 +31,7 @@ struct Parts {
 // A sentence on units and errors.
 std::string meaning_of(const Fit& fit) {
   const auto side = [](const ModelSide& model) {
-    return model.model + " (" + std::string(convention_name(model.roughness)) + ", " + model.specular + ")";
+    return model.model + " (" + std::string(encoding_name(model.roughness)) + ", " + model.specular + ")";
   };
   std::string text = side(fit.source) + " to " + side(fit.target) + ".";
   if (fit.pictures)

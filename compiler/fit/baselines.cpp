@@ -6,13 +6,13 @@
 namespace remap {
 namespace {
 
-using Convention = RoughnessConvention;
+using Convention = RoughnessEncoding;
 
 double clamp01(double value) { return std::clamp(value, 0.0, 1.0); }
 
 std::string width_text(const ModelSide& side) {
   return (side.model.empty() ? "the table's model" : side.model) + " has " +
-         std::string(convention_name(side.roughness));
+         std::string(encoding_name(side.roughness));
 }
 
 // A formula from a Phong exponent and a grey specular to perceptual roughness, which is sqrt(alpha).
@@ -52,7 +52,7 @@ std::string why_number_is_not_copied(const ModelSide& source, const ModelSide& t
   };
   if (!is_width(source) || !is_width(target)) return width_text(is_width(source) ? target : source);
   if (source.roughness != target.roughness) return "";
-  return "both models have " + std::string(convention_name(source.roughness));
+  return "both models have " + std::string(encoding_name(source.roughness));
 }
 
 }  // namespace

@@ -50,10 +50,10 @@ Table inverse_table(const Fit& fit, std::string_view bytes, std::size_t alpha_co
   table.comments = {
       {"tool", std::string("remapc ") + kVersion},
       {"source", table.source.model},
-      {"source_roughness", std::string(convention_name(table.source.roughness))},
+      {"source_roughness", std::string(encoding_name(table.source.roughness))},
       {"source_specular", table.source.specular},
       {"target", table.target.model},
-      {"target_roughness", std::string(convention_name(table.target.roughness))},
+      {"target_roughness", std::string(encoding_name(table.target.roughness))},
       {"target_specular", table.target.specular},
       {"inverse_of", fit.id},
       {"inverse_of_sha256", sha256(bytes)},

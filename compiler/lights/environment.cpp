@@ -123,7 +123,7 @@ Environment load_environment(const std::filesystem::path& path) {
   if (map.width != 2 * map.height)
     throw Error(ErrorKind::kInput,
                 path.string() + ": size " + std::to_string(map.width) + "x" + std::to_string(map.height) +
-                    " is not that of a map in latitude and longitude (twice as wide as high)");
+                    " does not fit a map in latitude and longitude (twice as wide as high)");
   for (float& value : map.values) {
     if (!std::isfinite(value))
       throw Error(ErrorKind::kInput, path.string() + ": contains a value that is not finite");

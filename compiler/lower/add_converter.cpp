@@ -12,7 +12,7 @@ namespace {
 double rounding_of(double value) { return 4.8e-7 * std::fabs(value) + 1e-30; }
 
 // How far the target's own parameter moves where alpha moves by `error`.
-double own_error(RoughnessConvention convention, double own, double error) {
+double own_error(RoughnessEncoding convention, double own, double error) {
   const double alpha = to_alpha(convention, own);
   const double low = from_alpha(convention, std::max(alpha - error, 0.5 * alpha));
   const double high = from_alpha(convention, alpha + error);

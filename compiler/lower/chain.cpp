@@ -26,7 +26,7 @@ double at(const Range& range, int i, int count) {
 }
 
 std::string side_text(const ModelSide& side) {
-  return side.model + " (" + std::string(convention_name(side.roughness)) + ", " + side.specular + ")";
+  return side.model + " (" + std::string(encoding_name(side.roughness)) + ", " + side.specular + ")";
 }
 
 std::string range_text(const Range& range) {

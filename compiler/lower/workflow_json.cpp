@@ -9,7 +9,7 @@ Json to_json(const SpecularWorkflow& workflow) {
   return {{"model", workflow.model},
           {"workflow", "specular"},
           {"diffuse", std::string(diffuse_convention_name(workflow.diffuse))},
-          {"roughness", std::string(convention_name(workflow.width))}};
+          {"roughness", std::string(encoding_name(workflow.width))}};
 }
 
 Json to_json(const MetallicWorkflow& workflow) {
@@ -17,7 +17,7 @@ Json to_json(const MetallicWorkflow& workflow) {
           {"workflow", "metallic"},
           {"dielectric_f0", workflow.dielectric_f0},
           {"diffuse", std::string(diffuse_convention_name(workflow.diffuse))},
-          {"roughness", std::string(convention_name(workflow.width))}};
+          {"roughness", std::string(encoding_name(workflow.width))}};
 }
 
 Json to_json(const WorkflowFormula& formula) {
@@ -53,8 +53,8 @@ DiffuseConvention read_diffuse(const Field& side) {
   return side["diffuse"].named(kDiffuseConventions, "plain or scaled");
 }
 
-RoughnessConvention read_width(const Field& side) {
-  return side["roughness"].named(kConventions, "roughness, glossiness or alpha");
+RoughnessEncoding read_width(const Field& side) {
+  return side["roughness"].named(kRoughnessEncodings, "roughness, glossiness or alpha");
 }
 
 WorkflowFormula read_formula(const Field& mapping) {

@@ -128,7 +128,7 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
 }
 
 // Matches diffuse by itself, in proportion.
-void match_diffuse_apart(const SweepSetup& setup, TableRow* row) {
+void match_diffuse_separately(const SweepSetup& setup, TableRow* row) {
   const Range range = setup.target.diffuse_range();
   const double wanted = setup.options.diffuse * setup.diffuse.scale;
   row->diffuse1 = setup.options.diffuse;
@@ -190,7 +190,7 @@ std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& bl
   }
   for (TableRow& row : rows) {
     if (has_diffuse(setup.options)) {
-      match_diffuse_apart(setup, &row);
+      match_diffuse_separately(setup, &row);
       match_whole(setup, &row);
     }
     const bool clamped = !setup.source_widths.effective.contains(row.alpha1);

@@ -209,7 +209,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   auto& comments = table.comments;
   comments = {{"tool", std::string("remapc ") + kVersion},
               {"source", matching.source.name},
-              {"source_roughness", std::string(convention_name(matching.source.roughness))}};
+              {"source_roughness", std::string(encoding_name(matching.source.roughness))}};
   ProbedModel target = matching.target;  // without the matched parameters: the rest is fixed
   std::erase_if(target.model.parameters, [&](const ParameterDescription& parameter) {
     return std::find(options.searched.begin(), options.searched.end(), parameter.name) !=

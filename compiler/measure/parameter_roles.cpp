@@ -48,7 +48,7 @@ void measure_widths(ModelDescription* model) {
   if (!(alphas.min >= 0.0) || !(alphas.max > 0.0))
     throw Error(ErrorKind::kUsage, model->name + ": the range of " + roughness.name +
                                        " is invalid for the convention " +
-                                       std::string(convention_name(model->roughness)) +
+                                       std::string(encoding_name(model->roughness)) +
                                        " (name another one: " + roughness.name + ":CONVENTION)");
   model->alpha = alphas;
 }

@@ -14,7 +14,7 @@ namespace remap {
 // An empty name keeps the parameter to which the model itself gives the role.
 struct ParameterRoles {
   std::string roughness;
-  std::optional<RoughnessConvention> convention;  // of `roughness`; empty: the model's own
+  std::optional<RoughnessEncoding> convention;  // of `roughness`; empty: the model's own
   std::string specular;
   std::string diffuse;
   std::map<std::string, double> fixed;  // by name

@@ -32,9 +32,9 @@ void add_side(const std::string& role, const ProbedModel& probed_model, Comments
   const ModelSide side = model_side(probed_model.model);
   const SpecularResponse& response = probed_model.response;
   comments->emplace_back(role, side.model);
-  comments->emplace_back(role + "_roughness", std::string(convention_name(side.roughness)));
+  comments->emplace_back(role + "_roughness", std::string(encoding_name(side.roughness)));
   if (const std::string own = probed_model.model.parameter(ParameterRole::kRoughness).name;
-      own != convention_name(side.roughness))
+      own != encoding_name(side.roughness))
     comments->emplace_back(role + "_roughness_parameter", own);
   comments->emplace_back(role + "_specular", side.specular);
   if (const std::string fixed = fixed_text(probed_model.model); !fixed.empty())

@@ -65,11 +65,11 @@ void require_network(const LearnedNetwork& learned, const std::string& place) {
                   " outputs (diffuse and specular are 6 inputs, base color and metallic 4 outputs)");
 }
 
-std::string width_meaning(RoughnessConvention width) {
+std::string width_meaning(RoughnessEncoding width) {
   switch (width) {
-    case RoughnessConvention::kAlpha:
+    case RoughnessEncoding::kAlpha:
       return "microfacet width";
-    case RoughnessConvention::kGlossiness:
+    case RoughnessEncoding::kGlossiness:
       return "1 - square root of the microfacet width";
     default:
       return "square root of the microfacet width";
@@ -82,13 +82,13 @@ std::vector<MaterialParameter> parameters(const SpecularWorkflow& workflow) {
                ? "diffuse reflectance, linear"
                : "diffuse reflectance of what the specular lobe leaves, linear"},
           {"specular", 3, "reflectance at normal incidence, linear"},
-          {std::string(convention_name(workflow.width)), 1, width_meaning(workflow.width)}};
+          {std::string(encoding_name(workflow.width)), 1, width_meaning(workflow.width)}};
 }
 
 std::vector<MaterialParameter> parameters(const MetallicWorkflow& workflow) {
   return {{"base_color", 3, "albedo of the dielectric and F0 of the metal, linear"},
           {"metallic", 1, "share of metal"},
-          {std::string(convention_name(workflow.width)), 1, width_meaning(workflow.width)}};
+          {std::string(encoding_name(workflow.width)), 1, width_meaning(workflow.width)}};
 }
 
 template <std::size_t Count, typename Pointer>
@@ -159,7 +159,7 @@ bool has_value_beyond(const SpecularMaterial& material) {
 float width_of(const code::Texel& texel, const code::Conventions& use) {
   std::array<float, code::kMetallicSamples> errors{};
   code::sample_errors(texel, use, errors.data());
-  return code::metallic_width(errors.data(), code::good_error(texel, use));
+  return code::metallic_uncertainty(errors.data(), code::good_error(texel, use));
 }
 
 }  // namespace

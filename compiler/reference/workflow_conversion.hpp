@@ -128,7 +128,7 @@ struct MetallicDiagnosis {
   float residual = 0.0f;
   // Share of [0, 1] in which metallic, with the best base color for it, has a squared error within (1/255)^2
   // of the least one. Above 0.2 metallic is undetermined, without effect on the picture.
-  float metallic_width = 0.0f;
+  float metallic_uncertainty = 0.0f;
   // Whether a parameter, or by more than half a step of 8 bits the base color of a channel, was outside [0,
   // 1].
   bool is_clamped = false;

@@ -40,7 +40,7 @@ struct BuiltinModel {
   const char* name;
   Brdf brdf;
   Reflectance reflectance;
-  RoughnessConvention roughness = RoughnessConvention::kAlpha;
+  RoughnessEncoding roughness = RoughnessEncoding::kAlpha;
   Range alpha = kAlphaRange;
 };
 
@@ -50,7 +50,7 @@ constexpr std::array kModels = {
     BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Reflectance::kScale},
     BuiltinModel{"mitsuba/ward-balanced", Brdf::kWardBalanced, Reflectance::kScale},
     BuiltinModel{"mitsuba/ward-conserving", Brdf::kWard, Reflectance::kTrimmedScale},
-    BuiltinModel{"mitsuba/phong", Brdf::kPhong, Reflectance::kScale, RoughnessConvention::kExponent},
+    BuiltinModel{"mitsuba/phong", Brdf::kPhong, Reflectance::kScale, RoughnessEncoding::kExponent},
     BuiltinModel{"mitsuba/beckmann", Brdf::kBeckmann, Reflectance::kSchlick},
     BuiltinModel{"mitsuba/ggx", Brdf::kGgx, Reflectance::kSchlick},
     BuiltinModel{"mitsuba/as", Brdf::kAs, Reflectance::kSchlick},
@@ -67,17 +67,17 @@ constexpr std::array kModels = {
     BuiltinModel{"mitsuba/ggx-conductor", Brdf::kGgx, Reflectance::kConductor},
     BuiltinModel{"mitsuba/as-conductor", Brdf::kAs, Reflectance::kConductor},
     BuiltinModel{"mitsuba/beckmann-metallic", Brdf::kBeckmann, Reflectance::kMetallic,
-                 RoughnessConvention::kRoughness},
-    BuiltinModel{"mitsuba/ggx-metallic", Brdf::kGgx, Reflectance::kMetallic, RoughnessConvention::kRoughness},
-    BuiltinModel{"mitsuba/as-metallic", Brdf::kAs, Reflectance::kMetallic, RoughnessConvention::kRoughness},
-    BuiltinModel{"legacy/phong", Brdf::kPlainPhong, Reflectance::kScale, RoughnessConvention::kExponent,
+                 RoughnessEncoding::kRoughness},
+    BuiltinModel{"mitsuba/ggx-metallic", Brdf::kGgx, Reflectance::kMetallic, RoughnessEncoding::kRoughness},
+    BuiltinModel{"mitsuba/as-metallic", Brdf::kAs, Reflectance::kMetallic, RoughnessEncoding::kRoughness},
+    BuiltinModel{"legacy/phong", Brdf::kPlainPhong, Reflectance::kScale, RoughnessEncoding::kExponent,
                  kExponentAlphas},
-    BuiltinModel{"legacy/blinn-phong", Brdf::kPlainBlinn, Reflectance::kScale, RoughnessConvention::kExponent,
+    BuiltinModel{"legacy/blinn-phong", Brdf::kPlainBlinn, Reflectance::kScale, RoughnessEncoding::kExponent,
                  kExponentAlphas},
-    BuiltinModel{"legacy/phong-normalised", Brdf::kPhong, Reflectance::kScale, RoughnessConvention::kExponent,
+    BuiltinModel{"legacy/phong-normalised", Brdf::kPhong, Reflectance::kScale, RoughnessEncoding::kExponent,
                  kExponentAlphas},
     BuiltinModel{"legacy/blinn-phong-normalised", Brdf::kBlinn, Reflectance::kScale,
-                 RoughnessConvention::kExponent, kExponentAlphas},
+                 RoughnessEncoding::kExponent, kExponentAlphas},
 };
 
 // Dielectrics: from no boundary to germanium in the infrared. Conductors: the measured values of visible
@@ -115,7 +115,7 @@ ModelDescription describe(const BuiltinModel& model) {
   ModelDescription description{model.name,
                                model.roughness,
                                model.alpha,
-                               {{std::string(convention_name(model.roughness)),
+                               {{std::string(encoding_name(model.roughness)),
                                  ParameterRole::kRoughness,
                                  {std::min(bound_a, bound_b), std::max(bound_a, bound_b)}}}};
   for (ParameterDescription& parameter : specular_parameters(model.reflectance))

@@ -39,7 +39,7 @@ const ParameterDescription& ModelDescription::parameter(ParameterRole role) cons
     if (description.role == role) return description;
   throw Error(ErrorKind::kUsage, name + ": has no parameter for " +
                                      kRoleNames[static_cast<std::size_t>(role)] +
-                                     " (remapc list --models shows those of every model)");
+                                     " (remapc list --models shows the parameters of every model)");
 }
 
 const ParameterDescription& ModelDescription::parameter(const std::string& parameter_name) const {
@@ -102,7 +102,7 @@ Material grey_material(const ModelDescription& model, double alpha, double specu
   return material;
 }
 
-Range canonical_widths(RoughnessConvention convention, const Range& own) {
+Range canonical_widths(RoughnessEncoding convention, const Range& own) {
   const double a = to_alpha(convention, own.min), b = to_alpha(convention, own.max);
   return {std::min(a, b), std::max(a, b)};
 }

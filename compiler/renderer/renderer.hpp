@@ -37,7 +37,7 @@ struct ParameterDescription {
 
 struct ModelDescription {
   std::string name;  // `renderer/brdf`
-  RoughnessConvention roughness = RoughnessConvention::kAlpha;
+  RoughnessEncoding roughness = RoughnessEncoding::kAlpha;
   Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;
   bool noise = false;        // the picture depends on the seed
@@ -88,7 +88,7 @@ Material grey_material(const ModelDescription& model, double alpha, double specu
 
 // Converts a range of a model's own width parameter to alpha, ascending: some conventions fall as alpha
 // rises.
-Range canonical_widths(RoughnessConvention convention, const Range& own);
+Range canonical_widths(RoughnessEncoding convention, const Range& own);
 
 // Describes `model` as the source or target of a conversion.
 ModelSide model_side(const ModelDescription& model);

@@ -75,7 +75,7 @@ void add_options(Command& app, EnvironmentsCommand& command) {
                "Also search for the parameters of least mean RMSE under these environments (`best`)");
   add_sampling_options(app, study);
   app.add_option("--fits", command.fit_folder,
-                 "Folder of the fits for the method `shipped`; default: fits, else the installed ones");
+                 "Folder of the fits for the method `shipped`; default: fits, or the installed ones");
   add_output_options(
       app, command.output, study.jobs,
       {"Write environments.csv, environments_summary.csv and environments.svg (needs gnuplot) to this folder",

@@ -64,7 +64,7 @@ void record(const std::filesystem::path& folder, const ReachOptions& options,
 void run(const ReachCommand& command) {
   ReachOptions options = command.study;
   const std::filesystem::path folder = fit_folder_of(command.fit_folder);
-  if (folder.empty()) throw usage_error("--fits: there is no folder `fits` here (name one)");
+  if (folder.empty()) throw usage_error("--fits: no folder `fits` here (give --fits FOLDER)");
   options.fits = chosen_fits(command, folder);
   for (const Fit& fit : options.fits)
     options.speculars.push_back(sampled_speculars(folder / "tables" / (fit.id + ".csv")));
@@ -85,7 +85,7 @@ void add_reach_study(Command& app) {
   ReachCommand& options = set_work<ReachCommand>(*command, run);
   command->add_option("ID", options.ids, "Fits; default: all of the folder between Mitsuba models");
   command->add_option("--fits", options.fit_folder,
-                      "Folder of the fits; default: fits, else the installed ones");
+                      "Folder of the fits; default: fits, or the installed ones");
   command->add_flag(
       "--record", options.records,
       "Also write the figures to reach.csv in the folder of fits, from which remapc build reports them");

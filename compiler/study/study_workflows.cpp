@@ -64,7 +64,7 @@ void add_options(Command& app, WorkflowsCommand& command) {
   app.add_option("--seed", command.materials.seed, "Seed of the random materials");
   add_sampling_options(app, study);
   app.add_option("--fits", command.fit_folder,
-                 "Folder of fits; their networks are compared, too; default: fits, else the installed ones");
+                 "Folder of fits; their networks are compared, too; default: fits, or the installed ones");
   add_output_options(
       app, command.output, study.jobs,
       {"Write workflows.csv, workflows_summary.csv and workflows.svg (needs gnuplot) to this folder",
@@ -79,7 +79,7 @@ void add_workflows_study(Command& study) {
   Command* command = study.add_subcommand(
       "workflows",
       "Convert materials from the specular to the metallic workflow by every method and compare pictures "
-      "under environment maps; also convert metallic materials there and back");
+      "under environment maps; also make round trips of metallic materials");
   WorkflowsCommand& options = set_work<WorkflowsCommand>(*command, run);
   add_options(*command, options);
   command->footer(

@@ -20,7 +20,7 @@ constexpr std::size_t kSheetRowsAGroup = 2;
 WorkflowConversion conversion_by(WorkflowFormula formula, double f0, DiffuseConvention diffuse) {
   WorkflowConversion conversion;
   conversion.specular.diffuse = conversion.metallic.diffuse = diffuse;
-  conversion.specular.width = conversion.metallic.width = RoughnessConvention::kAlpha;
+  conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
   conversion.metallic.dielectric_f0 = f0;
   conversion.formula = std::move(formula);
   return conversion;
@@ -248,7 +248,7 @@ std::vector<WorkflowMethod> plain_methods(const std::vector<NamedConversion>& le
   for (const NamedConversion& network : learned) {
     WorkflowConversion conversion = network.conversion;
     if (conversion.specular.diffuse != DiffuseConvention::kPlain) continue;
-    conversion.specular.width = conversion.metallic.width = RoughnessConvention::kAlpha;
+    conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
     methods.push_back(method_of(network.name, conversion));
   }
   methods.push_back(method_of("projection", plain(Projection{kCleanPrior}, kCommonDielectricF0)));

@@ -123,7 +123,7 @@ class TableReader {
     ModelSide side;
     side.model = csv_.comment(role);
     if (const std::string text = csv_.comment(role + "_roughness"); !text.empty()) {
-      const auto convention = convention_from_name(text);
+      const auto convention = encoding_from_name(text);
       if (!convention)
         throw Error(ErrorKind::kInput, table_.name + ": " + role + "_roughness: unknown convention \"" +
                                            text + "\"" + suggestion(text, convention_names()));
@@ -169,8 +169,8 @@ ColumnMap column_map(const std::string& text) {
   ColumnMap map;
   if (text == kPublished) {
     map.columns = {{"specular2", "eta2"}};
-    map.source = {"mitsuba/ward", RoughnessConvention::kAlpha, "specular"};
-    map.target = {"mitsuba/as", RoughnessConvention::kAlpha, "f0"};
+    map.source = {"mitsuba/ward", RoughnessEncoding::kAlpha, "specular"};
+    map.target = {"mitsuba/as", RoughnessEncoding::kAlpha, "f0"};
     return map;
   }
   if (text.find('=') == std::string::npos)

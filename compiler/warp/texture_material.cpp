@@ -49,7 +49,7 @@ bool add_map(const FoundSet& set, const fs::path& root, Parameter parameter, boo
   const MapUse& use = found.front();
   request.parameters[parameter].source = MapName{root / set.maps[use.map].path, channel_names(use.channels)};
   if (parameter == Parameter::kRoughness)
-    request.convention = convention_of(use.role).value_or(RoughnessConvention::kRoughness);
+    request.convention = encoding_of(use.role).value_or(RoughnessEncoding::kRoughness);
   return true;
 }
 
@@ -71,7 +71,7 @@ MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
     if (!add(Parameter::kDiffuse, is_diffuse)) add(Parameter::kDiffuse, is_base_color);
     request.parameters[Parameter::kSpecular].source = ConstantValues{0.0f};
     request.parameters[Parameter::kRoughness].source = ConstantValues{1.0f};
-    request.convention = RoughnessConvention::kAlpha;
+    request.convention = RoughnessEncoding::kAlpha;
     return result;
   }
   if (!add(Parameter::kRoughness, is_roughness))
@@ -138,7 +138,7 @@ TextureMaterial read_texture_material(const fs::path& folder, const std::string&
   conversion.width = result.width;
   conversion.height = result.height;
   conversion.source_convention = set.convention;
-  conversion.target_convention = RoughnessConvention::kAlpha;
+  conversion.target_convention = RoughnessEncoding::kAlpha;
   for (const auto& [parameter, found] : set.parameters)
     conversion.sources[parameter] = source_of(found, set, texels);
   const auto want = [&](Parameter parameter, std::size_t from, std::size_t count) {

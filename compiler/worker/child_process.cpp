@@ -16,8 +16,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include "core/owner_tag.hpp"
 #include "core/plain_text.hpp"
-#include "core/process_mark.hpp"
 #include "core/read_file.hpp"
 #include "remap/error.hpp"
 
@@ -66,7 +66,7 @@ std::size_t bytes_of(const std::string& line) { return sizeof line + line.size()
 // `REMAP_CHILD=5d1c09e4-421-1`, for the first child of this process.
 std::string new_mark() {
   static std::atomic<unsigned> count{0};
-  return "REMAP_CHILD=" + process_mark() + "-" + std::to_string(++count);
+  return "REMAP_CHILD=" + owner_tag() + "-" + std::to_string(++count);
 }
 
 // Whether the environment that a process began with holds `entry`; false if it cannot be read.

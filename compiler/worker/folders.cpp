@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/process_mark.hpp"
+#include "core/owner_tag.hpp"
 
 namespace remap {
 namespace {
@@ -51,7 +51,7 @@ std::string_view mark_in(std::string_view name) {
 void remove_abandoned(const fs::path& parent) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored))
-    if (is_mark_of_the_dead(mark_in(entry.path().filename().string()))) fs::remove_all(entry.path(), ignored);
+    if (is_stale_owner(mark_in(entry.path().filename().string()))) fs::remove_all(entry.path(), ignored);
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ PrivateFolder::PrivateFolder(const fs::path& given) {
     throw output_error(parent.string() +
                        ": is not a folder that can be written to (make it, or choose another)");
   remove_abandoned(parent);
-  std::string name = (parent / (kPrefix + process_mark() + "-XXXXXX")).string();
+  std::string name = (parent / (kPrefix + owner_tag() + "-XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr)
     throw output_error(name + ": cannot be created: " + std::strerror(errno));
   path_ = name;

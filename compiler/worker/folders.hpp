@@ -19,7 +19,7 @@ std::filesystem::path own_worker_list();
 std::filesystem::path shipped_worker_list();
 
 // A folder of this process, deleted with the object. Its name holds the mark of this machine and process
-// (core/process_mark.hpp), so that many may share the parent; folders of processes of this machine that have
+// (core/owner_tag.hpp), so that many may share the parent; folders of processes of this machine that have
 // ended are deleted when another one is made.
 class PrivateFolder {
  public:

@@ -54,10 +54,10 @@ ParameterRole read_role(const Field& field) {
              "\" (choose roughness, specular, diffuse, index, extinction or other)");
 }
 
-ParameterDescription read_parameter(const Field& field, RoughnessConvention* convention) {
+ParameterDescription read_parameter(const Field& field, RoughnessEncoding* convention) {
   ParameterDescription parameter{field["name"].text(), read_role(field["role"]), read_range(field["range"])};
   if (parameter.role == ParameterRole::kRoughness) {
-    const auto known = convention_from_name(field["convention"].text());
+    const auto known = encoding_from_name(field["convention"].text());
     field["convention"].require(known.has_value(), "alpha, roughness, exponent, glossiness or squared");
     *convention = *known;
   }
@@ -106,18 +106,17 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
 
 // Parses an answer. It must have the id of the request. The message for invalid JSON quotes the line.
 Json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
-  const auto shown = [&] { return plain(line, 80); };
-  if (is_nested_too_deep(line))
-    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", JSON nested deeper than " +
-                                       std::to_string(kDeepestJson) + " levels");
-  std::variant<Json, JsonFault> parsed = json_of(line);
-  const Json* answer = std::get_if<Json>(&parsed);
-  if (answer == nullptr || answer->fields() == nullptr)
-    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", which is not a line of JSON");
-  if (const Json* own = answer->find("id"); own == nullptr || own->whole() != id)
-    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\" without the id " +
-                                       std::to_string(id) + " of the request");
-  return std::move(std::get<Json>(parsed));
+  const std::string answered = place + ": answered \"" + plain(line, 80) + "\"";
+  Json answer;
+  try {
+    answer = parse_json(line, "JSON");
+  } catch (const Error& error) {
+    throw input_error(answered + ", which is not a line of JSON (" + error.what() + ")");
+  }
+  if (answer.fields() == nullptr) throw input_error(answered + ", which is not an object");
+  if (const Json* own = answer.find("id"); own == nullptr || own->whole() != id)
+    throw input_error(answered + " without the id " + std::to_string(id) + " of the request");
+  return answer;
 }
 
 // The complaint of an answer, for a message: its line breaks are spaces, and it is cut.
@@ -155,7 +154,7 @@ std::string describe_line(std::int64_t id, unsigned threads) {
 std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
                         const std::filesystem::path& mesh) {
   Json json = {{"id", id}, {"request", "render"}};
-  json.update(std::get<Json>(json_of(request.text)));
+  json.update(parse_json(request.text, "request"));
   if (request.shape != Shape::kSphere) json["scene"]["mesh"] = mesh.string();
   json["image"] = image.string();
   return json.dump();

@@ -172,7 +172,7 @@ std::optional<Image> WorkerRenderer::cached(const PictureRequest& request) const
   if (!cache_) return std::nullopt;
   PictureCache::Found found = cache_->find(request);
   if (!found.damage.empty() && damaged_++ == 0)
-    warn_of_cache(found.damage + " (the picture is rendered anew)");
+    warn_of_cache(found.damage + " (the picture is rendered again)");
   return std::move(found.image);
 }
 
@@ -203,7 +203,7 @@ std::vector<std::string> WorkerRenderer::remarks() const {
   if (!cache_) return remarks;
   if (damaged_ > 1)
     remarks.push_back("worker " + entry_.name + ": " + std::to_string(damaged_) + " pictures of the cache " +
-                      settings_.cache->string() + " were damaged; they were rendered anew");
+                      settings_.cache->string() + " were damaged; they were rendered again");
   for (const std::string& version : cache_->other_versions())
     remarks.push_back("worker " + entry_.name + ": pictures of " + version + " in the cache " +
                       settings_.cache->string() + " are not used; this is " + description_.renderer);

@@ -33,7 +33,7 @@ int main() try {
       remap::Transfer::kSrgb;
   maps.sources[remap::Parameter::kRoughness].channels = {channel(3)};
   maps.targets[remap::Parameter::kRoughness].channels = {channel(3)};
-  maps.source_convention = maps.target_convention = remap::RoughnessConvention::kGlossiness;
+  maps.source_convention = maps.target_convention = remap::RoughnessEncoding::kGlossiness;
 
   maps.value_statistics = true;
 

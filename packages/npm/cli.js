@@ -7,7 +7,7 @@ import { isatty } from 'node:tty';
 
 import * as images from './images.js';
 
-// For the marks of unfinished files (runtime/core/process_mark.hpp), and for reports.
+// For the marks of unfinished files (runtime/core/owner_tag.hpp), and for reports.
 const processes = {
   own: process.pid,
   machine: hostname(),

@@ -12,7 +12,7 @@ const COMMAND_OPTIONS = {
   from: '--from',
   to: '--to',
   profile: '--profile',
-  prior: '--prior',
+  prior: '--metallic-bias',
   foldSpecular: '--fold-specular',
   resample: '--resample',
   bake: '--bake',

@@ -21,7 +21,7 @@ export type ColorMap = number | [number, number, number] | MapArray | [MapArray,
 
 export type Encoding = 'alpha' | 'roughness' | 'exponent' | 'glossiness' | 'squared';
 export type Transfer = 'linear' | 'srgb';
-export type Measure = 'residual' | 'metallicWidth' | 'doubts';
+export type Measure = 'residual' | 'metallicUncertainty' | 'issues';
 
 /** How a converter is found. */
 export interface ConverterOptions {
@@ -94,8 +94,8 @@ export interface TargetMaps {
   baseColor?: any;
   metallic?: any;
   residual?: any;
-  metallicWidth?: any;
-  doubts?: any;
+  metallicUncertainty?: any;
+  issues?: any;
   statistics: Statistics;
 }
 

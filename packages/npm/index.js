@@ -32,12 +32,12 @@ const CORE_NAMES = new Map([
   ['metallic', 'metallic'],
   ['metalMask', 'metal_mask'],
   ['residual', 'residual'],
-  ['metallicWidth', 'metallic_width'],
-  ['doubts', 'doubts'],
+  ['metallicUncertainty', 'metallic_uncertainty'],
+  ['issues', 'issues'],
 ]);
 const OWN_NAMES = new Map([...CORE_NAMES].map(([own, core]) => [core, own]));
 const COLORS = new Set(['specular', 'diffuse', 'baseColor']);
-const MEASURES = ['residual', 'metallicWidth', 'doubts'];
+const MEASURES = ['residual', 'metallicUncertainty', 'issues'];
 
 const OWN_OPTIONS = ['sourceWorkflow', 'targetWorkflow', 'via', 'diffuseConvention', 'dielectricF0', 'prior'];
 const CONVERTER_OPTIONS = ['source', 'target', ...OWN_OPTIONS];

@@ -11,11 +11,11 @@
 #include <utility>
 #include <variant>
 
-#include "convert/converter_file.hpp"
 #include "converter/converter_fields.hpp"
 #include "core/error_kind.hpp"
 #include "core/errors.hpp"
 #include "core/json_field.hpp"
+#include "paths/converter_file.hpp"
 #include "remap/conversion.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/version.hpp"
@@ -29,7 +29,7 @@ struct HeldConverter {
   BuiltConversion conversion;         // by names
   std::unique_ptr<Converter> of_fit;  // of the text of a fit
   // Of the roughness of maps, unless they say otherwise: a converter of materials may have another inside.
-  RoughnessConvention source = RoughnessConvention::kAlpha, target = RoughnessConvention::kAlpha;
+  RoughnessEncoding source = RoughnessEncoding::kAlpha, target = RoughnessEncoding::kAlpha;
   const Converter& converter() const { return of_fit ? *of_fit : conversion.converter(); }
 };
 
@@ -106,8 +106,8 @@ Json conversion_json(const HeldConverter& held, const ConverterInfo& domain) {
   return {{"id", info.id},
           {"source", info.source.model},
           {"target", info.target.model},
-          {"sourceEncoding", convention_name(held.source)},
-          {"targetEncoding", convention_name(held.target)},
+          {"sourceEncoding", encoding_name(held.source)},
+          {"targetEncoding", encoding_name(held.target)},
           {"sources", parameters_json(converter.sources())},
           {"targets", parameters_json(converter.targets())},
           {"domain", domain_json(domain)}};
@@ -154,13 +154,13 @@ Json list_models() {
     const ModelSide side = graph().side_of(name);
     models.push_back({{"name", name},
                       {"kind", "brdf"},
-                      {"encoding", convention_name(side.roughness)},
+                      {"encoding", encoding_name(side.roughness)},
                       {"specular", side.specular}});
   }
   for (const WorkflowModel& model : workflow_models())
     models.push_back({{"name", model_of(model.end)},
                       {"kind", kind_name(model.end)},
-                      {"encoding", convention_name(width_of(model.end))},
+                      {"encoding", encoding_name(width_of(model.end))},
                       {"brdf", model.brdf}});
   for (const ModelAlias& alias : model_aliases())
     models.push_back(
@@ -214,8 +214,10 @@ Json begin_maps(const Field& request) {
   MapConversion maps;
   maps.dither = request.flag("dither");
   maps.bad_texels = named_if(request, "badTexels", kBadTexels).value_or(BadTexels::kKeep);
-  maps.source_convention = named_if(request, "sourceEncoding", kConventions).value_or(held->second.source);
-  maps.target_convention = named_if(request, "targetEncoding", kConventions).value_or(held->second.target);
+  maps.source_convention =
+      named_if(request, "sourceEncoding", kRoughnessEncodings).value_or(held->second.source);
+  maps.target_convention =
+      named_if(request, "targetEncoding", kRoughnessEncodings).value_or(held->second.target);
   for (const Field& source : request["sources"].list(0, [](const Field& field) { return field; }))
     maps.sources[parameter_named(source["parameter"])] = source_of(source);
   for (const Field& target : request["targets"].list(0, [](const Field& field) { return field; }))

@@ -12,15 +12,15 @@
 #include <utility>
 #include <vector>
 
-#include "assets/asset_uri.hpp"
-#include "assets/gltf_bytes.hpp"
-#include "assets/gltf_container.hpp"
-#include "assets/gltf_extensions.hpp"
-#include "assets/gltf_images.hpp"
-#include "assets/json_spans.hpp"
+#include "assets/document/asset_uri.hpp"
+#include "assets/document/gltf_extensions.hpp"
+#include "assets/gltf/gltf_bytes.hpp"
+#include "assets/gltf/gltf_container.hpp"
+#include "assets/gltf/gltf_images.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/json_spans.hpp"
 #include "core/plain_text.hpp"
 #include "sets/folder_walk.hpp"
 
@@ -164,8 +164,8 @@ class GltfMaterials {
         found_(found),
         source_(file),
         beside_(file.parent_path()),
-        container_(read_container(source_, shown(file))),
-        json_(container_.json, shown(file)),
+        container_(read_container(source_, display_path(file))),
+        json_(container_.json, display_path(file)),
         bytes_(json_, container_, source_, beside_),
         textures_(json_.root()["textures"].entries()),
         images_(json_.root()["images"].entries()) {}
@@ -182,7 +182,7 @@ class GltfMaterials {
     material.place = file_;
     const std::optional<std::string> name = entry["name"].text();
     material.name =
-        shown(file_) + ": material " + (name ? "\"" + plain(*name) + "\"" : std::to_string(index));
+        display_path(file_) + ": material " + (name ? "\"" + plain(*name) + "\"" : std::to_string(index));
     const SpanValue extensions = entry["extensions"];
     const bool is_unlit = extensions[kUnlitExtension].is(SpanKind::kObject);
     // Readers of these read no other extension of the surface.
@@ -262,7 +262,7 @@ class GltfMaterials {
   }
 
   std::string image_title(std::size_t image) const {
-    return shown(file_) + ": image " + std::to_string(image);
+    return display_path(file_) + ": image " + std::to_string(image);
   }
 
   fs::path file_of_image(std::size_t image) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "assets/map_pixels.hpp"
+#include "assets/maps/map_pixels.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
@@ -72,7 +72,7 @@ Curl curl_of(const std::vector<const Plane*>& rgb, int columns, int rows) {
 
 enum class Orientation { kUnknown, kOpenGl, kDirectX };
 
-Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, const TargetReader* reader) {
+Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, const GltfConsumer* reader) {
   if (material.kind == MaterialKind::kGltf) return Orientation::kOpenGl;
   if (const auto stated = stated_green(map.name))
     return stated->green == NormalGreen::kUp ? Orientation::kOpenGl : Orientation::kDirectX;
@@ -186,7 +186,7 @@ void for_uses(const CheckedMaterial& material, Judge judge) {
 
 }  // namespace
 
-void linear_color(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void linear_color(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                   std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
     const MaterialMap& map = material.maps[use.map];
@@ -206,7 +206,7 @@ void linear_color(const CheckedMaterial& material, const TargetReader*, const Ru
   });
 }
 
-void specgloss_channels(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void specgloss_channels(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                         std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
     const TexelSample& texels = *material.texels(use);
@@ -223,7 +223,7 @@ void specgloss_channels(const CheckedMaterial& material, const TargetReader*, co
   });
 }
 
-void constant_map(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                   std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
     // Metallic, occlusion, opacity and specular of one value are usual in sets.
@@ -256,7 +256,7 @@ void constant_map(const CheckedMaterial& material, const TargetReader*, const Ru
 }
 
 // A step of 8 bits at roughness r widens alpha = r^2 by 2 / (255 r): by 20 % at 10 / 255.
-void banding(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
              std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
     const Plane* plane = material.plane(use);
@@ -286,7 +286,7 @@ void banding(const CheckedMaterial& material, const TargetReader*, const Rule& r
   });
 }
 
-void bad_values(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void bad_values(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                 std::vector<MaterialFinding>& findings) {
   std::set<std::size_t> seen;
   for_uses(material, [&](const MaterialUse& use) {
@@ -304,7 +304,7 @@ void bad_values(const CheckedMaterial& material, const TargetReader*, const Rule
     if (has_range) add(texels.above_one_count, "above 1");
     if (what.empty()) return;
     findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, "",
-                        "has values that are no " + std::string(role_name(use.role)) + ": " + what,
+                        "has values that are not " + std::string(role_name(use.role)) + ": " + what,
                         image_fix(material, material.maps[use.map],
                                   has_range ? "move them into the range from 0 to 1"
                                             : "fill such texels from those around them",
@@ -312,7 +312,7 @@ void bad_values(const CheckedMaterial& material, const TargetReader*, const Rule
   });
 }
 
-void metallic_greys(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void metallic_greys(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
     const Plane* plane = use.role == Role::kMetallic ? material.plane(use) : nullptr;
@@ -329,7 +329,7 @@ void metallic_greys(const CheckedMaterial& material, const TargetReader*, const 
   });
 }
 
-void channel_order(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void channel_order(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                    std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
     const Plane* plane =
@@ -356,7 +356,7 @@ void channel_order(const CheckedMaterial& material, const TargetReader*, const R
   });
 }
 
-void normal_space(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void normal_space(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                   std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
     const auto rgb = use.role == Role::kNormal ? material.colors(use) : std::vector<const Plane*>{};
@@ -368,11 +368,11 @@ void normal_space(const CheckedMaterial& material, const TargetReader*, const Ru
                         percent(shares.inwards) +
                             " of its normals point into the surface: they are of world or object space, "
                             "not of tangent space",
-                        "bake the map again in tangent space; no conversion of the texels alone does that"});
+                        "bake the map again in tangent space; changing its texels does not do that"});
   });
 }
 
-void normal_orientation(const CheckedMaterial& material, const TargetReader* reader, const Rule& rule,
+void normal_orientation(const CheckedMaterial& material, const GltfConsumer* reader, const Rule& rule,
                         std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
     const auto rgb = use.role == Role::kNormal ? material.colors(use) : std::vector<const Plane*>{};
@@ -393,13 +393,13 @@ void normal_orientation(const CheckedMaterial& material, const TargetReader* rea
     };
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "G",
-         "its slopes are those of a surface only as " + text(seen) + ", but " +
+         "its slopes belong to a surface only as " + text(seen) + ", but " +
              (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or reader says ") + text(name),
          image_fix(material, map, "invert its green channel", inversion_of(material, green))});
   });
 }
 
-void wrong_texture(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void wrong_texture(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                    std::vector<MaterialFinding>& findings) {
   const auto add = [&](const MaterialUse& use, Confidence confidence, const std::string& what) {
     findings.push_back({rule.name, confidence, material.maps[use.map].shown, "",
@@ -435,7 +435,7 @@ void wrong_texture(const CheckedMaterial& material, const TargetReader*, const R
       add(use, Confidence::kLikely, "its texels are unit normals of tangent space");
     const bool has_blue = !is_constant(*rgb[2]);  // maps of two channels store none
     if (use.role == Role::kNormal && shares.unit < 0.3 && has_blue && named.insert(use.map).second)
-      add(use, Confidence::kLikely, percent(1.0 - shares.unit) + " of its texels are no unit vectors");
+      add(use, Confidence::kLikely, percent(1.0 - shares.unit) + " of its texels are not unit vectors");
   });
 }
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "assets/gltf_extensions.hpp"
-#include "assets/map_pixels.hpp"
+#include "assets/document/gltf_extensions.hpp"
+#include "assets/maps/map_pixels.hpp"
 #include "remap/error.hpp"
 
 namespace remap {

@@ -30,7 +30,7 @@ void add_set(const fs::path& root, const FoundSet& set, FoundMaterials& found) {
   CheckedMaterial material;
   material.place = root / set.folder;
   material.below = set.folder;
-  material.name = shown(root / set.folder / set.name);
+  material.name = display_path(root / set.folder / set.name);
   for (const FoundMap& map : set.maps) {
     std::vector<Tile> files = map.tiles;
     if (files.empty()) files.push_back({0, map.path});
@@ -115,18 +115,18 @@ FoundMaterials materials_of(const fs::path& path, const Naming& naming) {
   if (fs::is_directory(path, ignored)) {
     add_folder(path, naming, found);
   } else if (!fs::exists(path, ignored)) {
-    throw input_error(shown(path) + ": does not exist");
+    throw input_error(display_path(path) + ": does not exist");
   } else if (is_asset(path)) {
     add_asset(path, found);
   } else {
     const std::vector<NameReading> readings = naming.read(path.stem().string());
     if (readings.empty())
       throw input_error(
-          shown(path) +
+          display_path(path) +
           ": its name does not tell what it holds (give the folder of its set, or --names FILE)");
     CheckedMaterial material;
     material.place = path;
-    material.name = shown(path);
+    material.name = display_path(path);
     for (const ChannelMeaning& entry : readings.front().meaning)
       material.uses.push_back({entry.role, 0, entry.channels, "", {}, "", false});
     material.maps.push_back({path, path.string(), path.filename().string()});

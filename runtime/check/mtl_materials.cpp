@@ -3,9 +3,9 @@
 #include <array>
 #include <string_view>
 
-#include "assets/mtl_asset.hpp"
-#include "assets/mtl_document.hpp"
-#include "assets/mtl_material.hpp"
+#include "assets/document/mtl_document.hpp"
+#include "assets/mtl/mtl_asset.hpp"
+#include "assets/mtl/mtl_material.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
@@ -92,8 +92,8 @@ Role role_of(const MapLine& line, MtlMaker maker) {
 }  // namespace
 
 void add_mtl(const fs::path& file, FoundMaterials& found) {
-  const std::string text = mtl_text(MemorySource(read_file(file)), shown(file));
-  const MtlDocument document(text, shown(file));
+  const std::string text = mtl_text(MemorySource(read_file(file)), display_path(file));
+  const MtlDocument document(text, display_path(file));
   const MtlMaker maker = maker_of(document);
   std::vector<Exponent> exponents;
   const std::size_t first = found.materials.size();
@@ -102,7 +102,7 @@ void add_mtl(const fs::path& file, FoundMaterials& found) {
     const std::string name = "material \"" + plain(block.name) + "\"";
     material.kind = MaterialKind::kMtl;
     material.place = file;
-    material.name = shown(file) + ": " + name;
+    material.name = display_path(file) + ": " + name;
     const MtlSurface surface = read_block(document, block, maker, material);
     const bool shines = maker != MtlMaker::kText || has_highlight(surface);
     for (std::size_t i = block.first; i < block.last; ++i) {

@@ -91,7 +91,7 @@ std::string root_of(const CheckedMaterial& material, const MaterialUse& use, boo
 }  // namespace
 
 // By its tag, or by another map of the set that holds the same without the curve.
-void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                std::vector<MaterialFinding>& findings) {
   std::set<std::filesystem::path> seen;
   const auto add = [&](const MaterialMap& map, Confidence confidence, const std::string& what,
@@ -131,7 +131,7 @@ void srgb_data(const CheckedMaterial& material, const TargetReader*, const Rule&
   });
 }
 
-void gloss_as_roughness(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void gloss_as_roughness(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                         std::vector<MaterialFinding>& findings) {
   for_width_pairs(
       material, [&](const MaterialUse& a, const MaterialUse& b, const Plane& first, const Plane& second) {
@@ -151,7 +151,7 @@ void gloss_as_roughness(const CheckedMaterial& material, const TargetReader*, co
       });
 }
 
-void alpha_as_roughness(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void alpha_as_roughness(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                         std::vector<MaterialFinding>& findings) {
   for_width_pairs(
       material, [&](const MaterialUse& a, const MaterialUse& b, const Plane& first, const Plane& second) {
@@ -180,7 +180,7 @@ void alpha_as_roughness(const CheckedMaterial& material, const TargetReader*, co
       });
 }
 
-void sizes(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void sizes(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
            std::vector<MaterialFinding>& findings) {
   if (material.kind != MaterialKind::kFolder) return;  // textures of assets have sizes of their own
   const auto area = [](const MaterialMap& map) {
@@ -209,7 +209,7 @@ void sizes(const CheckedMaterial& material, const TargetReader*, const Rule& rul
   }
 }
 
-void duplicate_map(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void duplicate_map(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                    std::vector<MaterialFinding>& findings) {
   const auto is_color = [](Role role) { return role == Role::kBaseColor || role == Role::kDiffuse; };
   for (std::size_t i = 0; i < material.uses.size(); ++i)

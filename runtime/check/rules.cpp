@@ -38,7 +38,7 @@ constexpr std::array kUsd = {"KHR_materials_sheen"sv,
                              "KHR_materials_dispersion"sv,
                              "KHR_materials_diffuse_transmission"sv};
 
-constexpr std::array<TargetReader, 6> kReaders = {{
+constexpr std::array<GltfConsumer, 6> kReaders = {{
     {"gltf", "a reader of core glTF 2.0", kExtensions},
     {"unity", "Unity (glTFast, Lit shader)", kAllButSpecGloss, true},
     {"unreal", "Unreal Engine (Interchange)", kUnreal, false, true},
@@ -86,11 +86,11 @@ constexpr std::array<Rule, 21> kRules = {{
 
 }  // namespace
 
-std::span<const TargetReader> target_readers() { return kReaders; }
+std::span<const GltfConsumer> gltf_consumers() { return kReaders; }
 
 std::span<const Rule> rules() { return kRules; }
 
-std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const TargetReader* reader) {
+std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader) {
   std::vector<MaterialFinding> findings;
   for (const Rule& rule : kRules) rule.look(material, reader, rule, findings);
   // What the values of a map look like says nothing where the map holds something else.

@@ -49,7 +49,7 @@ struct MaterialFinding {
 };
 
 // A program that files are checked for, by its documentation (docs/check.md has the links).
-struct TargetReader {
+struct GltfConsumer {
   std::string_view name;
   std::string_view title;
   std::span<const std::string_view> ignored;  // extensions of glTF materials that it does not read
@@ -57,23 +57,23 @@ struct TargetReader {
   bool wants_directx_normals = false;
 };
 // `gltf` (the core alone), `unity`, `unreal`, `godot`, `threejs`, `usd`.
-std::span<const TargetReader> target_readers();
+std::span<const GltfConsumer> gltf_consumers();
 
 struct Rule {
   std::string_view name;
   std::string_view sees;  // the pattern, in words
-  void (*look)(const CheckedMaterial& material, const TargetReader* reader, const Rule& rule,
+  void (*look)(const CheckedMaterial& material, const GltfConsumer* reader, const Rule& rule,
                std::vector<MaterialFinding>& findings);
 };
 // All rules, in the order in which findings are shown.
 std::span<const Rule> rules();
 
 // What all rules find in a material whose maps are read; `reader` may be null.
-std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const TargetReader* reader);
+std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader);
 
 // The rules of single maps, of pairs of maps and of what assets state; rules() lists them.
 namespace look {
-using Look = void(const CheckedMaterial&, const TargetReader*, const Rule&, std::vector<MaterialFinding>&);
+using Look = void(const CheckedMaterial&, const GltfConsumer*, const Rule&, std::vector<MaterialFinding>&);
 Look linear_color, specgloss_channels, constant_map, banding, bad_values, metallic_greys, channel_order,
     normal_space, normal_orientation, wrong_texture;                           // single maps
 Look srgb_data, sizes, gloss_as_roughness, alpha_as_roughness, duplicate_map;  // pairs

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/gltf_extensions.hpp"
+#include "assets/document/gltf_extensions.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
 
@@ -60,7 +60,7 @@ bool all_zero(const std::vector<double>& factors) {
 
 }  // namespace
 
-void factor_zero(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void factor_zero(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                  std::vector<MaterialFinding>& findings) {
   const auto add = [&](const MaterialUse& use, Confidence confidence, const std::string& what) {
     findings.push_back({rule.name, confidence, material.name, "", use.factor_name + what,
@@ -82,7 +82,7 @@ void factor_zero(const CheckedMaterial& material, const TargetReader*, const Rul
           " is missing, which means 0: the map " + material.maps[use.map].shown + " is not used");
 }
 
-void factor_ignored(const CheckedMaterial& material, const TargetReader* reader, const Rule& rule,
+void factor_ignored(const CheckedMaterial& material, const GltfConsumer* reader, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
   if (reader == nullptr || !reader->ignores_factors_beside_maps) return;
   const auto judge = [&](const MaterialUse& use) {
@@ -92,7 +92,7 @@ void factor_ignored(const CheckedMaterial& material, const TargetReader* reader,
     findings.push_back(
         {rule.name, Confidence::kLikely, material.name, "",
          use.factor_name + " " + factor + " beside a map: " + std::string(reader->title) + " takes " + role +
-             " from the map alone",
+             " only from the map",
          "multiply " + role + " in the map by " + factor + ", and set " + use.factor_name + " to 1"});
   };
   for (const MaterialUse& use : material.uses)
@@ -105,7 +105,7 @@ void factor_ignored(const CheckedMaterial& material, const TargetReader* reader,
 
 // Real dielectrics reflect 2 to 17 % at normal incidence: an index of refraction from 1.3 (water) to 2.42
 // (diamond).
-void index_of_refraction(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void index_of_refraction(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                          std::vector<MaterialFinding>& findings) {
   if (material.is_all_metal()) return;
   const GltfStatements& stated = material.gltf;
@@ -122,7 +122,7 @@ void index_of_refraction(const CheckedMaterial& material, const TargetReader*, c
   if (stated.ior && *stated.ior != 0.0 && *stated.ior < kLeast && !stated.transmits)
     add(Confidence::kLikely,
         "KHR_materials_ior: ior " + number_text(*stated.ior) + " reflects nothing (F0 below 0.001)",
-        "set ior to 1.5, or to that of the material (water 1.33, plastics 1.45 to 1.6)");
+        "set ior to 1.5, or to the index of the material (water 1.33, plastics 1.45 to 1.6)");
   if (!stated.specular_factor) return;
   const double factor = *stated.specular_factor;
   if (factor > 1.0 || factor < 0.0)
@@ -142,7 +142,7 @@ void index_of_refraction(const CheckedMaterial& material, const TargetReader*, c
         "remove KHR_materials_specular, or set specularFactor to 1");
 }
 
-void ignored_by_reader(const CheckedMaterial& material, const TargetReader* reader, const Rule& rule,
+void ignored_by_reader(const CheckedMaterial& material, const GltfConsumer* reader, const Rule& rule,
                        std::vector<MaterialFinding>& findings) {
   if (reader == nullptr) return;
   for (const std::string_view extension : reader->ignored) {
@@ -163,7 +163,7 @@ void ignored_by_reader(const CheckedMaterial& material, const TargetReader* read
   }
 }
 
-void unreadable_statement(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void unreadable_statement(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                           std::vector<MaterialFinding>& findings) {
   for (const std::string& failure : material.failures)
     findings.push_back({rule.name, Confidence::kCertain, material.name, "", failure,
@@ -171,7 +171,7 @@ void unreadable_statement(const CheckedMaterial& material, const TargetReader*, 
 }
 
 // Ns of MTL files is from 0 to 1000 (Wavefront, Advanced Visualizer manual, appendix B).
-void exponent_range(const CheckedMaterial& material, const TargetReader*, const Rule& rule,
+void exponent_range(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
   double largest = 0.0;
   std::size_t below_zero = 0, above_zero = 0, whole_tens = 0;

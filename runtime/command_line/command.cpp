@@ -64,6 +64,11 @@ Option* Option::default_text(const std::string& text) {
   return this;
 }
 
+Option* Option::common() {
+  option_->group("Options");
+  return this;
+}
+
 Option* Option::tag(OptionTags tags) {
   tags_ |= tags;
   return this;
@@ -190,11 +195,17 @@ void Command::callback(std::function<void()> work) { app_->callback(std::move(wo
 
 std::size_t Command::count(const std::string& option) const { return app_->count(option); }
 
+OptionTags Command::tags_of(const std::string& name) const {
+  const auto found =
+      std::ranges::find_if(options_, [&](const auto& option) { return name_of(*option->option_) == name; });
+  return found == options_.end() ? 0 : (*found)->tags_;
+}
+
 std::vector<GivenOption> Command::given() const {
   std::vector<GivenOption> all;
   for (const auto& option : options_)
     if (const CLI::Option& own = *option->option_; own.count() > 0)
-      all.push_back({name_of(own), own.get_type_size() == 0 ? "" : CLI::detail::join(own.results(), " "),
+      all.push_back({name_of(own), own.get_type_size() == 0 ? std::vector<std::string>() : own.results(),
                      option->tags_});
   return all;
 }

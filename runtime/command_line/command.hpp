@@ -88,8 +88,8 @@ Reader<std::vector<Value>> list_of(const Reader<Value>& item) {
 
 // An option that the command line gave.
 struct GivenOption {
-  std::string name;   // `--type`; of words without an option the name in the help
-  std::string words;  // empty for a flag
+  std::string name;                // `--type`; of words without an option the name in the help
+  std::vector<std::string> words;  // none of a flag
   OptionTags tags = 0;
 };
 
@@ -111,6 +111,8 @@ class Option {
   // Help shows this default.
   Option* default_text(const std::string& text);
   Option* tag(OptionTags tags);
+  // Moves it to the options that `--help` shows first.
+  Option* common();
   // The environment variable that gives the value if the option is not given.
   Option* environment(const std::string& name);
   Option* one_of(const std::vector<std::string>& words);
@@ -164,6 +166,8 @@ class Command {
   void callback(std::function<void()> work);
   // How often the option was given.
   std::size_t count(const std::string& option) const;
+  // The tags of an option by its name, such as `--type`; 0 where there is none.
+  OptionTags tags_of(const std::string& name) const;
   // The options of the command line, in the order in which they were added.
   std::vector<GivenOption> given() const;
 

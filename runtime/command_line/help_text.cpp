@@ -1,6 +1,7 @@
 #include "command_line/help_text.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <set>
 #include <string>
@@ -14,7 +15,16 @@ namespace {
 constexpr std::size_t kWidth = 80, kDescriptionColumn = 26;
 constexpr const char* kHelpGroup = "Help";
 
+constexpr std::string_view kRarePrefix = "Rare: ";
 bool is_rare(const std::string& group) { return group.starts_with("Rare"); }
+
+// `Output` of `Rare: output`.
+std::string heading(std::string group) {
+  if (!group.starts_with(kRarePrefix)) return group;
+  group.erase(0, kRarePrefix.size());
+  group.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(group.front())));
+  return group;
+}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
@@ -84,13 +94,15 @@ std::string default_text(const CLI::Option& option) {
   return replaced(without_quotes(without_quotes(option.get_default_str(), '[', ']'), '"', '"'), "\"", "");
 }
 
-std::string option_description(const CLI::Option& option) {
+// `whole`: with the options that it excludes, which errors name as well.
+std::string option_description(const CLI::Option& option, bool whole) {
   std::vector<std::string> remarks;
   if (const std::string allowed = allowed_values(option); !allowed.empty())
     remarks.push_back(type_and_checks(option).second.starts_with("{") ? "one of " + allowed : allowed);
   if (option.get_required()) remarks.push_back("required");
   std::set<std::string> excluded;  // CLI11 keeps them by address, which differs from run to run
-  for (const CLI::Option* other : option.get_excludes()) excluded.insert(other->get_name());
+  if (whole)
+    for (const CLI::Option* other : option.get_excludes()) excluded.insert(other->get_name());
   for (const std::string& name : excluded) remarks.push_back("not with " + name);
   if (const std::string value = default_text(option); !value.empty()) remarks.push_back("default: " + value);
   std::string text = option.get_description();
@@ -148,14 +160,14 @@ class HelpFormatter : public CLI::FormatterBase {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     const bool all = mode == CLI::AppFormatMode::All;
     std::string text = wrapped(app->get_description(), 0) + "\n\n" + usage(*app, name) + "\n";
-    text += arguments(*app) + commands(*app);
+    text += arguments(*app, all) + commands(*app);
     std::size_t hidden = 0;
     for (const std::string& group : groups(*app)) {
       const auto options = options_of(*app, group);
       if (is_rare(group) && !all)
         hidden += options.size();
       else
-        text += "\n" + group + ":\n" + entries(options);
+        text += "\n" + heading(group) + ":\n" + entries(options, all);
     }
     if (const std::string footer = app->get_footer(); !footer.empty())
       text += "\n" + wrapped(footer, 0) + "\n";
@@ -166,11 +178,11 @@ class HelpFormatter : public CLI::FormatterBase {
   }
 
  private:
-  static std::string arguments(const CLI::App& app) {
+  static std::string arguments(const CLI::App& app, bool whole) {
     const Options options = positionals(app);
     std::string text = options.empty() ? "" : "\nArguments:\n";
     for (const CLI::Option* option : options)
-      text += entry(option_names(*option), option_description(*option));
+      text += entry(option_names(*option), option_description(*option, whole));
     return text;
   }
 
@@ -190,10 +202,10 @@ class HelpFormatter : public CLI::FormatterBase {
     return text;
   }
 
-  static std::string entries(const Options& options) {
+  static std::string entries(const Options& options, bool whole) {
     std::string text;
     for (const CLI::Option* option : options)
-      text += entry(option_names(*option) + value_name(*option), option_description(*option));
+      text += entry(option_names(*option) + value_name(*option), option_description(*option, whole));
     return text;
   }
 };
@@ -208,8 +220,7 @@ void lay_out(CLI::App& app, const std::shared_ptr<HelpFormatter>& formatter) {
   app.formatter(formatter);
   app.set_help_flag("-h,--help", "Show this help")->group(kHelpGroup);
   // Every command takes the flag; only those with rare options show it.
-  app.set_help_all_flag("--help-all", "Show this help with rare options")
-      ->group(has_rare_options(app) ? kHelpGroup : "");
+  app.set_help_all_flag("--help-all", "Show all options")->group(has_rare_options(app) ? kHelpGroup : "");
   if (CLI::Option* version = app.get_option_no_throw("--version"))
     version->group(kHelpGroup)->description("Show the version");
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -224,7 +235,7 @@ Json options_json(const Options& options) {
                     {"value", value_name(*option)},
                     {"choices", chooses ? allowed_values(*option) : ""},
                     {"repeats", option->get_items_expected_max() > 1},
-                    {"description", option_description(*option)}});
+                    {"description", option_description(*option, true)}});
   }
   return list;
 }
@@ -234,7 +245,7 @@ Json options_json(const Options& options) {
 Json help_table(const CLI::App& app) {
   Json options = Json::list(), commands = Json::list();
   for (const std::string& group : groups(app))
-    options.push_back({{"group", group}, {"options", options_json(options_of(app, group))}});
+    options.push_back({{"group", heading(group)}, {"options", options_json(options_of(app, group))}});
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     commands.push_back(help_table(*command));
   return {{"name", command_words(app)}, {"description", app.get_description()},

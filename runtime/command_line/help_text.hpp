@@ -7,8 +7,8 @@
 //
 // stand under the heading "Output:". Groups appear in the order in which their first options were added, so
 // add common options first. A group whose name begins with "Rare" (kRareOptions, or "Rare: real renderers")
-// is left out of `--help` and shown by `--help-all` only. The last argument of add_subcommand() is the
-// heading under which the program lists a command.
+// is left out of `--help`; `--help-all` shows it as "Real renderers:", with the options that each excludes.
+// The last argument of add_subcommand() is the heading under which the program lists a command.
 //
 // The layout adds what the option itself says, so do not repeat it in descriptions: the default, "required",
 // the choices, the bounds and the options of excludes(). Name the value behind the option, as `--fit FILE`;

@@ -135,10 +135,10 @@ class Conversion {
   const TargetParameter* wanted(Parameter parameter) const;
   bool is_made(Parameter parameter) const;
   float highest(Parameter parameter) const;
-  RoughnessConvention source_convention() const {
+  RoughnessEncoding source_convention() const {
     return maps_.source_convention.value_or(converter_.info().source.roughness);
   }
-  RoughnessConvention target_convention() const {
+  RoughnessEncoding target_convention() const {
     return maps_.target_convention.value_or(converter_.info().target.roughness);
   }
   void load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
@@ -153,8 +153,8 @@ class Conversion {
   void require_grey(Parameter parameter, const Segment& segment, Scratch& scratch,
                     MapStatistics& statistics) const;
   void load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
-  void meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
-  [[noreturn]] void fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const;
+  void count_invalid_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
+  [[noreturn]] void throw_invalid_texel(const Segment& segment, std::size_t texel, Scratch& scratch) const;
   void clamp_bad(std::size_t count, Scratch& scratch) const;
   void write_mask(const Segment& segment, Scratch& scratch) const;
   std::size_t store_parameter(const TargetParameter& parameter, std::size_t channel, const Segment& segment,
@@ -228,13 +228,13 @@ const TargetParameter* Conversion::wanted(Parameter parameter) const {
 
 // Measures are computed only for maps and statistics that hold them.
 bool Conversion::is_made(Parameter parameter) const {
-  const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicWidth;
+  const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicUncertainty;
   return !is_measure(parameter) || counts || wanted(parameter) != nullptr;
 }
 
 // The largest valid value. Roughness and specular alone have no limit.
 float Conversion::highest(Parameter parameter) const {
-  return !converter_.is_of_brdf() && parameter != Parameter::kRoughness ? 1.0f : kLargest;
+  return !converter_.converts_brdf_only() && parameter != Parameter::kRoughness ? 1.0f : kLargest;
 }
 
 // The row of a map that can be read in place of a loaded one; null if its values must be changed.
@@ -385,7 +385,7 @@ void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStati
   }
 }
 
-void Conversion::fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const {
+void Conversion::throw_invalid_texel(const Segment& segment, std::size_t texel, Scratch& scratch) const {
   for (const Parameter parameter : sources_)
     for (std::size_t c = 0; c < scratch.source.count(parameter); ++c) {
       const float value = scratch.source.row(parameter, c)[texel];
@@ -395,13 +395,14 @@ void Conversion::fail_bad(const Segment& segment, std::size_t texel, Scratch& sc
       throw Error(ErrorKind::kInput, source.name + ": " + of + "texel (" + std::to_string(segment.x + texel) +
                                          ", " + std::to_string(maps_.first_row + segment.y) + ") is " +
                                          number_text(static_cast<double>(value)) +
-                                         " (--bad-texels clamp replaces such values)");
+                                         " (--nan clamp replaces such values)");
     }
   throw Error(ErrorKind::kUsage, "convert_maps: no invalid texel found");
 }
 
 // Counts invalid texels, and throws for the first one with BadTexels::kFail.
-void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+void Conversion::count_invalid_texels(const Segment& segment, Scratch& scratch,
+                                      MapStatistics& statistics) const {
   struct CheckedRow {
     const float* values;
     float highest;
@@ -430,7 +431,7 @@ void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapSt
     if (!is_covered(scratch, i)) continue;
     statistics.above_one_count += above;
     if (!(nan || infinite || negative)) continue;
-    if (maps_.bad_texels == BadTexels::kFail) fail_bad(segment, i, scratch);
+    if (maps_.bad_texels == BadTexels::kFail) throw_invalid_texel(segment, i, scratch);
     if (!statistics.first_bad) statistics.first_bad = {segment.x + i, maps_.first_row + segment.y};
     statistics.nan_count += nan;
     statistics.infinite_count += infinite;
@@ -475,7 +476,7 @@ std::size_t Conversion::store_parameter(const TargetParameter& parameter, std::s
 void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
   for (const Parameter parameter : converter_.targets()) {
     const std::size_t made = scratch.target.count(parameter);
-    if (maps_.value_statistics && parameter != Parameter::kDoubts)
+    if (maps_.value_statistics && parameter != Parameter::kMetallicIssues)
       for (std::size_t c = 0; c < made; ++c)
         statistics.targets[parameter] +=
             value_statistics(segment.count, scratch.target.row(parameter, c), scratch);
@@ -508,7 +509,7 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   }
   load_sources(segment, scratch, statistics);
   statistics.texel_count += count;
-  meet_bad_texels(segment, scratch, statistics);
+  count_invalid_texels(segment, scratch, statistics);
   change_convention(source_convention(), info.source.roughness,
                     {scratch.source.own_row(Parameter::kRoughness, 0), count});
   if (maps_.bad_texels == BadTexels::kClamp) clamp_bad(count, scratch);
@@ -520,10 +521,10 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   statistics.out_of_domain_count += converter_.convert(count, scratch.source.all(), scratch.target.all(),
                                                        maps_.mask ? scratch.outside.data() : nullptr);
   if (maps_.mask) write_mask(segment, scratch);
-  if (converter_.can_diagnose() && maps_.metallic_statistics)
+  if (converter_.has_diagnostics() && maps_.metallic_statistics)
     statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
                                                  scratch.target.row(Parameter::kResidual, 0),
-                                                 scratch.target.row(Parameter::kDoubts, 0),
+                                                 scratch.target.row(Parameter::kMetallicIssues, 0),
                                                  maps_.coverage ? scratch.coverage.data() : nullptr});
   change_convention(info.target.roughness, target_convention(),
                     {scratch.target.row(Parameter::kRoughness, 0), count});

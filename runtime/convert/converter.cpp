@@ -26,7 +26,7 @@ bool Converter::has_target(Parameter parameter) const noexcept {
 
 std::size_t Converter::target_channels(Parameter parameter, std::size_t specular_channels) const noexcept {
   if (!is_color(parameter)) return 1;
-  return is_of_brdf() ? specular_channels : 3;
+  return converts_brdf_only() ? specular_channels : 3;
 }
 
 std::size_t Converter::convert(std::size_t count, const MaterialRows<const float>& in,

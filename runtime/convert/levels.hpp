@@ -10,14 +10,14 @@
 
 namespace remap {
 
-class Levels {
+class QuantizationTable {
  public:
   static constexpr std::size_t kCount = 256;
   using Values = std::array<float, kCount>;
 
   // `values`: of the levels. `least`: element i is the least float that is nearer to level i + 1 than to
   // level i; the last is beyond 1. Throws, which no constant does, where a step has three levels.
-  constexpr Levels(const Values& values, const Values& least) : values_(values) {
+  constexpr QuantizationTable(const Values& values, const Values& least) : values_(values) {
     std::uint64_t level = 0;
     for (std::uint32_t i = 0; i < kSteps; ++i) {
       while (__builtin_bit_cast(float, (kFirstStep + i) << kStepBits) >= least[level]) ++level;

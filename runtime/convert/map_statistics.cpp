@@ -40,19 +40,19 @@ MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row) {
   for (std::size_t i = 0; i < count; ++i) {
     const float residual = row.residual[i];
     if (std::isnan(residual) || (row.coverage != nullptr && !(row.coverage[i] > 0.0f))) continue;
-    const long doubts = std::lround(row.doubts[i] * 255.0f);
-    const auto count_if_has = [&](Doubt doubt, DoubtStatistics& texels) {
-      if ((doubts & static_cast<long>(doubt)) != 0)
+    const long issues = std::lround(row.issues[i] * 255.0f);
+    const auto count_if_has = [&](MetallicIssue issue, IssueStatistics& texels) {
+      if ((issues & static_cast<long>(issue)) != 0)
         texels += {1, TexelPosition{row.first.x + i, row.first.y}};
     };
     const double square = static_cast<double>(residual) * static_cast<double>(residual);
     ++sum.texel_count;
     sum.residual_squares += static_cast<std::uint64_t>(std::llround(square / kResidualUnit));
     sum.largest_residual = std::max(sum.largest_residual, residual);
-    count_if_has(Doubt::kUndetermined, sum.undetermined);
-    count_if_has(Doubt::kDark, sum.dark);
-    count_if_has(Doubt::kAmbiguous, sum.ambiguous);
-    count_if_has(Doubt::kClamped, sum.clamped);
+    count_if_has(MetallicIssue::kUndetermined, sum.undetermined);
+    count_if_has(MetallicIssue::kDark, sum.dark);
+    count_if_has(MetallicIssue::kAmbiguous, sum.ambiguous);
+    count_if_has(MetallicIssue::kClamped, sum.clamped);
   }
   return sum;
 }
@@ -62,7 +62,7 @@ double MetallicStatistics::rms_residual() const noexcept {
   return std::sqrt(static_cast<double>(residual_squares) * kResidualUnit / static_cast<double>(texel_count));
 }
 
-DoubtStatistics& DoubtStatistics::operator+=(const DoubtStatistics& other) noexcept {
+IssueStatistics& IssueStatistics::operator+=(const IssueStatistics& other) noexcept {
   count += other.count;
   if (!first) first = other.first;
   return *this;

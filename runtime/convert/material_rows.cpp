@@ -14,16 +14,16 @@ constexpr NamedValues<Parameter, kParameterCount> kParameters = {
      {Parameter::kMetallic, "metallic"},
      {Parameter::kMetalMask, "metal_mask"},
      {Parameter::kResidual, "residual"},
-     {Parameter::kMetallicWidth, "metallic_width"},
-     {Parameter::kDoubts, "doubts"}}};
+     {Parameter::kMetallicUncertainty, "metallic_uncertainty"},
+     {Parameter::kMetallicIssues, "issues"}}};
 
 }  // namespace
 
 std::string_view parameter_name(Parameter parameter) { return name_of(kParameters, parameter); }
 
 bool is_measure(Parameter parameter) {
-  return parameter == Parameter::kResidual || parameter == Parameter::kMetallicWidth ||
-         parameter == Parameter::kDoubts;
+  return parameter == Parameter::kResidual || parameter == Parameter::kMetallicUncertainty ||
+         parameter == Parameter::kMetallicIssues;
 }
 
 std::string plain_name(Parameter parameter) {

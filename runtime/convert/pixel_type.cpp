@@ -105,9 +105,9 @@ auto with_storage(PixelType type, Work work) noexcept {
   return work(float{});
 }
 
-constexpr Levels linear_levels() {
-  Levels::Values values{}, least{};
-  for (std::size_t i = 0; i < Levels::kCount; ++i) {
+constexpr QuantizationTable linear_levels() {
+  QuantizationTable::Values values{}, least{};
+  for (std::size_t i = 0; i < QuantizationTable::kCount; ++i) {
     values[i] = to_float(static_cast<std::uint8_t>(i));
     const double middle = static_cast<double>(i) + 0.5;
     auto bits = __builtin_bit_cast(std::uint32_t, static_cast<float>(middle / 255.0)) - 1;
@@ -116,7 +116,7 @@ constexpr Levels linear_levels() {
   }
   return {values, least};
 }
-constexpr Levels kLinearLevels = linear_levels();
+constexpr QuantizationTable kLinearLevels = linear_levels();
 
 }  // namespace
 

@@ -80,9 +80,9 @@ void change_all(std::span<float> values, Change change) noexcept {
 }
 
 // The curve for 8 bits.
-constexpr Levels srgb_levels() {
-  Levels::Values values{}, least{};
-  for (std::size_t i = 0; i < Levels::kCount; ++i) {
+constexpr QuantizationTable srgb_levels() {
+  QuantizationTable::Values values{}, least{};
+  for (std::size_t i = 0; i < QuantizationTable::kCount; ++i) {
     values[i] = static_cast<float>(magnitude_to_linear(static_cast<double>(static_cast<float>(i) / 255.0f)));
     const double middle = magnitude_to_linear((static_cast<double>(i) + 0.5) / 255.0);
     const auto rounded = static_cast<float>(middle);
@@ -91,7 +91,7 @@ constexpr Levels srgb_levels() {
   }
   return {values, least};
 }
-constexpr Levels kSrgbLevels = srgb_levels();
+constexpr QuantizationTable kSrgbLevels = srgb_levels();
 
 }  // namespace
 
@@ -126,9 +126,9 @@ std::size_t store_linear(Transfer transfer, PixelType type, const float* values,
   return clipped;
 }
 
-void change_convention(RoughnessConvention from, RoughnessConvention to, std::span<float> widths) noexcept {
+void change_convention(RoughnessEncoding from, RoughnessEncoding to, std::span<float> widths) noexcept {
   if (from == to) return;
-  const float highest = from == RoughnessConvention::kExponent ? INFINITY : 1.0f;
+  const float highest = from == RoughnessEncoding::kExponent ? INFINITY : 1.0f;
   for (float& width : widths) {
     if (std::isnan(width)) continue;
     const double clamped = static_cast<double>(std::clamp(width, 0.0f, highest));

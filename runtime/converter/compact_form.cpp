@@ -28,17 +28,17 @@ std::size_t number_count(const CompactForm& form) {
   return count;
 }
 
-FormEnds ends_of(RoughnessConvention source, RoughnessConvention target, const Range& width) {
+FormEnds ends_of(RoughnessEncoding source, RoughnessEncoding target, const Range& width) {
   const auto min = static_cast<float>(width.min), max = static_cast<float>(width.max);
   FormEnds ends{min, max, 0.0f, max, 0.0f, 0.0f};
-  const bool is_exponent = source == RoughnessConvention::kExponent;
-  const bool falls = is_exponent || source == RoughnessConvention::kGlossiness;  // where alpha rises
+  const bool is_exponent = source == RoughnessEncoding::kExponent;
+  const bool falls = is_exponent || source == RoughnessEncoding::kGlossiness;  // where alpha rises
   if (falls) {
     ends.width_from = min;
     ends.width_to = is_exponent ? std::numeric_limits<float>::max() : 1.0f;
   }
   ends.alpha_min = static_cast<float>(to_alpha(source, falls ? width.max : width.min));
-  if (target == RoughnessConvention::kExponent) ends.least_alpha = kSharpestExponent;
+  if (target == RoughnessEncoding::kExponent) ends.least_alpha = kSharpestExponent;
   return ends;
 }
 

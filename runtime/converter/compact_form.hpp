@@ -67,6 +67,6 @@ struct FormEnds {
   float least_alpha = 0.0f;                  // of the target: exponents end somewhere
 };
 // `width`: the domain.
-FormEnds ends_of(RoughnessConvention source, RoughnessConvention target, const Range& width);
+FormEnds ends_of(RoughnessEncoding source, RoughnessEncoding target, const Range& width);
 
 }  // namespace remap

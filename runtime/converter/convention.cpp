@@ -4,33 +4,33 @@
 
 namespace remap {
 
-double to_alpha(RoughnessConvention convention, double own) {
+double to_alpha(RoughnessEncoding convention, double own) {
   switch (convention) {
-    case RoughnessConvention::kAlpha:
+    case RoughnessEncoding::kAlpha:
       return own;
-    case RoughnessConvention::kRoughness:
+    case RoughnessEncoding::kRoughness:
       return own * own;
-    case RoughnessConvention::kExponent:
+    case RoughnessEncoding::kExponent:
       return std::sqrt(2.0 / (own + 2.0));
-    case RoughnessConvention::kGlossiness:
+    case RoughnessEncoding::kGlossiness:
       return (1.0 - own) * (1.0 - own);
-    case RoughnessConvention::kSquared:
+    case RoughnessEncoding::kSquared:
       return std::sqrt(own);
   }
   return own;
 }
 
-double from_alpha(RoughnessConvention convention, double alpha) {
+double from_alpha(RoughnessEncoding convention, double alpha) {
   switch (convention) {
-    case RoughnessConvention::kAlpha:
+    case RoughnessEncoding::kAlpha:
       return alpha;
-    case RoughnessConvention::kRoughness:
+    case RoughnessEncoding::kRoughness:
       return std::sqrt(alpha);
-    case RoughnessConvention::kExponent:
+    case RoughnessEncoding::kExponent:
       return 2.0 / (alpha * alpha) - 2.0;
-    case RoughnessConvention::kGlossiness:
+    case RoughnessEncoding::kGlossiness:
       return 1.0 - std::sqrt(alpha);
-    case RoughnessConvention::kSquared:
+    case RoughnessEncoding::kSquared:
       return alpha * alpha;
   }
   return alpha;

@@ -28,8 +28,8 @@ Range read_range(const Field& field) {
 }
 
 ModelSide read_side(const Field& field) {
-  const RoughnessConvention convention =
-      field["roughness"].named(kConventions, "alpha, roughness, exponent, glossiness or squared");
+  const RoughnessEncoding convention =
+      field["roughness"].named(kRoughnessEncodings, "alpha, roughness, exponent, glossiness or squared");
   const std::string specular = field["specular"].text();
   field["specular"].require(is_valid_specular(specular), "an identifier that names no width");
   return {read_model(field["model"]), convention, specular};
@@ -62,7 +62,7 @@ double finite(double value) {
 
 Json side_json(const ModelSide& side) {
   return {{"model", side.model},
-          {"roughness", std::string(convention_name(side.roughness))},
+          {"roughness", std::string(encoding_name(side.roughness))},
           {"specular", side.specular}};
 }
 

@@ -73,7 +73,7 @@ bool is_valid_model(const std::string& name) {
 }
 
 bool is_valid_specular(const std::string& name) {
-  return is_valid_id(name) && !convention_from_name(name).has_value();
+  return is_valid_id(name) && !encoding_from_name(name).has_value();
 }
 
 }  // namespace remap

@@ -20,7 +20,7 @@ inline Error system_error(ErrorKind kind, const std::string& message, int code) 
 }
 
 // Whether the same call may work a moment later, as where a server of files is busy or was restarted.
-inline bool passes_soon(int system_code) noexcept {
+inline bool is_transient(int system_code) noexcept {
 #ifdef ESTALE
   if (system_code == ESTALE) return true;
 #endif
@@ -29,18 +29,18 @@ inline bool passes_soon(int system_code) noexcept {
 
 // Whether the run may work when it is tried again: the storage was full or did not answer, or the run was
 // stopped (EINTR).
-inline bool passes_later(int system_code) noexcept {
+inline bool is_retryable(int system_code) noexcept {
 #ifdef EDQUOT
   if (system_code == EDQUOT) return true;
 #endif
-  return system_code == ENOSPC || system_code == EINTR || passes_soon(system_code);
+  return system_code == ENOSPC || system_code == EINTR || is_transient(system_code);
 }
 
 // Exit code of both programs: 0 done, 1 failed, 2 wrong usage, 75 failed and may work when tried again
 // (EX_TEMPFAIL of sysexits.h, which schedulers know).
 inline int exit_code(const Error& error) noexcept {
   if (error.kind() == ErrorKind::kUsage) return 2;
-  return passes_later(error.system_code()) ? 75 : 1;
+  return is_retryable(error.system_code()) ? 75 : 1;
 }
 
 }  // namespace remap

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/process_mark.hpp"
+#include "core/owner_tag.hpp"
 #include "core/system.hpp"
 
 namespace remap {
@@ -63,8 +63,7 @@ void remove_unfinished(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (is_mark_of_the_dead(mark_in(name)) && entry.is_regular_file(ignored))
-      fs::remove(entry.path(), ignored);
+    if (is_stale_owner(mark_in(name)) && entry.is_regular_file(ignored)) fs::remove(entry.path(), ignored);
   }
 }
 
@@ -72,7 +71,7 @@ fs::path unfinished_name(const fs::path& path) {
   remove_abandoned_once(folder_of(path));
   constexpr std::size_t kLongestName = 255;  // in bytes, of most file systems
   const std::string end =
-      std::string(kUnfinished) + process_mark() + "-" + random_letters() + path.extension().string();
+      std::string(kUnfinished) + owner_tag() + "-" + random_letters() + path.extension().string();
   const std::string stem =
       end.size() < kLongestName ? cut(path.stem().string(), kLongestName - 1 - end.size()) : std::string();
   return path.parent_path() / ("." + stem + end);

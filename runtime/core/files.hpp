@@ -15,7 +15,7 @@
 namespace remap {
 
 // A hidden name in the folder of `path` for an unfinished file: `.STEM.unfinished-MARK-LETTERS.EXTENSION`
-// with the mark of this process (process_mark.hpp), random letters, and the extension by which image writers
+// with the mark of this process (owner_tag.hpp), random letters, and the extension by which image writers
 // choose the format. Each call gives another name. A stem that makes the name longer than 255 bytes is cut.
 // The first call for a folder removes from it the unfinished files of processes of this machine that have
 // ended: those that were killed could not.

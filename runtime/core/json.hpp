@@ -1,5 +1,5 @@
-// JSON as values: what the programs print and write, and what json_field.hpp reads. The library that turns
-// values into text and back is included by json.cpp alone.
+// JSON as values: what the programs print and write, and what parse_json() (json_field.hpp) reads. Only
+// json.cpp includes the library that turns values into text.
 #pragma once
 
 #include <array>
@@ -49,6 +49,8 @@ class Json {
   Json(const std::array<T, N>& values) : value_(List(values.begin(), values.end())) {}
   template <typename T>
   Json(const std::map<std::string, T>& values) : value_(Object(values.begin(), values.end())) {}
+  Json(List entries) : value_(std::move(entries)) {}
+  Json(Object fields) : value_(std::move(fields)) {}
   Json(std::initializer_list<Json> entries);
 
   static Json list(std::initializer_list<Json> entries = {});
@@ -85,19 +87,15 @@ class Json {
   // `path_base64` holds the bytes.
   std::string dump(int indent = -1) const;
 
+  using Value =
+      std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, List, Object>;
+  const Value& value() const { return value_; }
+
  private:
-  friend class JsonBuilder;
-  std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, List, Object> value_;
+  Value value_;
 };
 
 // Whether JSON can hold a text as it is.
 bool is_utf8(const std::string& text);
-
-// Where and why a text was refused: `at line 2, column 1: unexpected end of input`. It quotes the text.
-struct JsonFault {
-  std::string reason;
-};
-// Parses a text, without the limits of parse_json() (json_field.hpp).
-std::variant<Json, JsonFault> json_of(std::string_view text);
 
 }  // namespace remap

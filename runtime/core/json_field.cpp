@@ -1,46 +1,80 @@
 #include "core/json_field.hpp"
 
+#include <charconv>
 #include <cmath>
+#include <unordered_map>
 
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
 namespace {
 
-// Of the words of the JSON library, which quote the text.
-constexpr std::size_t kLongestReason = 300;
 constexpr std::size_t kExcerpt = 40;
 // What may become a comment in generated code.
 constexpr const char* kPlainText = "a text of one line without control characters";
 
-}  // namespace
+Json value_of(SpanValue span, const std::string& place);
 
-bool is_nested_too_deep(std::string_view text) {
-  std::size_t depth = 0;
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (is_quoted && c == '\\') ++i;  // the character after it ends no text
-    if (c == '"') is_quoted = !is_quoted;
-    if (is_quoted) continue;
-    if ((c == '[' || c == '{') && ++depth > kDeepestJson) return true;
-    if ((c == ']' || c == '}') && depth > 0) --depth;
-  }
-  return false;
+Json number_of(std::string_view text, const std::string& place) {
+  const char* const end = text.data() + text.size();
+  const auto is_read_as = [&](auto& value) {
+    const auto read = std::from_chars(text.data(), end, value);
+    return read.ec == std::errc() && read.ptr == end;
+  };
+  std::int64_t whole = 0;
+  std::uint64_t large = 0;
+  if (is_read_as(whole)) return whole;
+  if (is_read_as(large)) return large;
+  const std::optional<double> number = parse_number(text);
+  if (!number) throw input_error(place + ": a number that is too large: " + plain(text, kExcerpt));
+  return *number;
 }
 
+Json object_of(SpanValue span, const std::string& place) {
+  Json::Object fields;
+  std::unordered_map<std::string, std::size_t> places;
+  for (const SpanValue member : span.children()) {
+    const auto [found, is_new] = places.try_emplace(member.key(), fields.size());
+    Json value = value_of(member, place);
+    if (is_new)
+      fields.emplace_back(found->first, std::move(value));
+    else
+      fields[found->second].second = std::move(value);
+  }
+  return fields;
+}
+
+Json value_of(SpanValue span, const std::string& place) {
+  switch (span.kind()) {
+    case SpanKind::kNull:
+      return {};
+    case SpanKind::kBoolean:
+      return span.raw() == "true";
+    case SpanKind::kNumber:
+      return number_of(span.raw(), place);
+    case SpanKind::kText:
+      return *span.text();
+    case SpanKind::kObject:
+      return object_of(span, place);
+    case SpanKind::kList:
+      break;
+  }
+  Json::List entries;
+  entries.reserve(span.size());
+  for (const SpanValue entry : span.children()) entries.push_back(value_of(entry, place));
+  return entries;
+}
+
+}  // namespace
+
 Json parse_json(std::string_view text, const std::string& place) {
-  const auto refuse = [&](const std::string& what) { throw Error(ErrorKind::kInput, place + ": " + what); };
   if (text.size() > kLongestJson)
-    refuse("has " + std::to_string(text.size() >> 20) + " MB of JSON; at most " +
-           std::to_string(kLongestJson >> 20) + " MB are read");
-  if (is_nested_too_deep(text))
-    refuse("invalid JSON: nested deeper than " + std::to_string(kDeepestJson) + " levels");
-  std::variant<Json, JsonFault> parsed = json_of(text);
-  if (const auto* fault = std::get_if<JsonFault>(&parsed))
-    refuse("invalid JSON " + plain(fault->reason, kLongestReason));
-  return std::get<Json>(std::move(parsed));
+    throw input_error(place + ": has " + std::to_string(text.size() >> 20) + " MB of JSON; at most " +
+                      std::to_string(kLongestJson >> 20) + " MB are read");
+  return value_of(SpannedJson(text, place).root(), place);
 }
 
 Field Field::operator[](const std::string& key) const {

@@ -8,24 +8,19 @@
 #include <vector>
 
 #include "core/json.hpp"
+#include "core/json_spans.hpp"
 #include "remap/model.hpp"
 
 namespace remap {
 
-// Values within values. Files of this project nest six deep; printing and destroying a value takes stack for
-// each level, of which 65,000 are too many.
-inline constexpr std::size_t kDeepestJson = 100;
 // A megabyte of text becomes up to 20 of memory. The largest fit that ships, a warp, has 0.3.
 inline constexpr std::size_t kLongestJson = std::size_t{64} << 20;
 // Entries of a list: more numbers than any limit of a fit allows.
 inline constexpr std::size_t kMostEntries = 100'000;
 // Remarks, methods and comments are read by people, and become comments of headers.
 inline constexpr std::size_t kMostLines = 1000, kLongestLine = 10'000;
-// Whether brackets nest deeper than kDeepestJson. `text` need not be valid.
-bool is_nested_too_deep(std::string_view text);
-
-// Every JSON text that this project reads is read here. Throws kInput, beginning with `place`, if `text` is
-// not valid JSON, and for text beyond the limits above.
+// The values of a JSON text. Throws as SpannedJson (json_spans.hpp); also kInput, beginning with `place`, for
+// a text beyond the limit above and a number that no double holds. Of fields with one key the last counts.
 Json parse_json(std::string_view text, const std::string& place);
 
 // A JSON value and its place, such as `fit.json.domain.alpha`, which every error begins with.

@@ -13,7 +13,7 @@
 #include <wctype.h>
 
 #include "core/open_file.hpp"
-#include "core/process_mark.hpp"
+#include "core/owner_tag.hpp"
 #include "core/system.hpp"
 
 namespace remap {

@@ -70,7 +70,7 @@ FoundMap found_map(const fs::path& folder, const NamedMap& map) {
   return found;
 }
 
-std::string place_of(const FoundSet& set) { return shown(set.folder / set.name); }
+std::string place_of(const FoundSet& set) { return display_path(set.folder / set.name); }
 
 // The only candidate for a role. Several candidates make the set faulty.
 std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std::string& what) {
@@ -141,7 +141,7 @@ void judge(FoundSet& set) {
   set.state = SetState::kSkipped;
   std::string squared;
   for (const MapUse& use : uses(set, is<Role::kGlossinessSquared>))
-    squared = " (" + shown(set.maps[use.map].path.filename()) +
+    squared = " (" + display_path(set.maps[use.map].path.filename()) +
               " holds the square of glossiness, which is not converted; take its root, or export glossiness)";
   set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found" + squared);
 }
@@ -160,16 +160,16 @@ std::vector<std::string> channel_names(Channels channels) {
   return {std::string(name_of(kChannels, channels))};
 }
 
-std::optional<RoughnessConvention> convention_of(Role role) {
-  if (role == Role::kGlossiness) return RoughnessConvention::kGlossiness;
-  if (role == Role::kAlphaWidth) return RoughnessConvention::kAlpha;
+std::optional<RoughnessEncoding> encoding_of(Role role) {
+  if (role == Role::kGlossiness) return RoughnessEncoding::kGlossiness;
+  if (role == Role::kAlphaWidth) return RoughnessEncoding::kAlpha;
   return std::nullopt;
 }
 
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what) {
   std::string text;
   for (const MapUse& use : found) {
-    text += (text.empty() ? "" : ", ") + shown(set.maps[use.map].path.filename()) + " (";
+    text += (text.empty() ? "" : ", ") + display_path(set.maps[use.map].path.filename()) + " (";
     text += role_name(use.role);
     if (use.channels != Channels::kWhole) text += " in " + std::string(name_of(kChannels, use.channels));
     text += ")";

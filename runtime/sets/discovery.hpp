@@ -56,7 +56,7 @@ std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
 // The channel names that a request uses; empty for the whole image.
 std::vector<std::string> channel_names(Channels channels);
 // The encoding of a map of this role; none for the roughness as the model defines it.
-std::optional<RoughnessConvention> convention_of(Role role);
+std::optional<RoughnessEncoding> encoding_of(Role role);
 // Sets `state`, `width`, `specular` and `remarks` from the roles of the maps.
 void judge(FoundSet& set);
 // `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep one`.

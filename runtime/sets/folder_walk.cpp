@@ -106,7 +106,7 @@ class Walker {
 
   void add_problem(const fs::path& relative, const std::string& reason) {
     const fs::path place = relative.empty() ? root_ : root_ / relative;
-    walk_.problems.push_back({relative, shown(place) + ": cannot be read: " + reason});
+    walk_.problems.push_back({relative, display_path(place) + ": cannot be read: " + reason});
   }
 
   fs::path root_;
@@ -121,7 +121,7 @@ class Walker {
 
 }  // namespace
 
-std::string shown(const std::filesystem::path& path) {
+std::string display_path(const std::filesystem::path& path) {
   return plain(path.string(), std::numeric_limits<std::size_t>::max());
 }
 

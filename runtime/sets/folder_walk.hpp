@@ -9,7 +9,7 @@ namespace remap {
 
 // The whole path as plain() writes it: a file name may hold any byte, but a message must be one line, and
 // must not steer a terminal.
-std::string shown(const std::filesystem::path& path);
+std::string display_path(const std::filesystem::path& path);
 
 struct WalkOptions {
   bool recursive = true;

@@ -139,8 +139,8 @@ std::optional<TilePattern> tile_pattern(std::string_view name) {
   for (std::size_t i = 0; i < name.size();) {
     const std::optional<Place> place = place_at(name, i);
     if (place && pattern)
-      throw Error(ErrorKind::kUsage, shown(name) + ": has two placeholders, " + pattern->token + " and " +
-                                         pattern_of(name, *place).token + " (use one)");
+      throw Error(ErrorKind::kUsage, display_path(name) + ": has two placeholders, " + pattern->token +
+                                         " and " + pattern_of(name, *place).token + " (use one)");
     if (place) pattern = pattern_of(name, *place);
     i = place ? place->end : i + 1;
   }
@@ -150,7 +150,7 @@ std::optional<TilePattern> tile_pattern(std::string_view name) {
 std::string tile_name(const TilePattern& pattern, int number) {
   if (pattern.style == TileStyle::kFrame ? number < 0 : !is_udim(number))
     throw Error(ErrorKind::kUsage,
-                shown(pattern.text()) + ": invalid tile number " + std::to_string(number) +
+                display_path(pattern.text()) + ": invalid tile number " + std::to_string(number) +
                     (pattern.style == TileStyle::kFrame ? " (frames begin at 0)" : " (use 1001 to 1999)"));
   return pattern.before + number_in_style(pattern, number) + pattern.after;
 }
@@ -178,14 +178,14 @@ std::optional<int> tile_number(const TilePattern& pattern, std::string_view name
 std::vector<Tile> existing_tiles(const fs::path& path) {
   const std::optional<TilePattern> pattern = tile_pattern(path.filename().string());
   if (!pattern)
-    throw Error(
-        ErrorKind::kUsage,
-        shown(path) + ": no placeholder for tiles in the file name (use <UDIM>, <UVTILE>, #### or %04d)");
+    throw Error(ErrorKind::kUsage,
+                display_path(path) +
+                    ": no placeholder for tiles in the file name (use <UDIM>, <UVTILE>, #### or %04d)");
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
   for (const auto& [token, style] : kTokens)
     if (folder.string().find(token) != std::string::npos)
-      throw Error(ErrorKind::kUsage,
-                  shown(path) + ": " + std::string(token) + " in a folder name (use it in the file name)");
+      throw Error(ErrorKind::kUsage, display_path(path) + ": " + std::string(token) +
+                                         " in a folder name (use it in the file name)");
 
   std::vector<Tile> tiles;
   std::error_code failure;
@@ -196,7 +196,8 @@ std::vector<Tile> existing_tiles(const fs::path& path) {
     std::error_code unreadable;
     if (number && entry->is_regular_file(unreadable)) tiles.push_back({*number, path.parent_path() / name});
   }
-  if (failure) throw Error(ErrorKind::kInput, shown(folder) + ": cannot be read: " + failure.message());
+  if (failure)
+    throw Error(ErrorKind::kInput, display_path(folder) + ": cannot be read: " + failure.message());
   std::sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) { return a.number < b.number; });
   return tiles;
 }

@@ -23,8 +23,8 @@ namespace remap {
 // What a kernel is told of a converter (converter/compact_form.hpp).
 struct FormPass {
   using Terms = std::array<std::array<float, kMostPowersOfAlpha>, kMostPowersOfT>;
-  RoughnessConvention source = RoughnessConvention::kAlpha;
-  RoughnessConvention target = RoughnessConvention::kAlpha;
+  RoughnessEncoding source = RoughnessEncoding::kAlpha;
+  RoughnessEncoding target = RoughnessEncoding::kAlpha;
   float width_min = 0.0f, width_max = 0.0f;    // the domain, in the source's own width parameter
   float width_from = 0.0f, width_to = 0.0f;    // to which widths are clamped
   float alpha_min = 0.0f, least_alpha = 0.0f;  // of the source in the domain; of the target
@@ -56,8 +56,8 @@ using MetallicRows = std::array<Float*, 5>;
 // What is found out about a conversion to metallic; rows of `count` texels each.
 struct DiagnosisRows {
   float* residual = nullptr;
-  float* metallic_width = nullptr;
-  float* doubts = nullptr;  // sums of Doubt, over 255
+  float* metallic_uncertainty = nullptr;
+  float* issues = nullptr;  // sums of MetallicIssue, over 255
 };
 
 // Kernels take rows of any length. An output row may be exactly the input row of the same parameter.
@@ -76,7 +76,7 @@ struct Kernels {
   void (*follow)(const workflow_code::Conventions& use, std::size_t count,
                  const SpecularRows<const float>& in, const float* wanted,
                  const MetallicRows<float>& result) noexcept;
-  // Residual, width and doubts of each texel. NaN in the material or in the result: residual and width NaN,
+  // Residual, width and issues of each texel. NaN in the material or in the result: residual and width NaN,
   // no doubt.
   void (*diagnose)(const workflow_code::Conventions& use, std::size_t count,
                    const SpecularRows<const float>& in, const MetallicRows<const float>& result,

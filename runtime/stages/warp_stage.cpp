@@ -12,8 +12,8 @@ namespace {
 ConverterInfo info_of(const WarpMapFit& fit, InstructionSet set) {
   ConverterInfo info;
   info.id = fit.id;
-  info.source = {fit.source_model, RoughnessConvention::kAlpha, "specular"};
-  info.target = {fit.template_model, RoughnessConvention::kAlpha, "specular"};
+  info.source = {fit.source_model, RoughnessEncoding::kAlpha, "specular"};
+  info.target = {fit.template_model, RoughnessEncoding::kAlpha, "specular"};
   info.roughness = info.specular = {0.0, 1.0};
   info.instructions = set;
   info.steps = {fit.id};
@@ -64,7 +64,7 @@ std::unique_ptr<Converter> make_warp_converter(const WarpMapFit& fit, const Work
   StageList stages;
   if (const auto* metallic = std::get_if<MetallicWorkflow>(&source))
     stages.push_back(
-        specular_stage(*metallic, DiffuseConvention::kPlain, RoughnessConvention::kAlpha, set, fit.id));
+        specular_stage(*metallic, DiffuseConvention::kPlain, RoughnessEncoding::kAlpha, set, fit.id));
   stages.push_back(std::make_shared<WarpStage>(fit.warp, set));
   return std::make_unique<Converter>(info_of(fit, set), parameters_of(source),
                                      parameters_of(SpecularWorkflow{}), std::move(stages));

@@ -10,12 +10,12 @@ namespace code = workflow_code;
 
 constexpr double kLargestDielectricF0 = 0.9;
 
-void require_width(RoughnessConvention width, const std::string& place) {
-  if (width == RoughnessConvention::kRoughness || width == RoughnessConvention::kGlossiness ||
-      width == RoughnessConvention::kAlpha)
+void require_width(RoughnessEncoding width, const std::string& place) {
+  if (width == RoughnessEncoding::kRoughness || width == RoughnessEncoding::kGlossiness ||
+      width == RoughnessEncoding::kAlpha)
     return;
   throw Error(ErrorKind::kInput, place + ": a workflow cannot hold its roughness as " +
-                                     std::string(convention_name(width)) +
+                                     std::string(encoding_name(width)) +
                                      " (choose roughness, glossiness or alpha)");
 }
 
@@ -37,10 +37,10 @@ void require_prior(double prior, const std::string& place) {
                                        number_text(kLargestPrior) + ")");
 }
 
-workflow_code::WidthParameter width_parameter(RoughnessConvention width) {
-  if (width == RoughnessConvention::kAlpha) return code::WidthParameter::kAlpha;
-  return width == RoughnessConvention::kGlossiness ? code::WidthParameter::kGlossiness
-                                                   : code::WidthParameter::kRoughness;
+workflow_code::WidthParameter width_parameter(RoughnessEncoding width) {
+  if (width == RoughnessEncoding::kAlpha) return code::WidthParameter::kAlpha;
+  return width == RoughnessEncoding::kGlossiness ? code::WidthParameter::kGlossiness
+                                                 : code::WidthParameter::kRoughness;
 }
 
 workflow_code::Conventions conventions_of(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
@@ -48,10 +48,10 @@ workflow_code::Conventions conventions_of(const SpecularWorkflow& specular, cons
   const double f0 = metallic.dielectric_f0;
   const bool scaled = metallic.diffuse == DiffuseConvention::kScaled;
   const auto specular_width = width_parameter(specular.width),
-             metallic_width = width_parameter(metallic.width);
+             metallic_uncertainty = width_parameter(metallic.width);
   return {static_cast<float>(f0), static_cast<float>(scaled ? 1.0 - f0 : 1.0),
-          specular.diffuse == DiffuseConvention::kScaled, to_metallic ? specular_width : metallic_width,
-          to_metallic ? metallic_width : specular_width};
+          specular.diffuse == DiffuseConvention::kScaled, to_metallic ? specular_width : metallic_uncertainty,
+          to_metallic ? metallic_uncertainty : specular_width};
 }
 
 }  // namespace remap

@@ -7,7 +7,7 @@ namespace remap {
 namespace {
 
 constexpr auto kPlain = DiffuseConvention::kPlain, kScaled = DiffuseConvention::kScaled;
-constexpr auto kRoughness = RoughnessConvention::kRoughness, kGlossiness = RoughnessConvention::kGlossiness;
+constexpr auto kRoughness = RoughnessEncoding::kRoughness, kGlossiness = RoughnessEncoding::kGlossiness;
 
 // All of these have GGX lobes of alpha = roughness^2. The BRDF is the renderer's own lobe if a converter was
 // measured with it, else Mitsuba's GGX.
@@ -128,7 +128,7 @@ const WorkflowModel* find_workflow_model(std::string_view name) {
   return nullptr;
 }
 
-WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessConvention width) {
+WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessEncoding width) {
   WorkflowModel model;
   model.brdf = brdf;
   model.reason = "a " + std::string(name_of(kWorkflowKinds, kind)) + " layer over " + brdf;

@@ -134,7 +134,7 @@ class Project final : public Stage {
  public:
   // `width`: the parameter that the block has. `reads_alpha`: workflows do not know it, and `use` has alpha.
   // `widens`: surfaces without a highlight become rough.
-  Project(const workflow_code::Conventions& use, double prior, RoughnessConvention width, bool reads_alpha,
+  Project(const workflow_code::Conventions& use, double prior, RoughnessEncoding width, bool reads_alpha,
           bool widens, InstructionSet set)
       : use_(use),
         prior_(static_cast<float>(prior)),
@@ -160,18 +160,18 @@ class Project final : public Stage {
     kernels_.project(use_, prior_, block.size(), from, to);
     if (block.has(Parameter::kMetalMask))
       kernels_.follow(use_, block.size(), from, block.row(Parameter::kMetalMask), to);
-    if (block.is_wanted(Parameter::kResidual) || block.is_wanted(Parameter::kMetallicWidth) ||
-        block.is_wanted(Parameter::kDoubts))
+    if (block.is_wanted(Parameter::kResidual) || block.is_wanted(Parameter::kMetallicUncertainty) ||
+        block.is_wanted(Parameter::kMetallicIssues))
       kernels_.diagnose(use_, block.size(), from, {to[0], to[1], to[2], to[3], to[4]},
-                        {block.make(Parameter::kResidual), block.make(Parameter::kMetallicWidth),
-                         block.make(Parameter::kDoubts)});
+                        {block.make(Parameter::kResidual), block.make(Parameter::kMetallicUncertainty),
+                         block.make(Parameter::kMetallicIssues)});
     return 0;
   }
 
  private:
   workflow_code::Conventions use_;
   float prior_;
-  RoughnessConvention width_;
+  RoughnessEncoding width_;
   bool reads_alpha_, widens_;
   const Kernels& kernels_;
 };
@@ -179,7 +179,8 @@ class Project final : public Stage {
 std::vector<Parameter> targets_of(const WorkflowEnd& end) {
   std::vector<Parameter> targets = parameters_of(end);
   if (kind_of(end) == WorkflowKind::kMetallic)
-    targets.insert(targets.end(), {Parameter::kResidual, Parameter::kMetallicWidth, Parameter::kDoubts});
+    targets.insert(targets.end(),
+                   {Parameter::kResidual, Parameter::kMetallicUncertainty, Parameter::kMetallicIssues});
   return targets;
 }
 
@@ -208,14 +209,14 @@ ConverterInfo info_of(const WorkflowStages& stages, InstructionSet set) {
   return info;
 }
 
-bool tells_alpha(RoughnessConvention width) {
-  return width == RoughnessConvention::kAlpha || width == RoughnessConvention::kRoughness ||
-         width == RoughnessConvention::kGlossiness;
+bool tells_alpha(RoughnessEncoding width) {
+  return width == RoughnessEncoding::kAlpha || width == RoughnessEncoding::kRoughness ||
+         width == RoughnessEncoding::kGlossiness;
 }
 
 // Between a metallic workflow and the specular one between the stages; both have the width of the block.
 workflow_code::Conventions conventions_between(MetallicWorkflow metallic, DiffuseConvention diffuse,
-                                               RoughnessConvention width, bool to_metallic,
+                                               RoughnessEncoding width, bool to_metallic,
                                                const std::string& place) {
   metallic.width = width;
   const SpecularWorkflow specular{"specular", diffuse, width};
@@ -240,7 +241,7 @@ std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
 }
 
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
-                                            RoughnessConvention width, InstructionSet set,
+                                            RoughnessEncoding width, InstructionSet set,
                                             const std::string& place) {
   return std::make_shared<ToSpecular>(conventions_between(source, diffuse, width, false, place), set);
 }
@@ -262,8 +263,8 @@ std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stage
 
 std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages, InstructionSet set) {
   ConverterInfo info = info_of(stages, set);
-  const RoughnessConvention target_width = info.target.roughness;
-  const RoughnessConvention width = tells_alpha(target_width) ? target_width : RoughnessConvention::kAlpha;
+  const RoughnessEncoding target_width = info.target.roughness;
+  const RoughnessEncoding width = tells_alpha(target_width) ? target_width : RoughnessEncoding::kAlpha;
   const DiffuseConvention between = diffuse_between(stages);
   const auto* source = std::get_if<MetallicWorkflow>(&stages.source);
   const auto* target = std::get_if<MetallicWorkflow>(&stages.target);

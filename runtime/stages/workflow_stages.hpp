@@ -14,7 +14,7 @@ namespace remap {
 // Base color and metallic to diffuse and specular by equation (2); the width stays. `diffuse`, `width`: what
 // diffuse becomes, and what the width is. Throws kInput, beginning with `place`, as require_valid() does.
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
-                                            RoughnessConvention width, InstructionSet set,
+                                            RoughnessEncoding width, InstructionSet set,
                                             const std::string& place);
 
 // As make_workflow_converter() without BRDF, from a metallic workflow whose dielectrics have an F0 for each

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/image_codec.hpp"
+#include "assets/document/image_codec.hpp"
 #include "core/files.hpp"
 #include "texture/image_layout.hpp"
 

@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr auto kRoughness = RoughnessConvention::kRoughness, kGlossiness = RoughnessConvention::kGlossiness;
+constexpr auto kRoughness = RoughnessEncoding::kRoughness, kGlossiness = RoughnessEncoding::kGlossiness;
 constexpr auto kEightBits = PixelType::kUint8;
 constexpr auto kGreenUp = NormalGreen::kUp;
 
@@ -79,7 +79,7 @@ LayoutFile file_from(const std::string& option, const std::string& text) {
   file.name = trimmed(std::string_view(text).substr(0, sign));
   if (sign == std::string::npos || file.name.empty() || file.name.find('/') != std::string::npos)
     throw Error(ErrorKind::kUsage, option + ": '" + text +
-                                       "' is no file of a layout (write NAME=CONTENT,..., as orm="
+                                       "' is not a file of a layout (write NAME=CONTENT,..., as orm="
                                        "occlusion,roughness,metallic)");
   std::size_t channels = 0;
   for (const std::string& word : parts_between(std::string_view(text).substr(sign + 1), ',')) {
@@ -110,7 +110,7 @@ Layout layout_in(const std::string& option, const std::string& name, std::string
 
 }  // namespace
 
-std::optional<RoughnessConvention> Layout::width() const {
+std::optional<RoughnessEncoding> Layout::width() const {
   for (const LayoutFile& file : files)
     for (const LayoutContent& content : file.content)
       if (const auto* own = std::get_if<LayoutParameter>(&content); own != nullptr && own->width)

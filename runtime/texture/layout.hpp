@@ -18,7 +18,7 @@ namespace remap {
 // A parameter that a conversion makes or takes along, in one channel or, of a color, in three.
 struct LayoutParameter {
   Parameter parameter = Parameter::kRoughness;
-  std::optional<RoughnessConvention> width;  // of kRoughness: roughness or glossiness
+  std::optional<RoughnessEncoding> width;  // of kRoughness: roughness or glossiness
 };
 // A parameter that is never converted (`occlusion`).
 struct LayoutCarried {
@@ -39,7 +39,7 @@ struct Layout {
   std::vector<LayoutFile> files;  // other results have a file each, named as the parameter
 
   // What the roughness in its files is; none where it has a file of its own.
-  std::optional<RoughnessConvention> width() const;
+  std::optional<RoughnessEncoding> width() const;
   // The file with `parameter`; null for none.
   const LayoutFile* file_with(Parameter parameter) const;
   // Whether a file has a channel for a parameter that is carried, such as `occlusion` or `metallic`.

@@ -139,7 +139,7 @@ MaterialSample sample_materials(TextureSet& set) {
   return sample;
 }
 
-std::vector<std::string> doubts_about(const MaterialSample& sample, const TextureSet& set) {
+std::vector<std::string> issues_in(const MaterialSample& sample, const TextureSet& set) {
   std::vector<std::string> messages;
   if (sample.texel_count == 0) return messages;
   look_at_color_space(sample, set, messages);
@@ -148,7 +148,7 @@ std::vector<std::string> doubts_about(const MaterialSample& sample, const Textur
 }
 
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
-                                         RoughnessConvention width) {
+                                         RoughnessEncoding width) {
   if (sample.texel_count == 0) return std::nullopt;
   const SpecularWorkflow plain;
   WorkflowStages to_plain = stages;
@@ -160,7 +160,7 @@ std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const Wor
   maps.width = materials.size();
   maps.height = 1;
   maps.source_convention = width;
-  maps.target_convention = RoughnessConvention::kAlpha;
+  maps.target_convention = RoughnessEncoding::kAlpha;
   for (const Parameter parameter : converter->sources())
     for (const std::vector<float>& row : sample.rows.at(parameter))
       maps.sources[parameter].channels.push_back(float_channel(row.data(), maps.width, every));
@@ -175,7 +175,7 @@ std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const Wor
   add_target(Parameter::kRoughness, materials.front().width);
   convert_maps(*converter, maps);
   SpecularWorkflow specular = plain;
-  specular.width = RoughnessConvention::kAlpha;
+  specular.width = RoughnessEncoding::kAlpha;
   try {
     return estimate_dielectric_f0(specular, std::get<MetallicWorkflow>(stages.target), materials);
   } catch (const Error&) {

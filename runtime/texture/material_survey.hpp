@@ -24,11 +24,11 @@ MaterialSample sample_materials(TextureSet& set);
 
 // Warnings, one message each: colors that were probably read in the wrong color space, and implausible maps
 // that are black or white everywhere.
-std::vector<std::string> doubts_about(const MaterialSample& sample, const TextureSet& set);
+std::vector<std::string> issues_in(const MaterialSample& sample, const TextureSet& set);
 
 // The F0 of the dielectrics after `stages.brdf`, for `stages` from a specular to a metallic workflow. `width`
 // is the encoding of the sampled roughness. None if no texel allows an estimate.
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
-                                         RoughnessConvention width);
+                                         RoughnessEncoding width);
 
 }  // namespace remap

@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -40,15 +41,6 @@ void require_safe(const fs::path& output, const fs::path& input) {
                                        " (choose another folder)");
 }
 
-void require_free(const fs::path& output, bool force) {
-  std::error_code ignored;
-  const fs::file_status status = fs::symlink_status(output, ignored);
-  if (!fs::exists(status)) return;
-  if (fs::is_directory(output, ignored))
-    throw Error(ErrorKind::kOutput, output.string() + ": is a folder (choose another name)");
-  if (!force) throw Error(ErrorKind::kOutput, output.string() + ": already exists (--force overwrites)");
-}
-
 void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetChoice& choice) {
   std::error_code ignored;
   for (const fs::path& folder : {choice.folder, choice.diagnosis_folder})
@@ -64,7 +56,6 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
                     results[i].string() + ": two results have this name (rename an input)");
     for (const ImageReader& map : set.maps) require_safe(results[i], map.path());
     for (const PlannedCopy& copy : plan.copies) require_safe(results[i], copy.source);
-    require_free(results[i], choice.force);
   }
 }
 
@@ -82,9 +73,9 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
     const ImageReader& reader = set.maps[place.map];
     if (held)
       throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
-                                         reader.layout().channels[place.channel].name + " is used as both " +
-                                         plain_name(*held) + " and " + plain_name(parameter) +
-                                         " (choose channels with FILE:CHANNEL)");
+                                         plain(reader.layout().channels[place.channel].name) +
+                                         " is used as both " + plain_name(*held) + " and " +
+                                         plain_name(parameter) + " (choose channels with FILE:CHANNEL)");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
     if (is_wanted(choice, parameter)) content = ConvertedChannel{parameter, is_color(parameter) ? index : 0};
@@ -424,7 +415,7 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
           throw usage_error(
               map.path.string() +
               ": would hold whole numbers, and its roughness is an exponent "
-              "(--output-roughness-factor says which exponent white is: 1000 in MTL files, 128 in "
+              "(--exponent-of-white says which exponent white is: 1000 in MTL files, 128 in "
               "OpenGL, 100 for percent; or --format exr)");
     }
 }

@@ -1,4 +1,4 @@
-// Plans the files of a conversion and the content of their channels, and refuses to overwrite other files.
+// Plans the files of a conversion and the content of their channels, and refuses to overwrite inputs.
 #pragma once
 
 #include <filesystem>
@@ -67,7 +67,6 @@ struct TargetChoice {
   // Whose stored values stay as they are. A result that would repeat a file is a copy of it.
   std::vector<Parameter> unchanged;
   std::vector<CopiedFile> copies;
-  bool force = false;  // may overwrite existing files
   Metadata metadata;
 };
 
@@ -90,7 +89,7 @@ std::string diagnosis_name(const TargetChannel& diagnosis, const ResultNames& na
 //
 // Throws kUsage if two results have the same name, a result is an input, a channel has two meanings, the
 // layout has no place for a constant, and for an unknown extension; kInput if a file to copy does not exist;
-// kOutput if a result exists and `force` is not set, or if the folder is a file.
+// kOutput if the folder is a file. Results may exist.
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice);
 
 // Opens the planned files. Throws kOutput if a folder cannot be created or a file cannot be opened.

@@ -18,7 +18,7 @@ namespace {
 
 std::vector<std::string> channel_names(const ImageLayout& layout) {
   std::vector<std::string> names;
-  for (const Channel& channel : layout.channels) names.push_back(channel.name);
+  for (const Channel& channel : layout.channels) names.push_back(plain(channel.name));
   return names;
 }
 
@@ -233,7 +233,8 @@ std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Param
     if (channels.empty() && name.channels.empty()) channels = layer_channels(reader.layout(), parameter);
     if (!channels.empty()) candidates.emplace_back();
     for (const std::size_t channel : channels) candidates.back().push_back({map, channel});
-    part_names.push_back(reader.part_name().empty() ? std::to_string(reader.part()) : reader.part_name());
+    part_names.push_back(reader.part_name().empty() ? std::to_string(reader.part())
+                                                    : plain(reader.part_name()));
   }
   if (candidates.size() == 1) return candidates.front();
   if (candidates.empty()) fail_missing(set.maps[parts.front()], name, expected);
@@ -379,9 +380,9 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
   return set;
 }
 
-void require_scale(const TextureSet& set, RoughnessConvention width) {
+void require_scale(const TextureSet& set, RoughnessEncoding width) {
   const SetParameter* map = set.map_of(Parameter::kRoughness);
-  if (width != RoughnessConvention::kExponent || map == nullptr || !map->factors.empty()) return;
+  if (width != RoughnessEncoding::kExponent || map == nullptr || !map->factors.empty()) return;
   const ChannelPlace place = map->channels.front();
   if (is_integer(set.maps[place.map].layout().channels[place.channel].type))
     throw input_error(

@@ -52,9 +52,9 @@ struct CarriedRequest {
 
 struct TextureSetRequest {
   std::map<Parameter, ParameterRequest> parameters;
-  std::vector<CarriedRequest> carried;            // one channel each
-  std::optional<RoughnessConvention> convention;  // of the roughness map; by default that of the model
-  bool resample = false;                          // enlarge maps to the largest width and height among them
+  std::vector<CarriedRequest> carried;          // one channel each
+  std::optional<RoughnessEncoding> convention;  // of the roughness map; by default that of the model
+  bool resample = false;                        // enlarge maps to the largest width and height among them
 };
 
 // The place of a channel in the set.
@@ -98,7 +98,7 @@ struct TextureSet {
   std::vector<CarriedParameter> carried;
   // Opacity: the alpha of the file of diffuse or base color, if it is not used as a parameter.
   std::optional<ChannelPlace> coverage;
-  std::optional<RoughnessConvention> convention;
+  std::optional<RoughnessEncoding> convention;
 
   // Null if the parameter is missing or a constant.
   const SetParameter* map_of(Parameter parameter) const {
@@ -121,7 +121,7 @@ TextureSet open_texture_set(const TextureSetRequest& request);
 
 // Whole numbers stand for 0 to 1, and an exponent for more: throws kInput where the roughness map holds them,
 // is read as `width`, an exponent, and has no factor.
-void require_scale(const TextureSet& set, RoughnessConvention width);
+void require_scale(const TextureSet& set, RoughnessEncoding width);
 
 // Warnings about the set, one message each.
 std::vector<std::string> remarks(const TextureSet& set);

@@ -158,8 +158,8 @@ void print_curves(const FloatRow& random) {
   };
   print_changed("sRGB to linear", [](FloatRow& row) { to_linear(Transfer::kSrgb, row); });
   print_changed("linear to sRGB", [](FloatRow& row) { from_linear(Transfer::kSrgb, row); });
-  for (const auto& from : kConventions)
-    for (const auto& to : kConventions)
+  for (const auto& from : kRoughnessEncodings)
+    for (const auto& to : kRoughnessEncodings)
       if (from.value != to.value)
         print_changed(std::string(from.name) + " to " + std::string(to.name),
                       [&](FloatRow& row) { change_convention(from.value, to.value, row); });

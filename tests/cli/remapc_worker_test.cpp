@@ -8,7 +8,7 @@
 
 #include "cli/remapc_session.hpp"
 #include "compiler/worker/fake_session.hpp"
-#include "core/process_mark.hpp"
+#include "core/owner_tag.hpp"
 #include "worker/folders.hpp"
 
 using namespace remap;
@@ -142,7 +142,7 @@ std::size_t abandoned_folders() {
   for (const auto& entry : std::filesystem::directory_iterator(PrivateFolder().path().parent_path())) {
     const std::string name = entry.path().filename(), opening = "remap-pictures-";
     if (name.starts_with(opening) &&
-        is_mark_of_the_dead(name.substr(opening.size(), name.rfind('-') - opening.size())))
+        is_stale_owner(name.substr(opening.size(), name.rfind('-') - opening.size())))
       ++count;
   }
   return count;

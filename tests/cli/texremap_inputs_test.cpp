@@ -120,7 +120,7 @@ TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
                  if (y == 4 && c == 1) return x == 6 ? NAN : x == 7 ? INFINITY : x == 8 ? -2.0f : 0.2f;
                  return 0.2f;
                });
-  const Words words = maps("r.exr", "s.exr") + "--json --force --bad-texels";
+  const Words words = maps("r.exr", "s.exr") + "--json --force --nan";
   const ProcessResult kept = require_success(convert_ward(session, words + "keep"));
   CHECK(nlohmann::json::parse(kept.output)["first_bad"] == std::vector<int>{6, 4});
   CHECK_THAT(kept.errors, Contains("1 texel with NaN; first bad texel: (6, 4)"));
@@ -136,7 +136,7 @@ TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
   const ProcessResult failed = convert_ward(session, words + "fail");
   CHECK(failed.exit_code == 1);
   CHECK_THAT(failed.last_error(),
-             Contains("s.exr: G of texel (6, 4) is nan (--bad-texels clamp replaces such values)"));
+             Contains("s.exr: G of texel (6, 4) is nan (--nan clamp replaces such values)"));
   CHECK(session.file_count() == 0);
 }
 

@@ -210,7 +210,7 @@ TEST_CASE("texremap parts: schedulers tell the part by their variables", "[slow]
   // A piece of an array would be divided anew.
   CHECK_THAT(note(slurm + "SLURM_ARRAY_TASK_COUNT=2", "auto"),
              Contains("2 texremap: ") && Contains("auto/N"));
-  CHECK_THAT(note("SGE_TASK_ID=undefined LSB_JOBINDEX=0", "auto"), Contains("no job of an array"));
+  CHECK_THAT(note("SGE_TASK_ID=undefined LSB_JOBINDEX=0", "auto"), Contains("not running in an array job"));
   CHECK_THAT(note("PARALLEL_SEQ=9", "auto"), Contains("does not tell the size"));
   CHECK_THAT(note("PARALLEL_SEQ=1 JOB_COMPLETION_INDEX=1", "auto/4"), Contains("are both set"));
   CHECK_THAT(note("JOB_COMPLETION_INDEX=4", "auto/4"), Contains("is none of 0 to 3"));
@@ -413,7 +413,7 @@ TEST_CASE("texremap parts: the union of the parts of assets is what one process 
       std::istringstream lines(result.output);
       for (std::string line; std::getline(lines, line);) {
         const auto json = nlohmann::json::parse(line);
-        if (json.contains("asset")) all += json["was_done"] == true ? 'd' : 'c';
+        if (json.contains("asset")) all += json["asset"]["state"] == "done before" ? 'd' : 'c';
       }
     }
     return all;
@@ -469,7 +469,7 @@ TEST_CASE("texremap parts: manifests of assets and of sets take the options of t
   write_library(tree);
   index(tree);
   refused("convert --manifest sets.jsonl --to gltf --profile core -o out",
-          "--profile: applies to assets alone");
+          "--profile: applies to assets only");
 }
 
 TEST_CASE("texremap parts: plans hand out assets as they hand out sets") {

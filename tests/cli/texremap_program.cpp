@@ -1,6 +1,6 @@
 // texremap as a part of its tests (support/loaded_program.hpp): its main function under another name.
 #define main texremap_main
-#include "texremap/main.cpp"
+#include "texremap/commands/main.cpp"
 #undef main
 
 #include "support/loaded_program.hpp"

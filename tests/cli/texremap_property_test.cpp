@@ -609,8 +609,8 @@ void check_library(const Batch& batch, const Set& set) {
       maps.targets[p].channels.push_back(float_channel(row.data(), kTexels));
     }
   }
-  maps.source_convention = convention_from_name(source_encoding(batch, set));
-  maps.target_convention = RoughnessConvention::kRoughness;
+  maps.source_convention = encoding_from_name(source_encoding(batch, set));
+  maps.target_convention = RoughnessEncoding::kRoughness;
   convert_maps(converter, maps);
   for (const Parameter p : converter.targets()) {
     if (!names.contains(p)) continue;

@@ -152,8 +152,8 @@ RoundTrip round_trip(const MaterialMaps& material, const std::vector<std::string
                   metal_back = read_image(at("back/metallic.png")),
                   rough = read_image(file_of(material.roughness)),
                   rough_back = read_image(at("back/roughness.png")),
-                  doubts = read_image(at("checks/doubts.png")),
-                  width = read_image(at("checks/metallic_width.png"));
+                  issues = read_image(at("checks/issues.png")),
+                  width = read_image(at("checks/metallic_uncertainty.png"));
   RoundTrip result;
   result.texels = metal_back.bytes.size();
   std::vector<Answer> answers(result.texels);
@@ -170,9 +170,9 @@ RoundTrip round_trip(const MaterialMaps& material, const std::vector<std::string
     const bool is_back = difference <= 1 && color <= 1;
     result.returned += is_back;
     if (is_back) continue;
-    // Metallic within the interval of the map metallic_width counts as listed, too.
+    // Metallic within the interval of the map metallic_uncertainty counts as listed, too.
     const bool could_be = static_cast<float>(difference) <= 255.0f * width.values[i] + 1.0f;
-    result.unlisted += doubts.values[i] == 0.0f && !could_be;
+    result.unlisted += issues.values[i] == 0.0f && !could_be;
     // The reason: both materials have the same specular form, to a step of 8 bits, or are too dark.
     const auto stored = [&](const TestImage& image, int metallic) {
       return specular_bytes({byte(image, i, 0), byte(image, i, 1), byte(image, i, 2)}, metallic,
@@ -191,7 +191,7 @@ RoundTrip round_trip(const MaterialMaps& material, const std::vector<std::string
   };
   std::cout << "  to one step: " << percent(result.returned) << " % of the texels, at most "
             << 100.0 * result.most << " % of what is stored; " << result.texels - result.returned
-            << " others, of which " << result.unlisted << " in no list of doubts and " << result.unexplained
+            << " others, of which " << result.unlisted << " in no list of issues and " << result.unexplained
             << " seen as another material\n";
   return result;
 }

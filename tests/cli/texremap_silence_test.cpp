@@ -147,7 +147,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("texremap silence: --bad-texels clamp clamps what is only passed on") {
+TEST_CASE("texremap silence: --nan clamp clamps what is only passed on") {
   const Tree tree;
   write_flat(tree, "c.exr", {0.5f, 0.4f, 0.3f}, OIIO::TypeFloat);
   tree.make("r.exr", test_spec(8, 8, kGrey, OIIO::TypeFloat), [](int x, int, int) {
@@ -155,7 +155,7 @@ TEST_CASE("texremap silence: --bad-texels clamp clamps what is only passed on") 
   });
   require_success(convert(tree,
                           "--from gltf --to usd-preview-surface --base-color c.exr --metallic 0 --roughness "
-                          "r.exr --bad-texels clamp -o out"));
+                          "r.exr --nan clamp -o out"));
   const TestImage out = tree.image("out/r.exr");
   for (int x = 0; x < 8; ++x) CHECK(out.at(x, 0, 0) == (x < 2 ? 1.0f : x < 4 ? 0.0f : 0.5f));
 }

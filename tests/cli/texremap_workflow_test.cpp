@@ -73,7 +73,7 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
   const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
                   base = session.image("out/base_color.exr"), metal = session.image("out/metallic.exr"),
                   residual = session.image("checks/residual.exr"),
-                  width = session.image("checks/metallic_width.exr");
+                  width = session.image("checks/metallic_uncertainty.exr");
   const WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   std::size_t guesses = 0;
   for (int y = 0; y < kWorkflowSize; ++y)
@@ -87,8 +87,8 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
         REQUIRE(base.at(x, y, c) == expected.base_color[static_cast<std::size_t>(c)]);
       REQUIRE(metal.at(x, y, 0) == expected.metallic);
       REQUIRE(residual.at(x, y, 0) == diagnosis.residual);
-      REQUIRE(width.at(x, y, 0) == diagnosis.metallic_width);
-      guesses += diagnosis.metallic_width > 0.2f;
+      REQUIRE(width.at(x, y, 0) == diagnosis.metallic_uncertainty);
+      guesses += diagnosis.metallic_uncertainty > 0.2f;
     }
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["metallic_confidence"]["undetermined"] == guesses);
@@ -105,7 +105,7 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
                   base = session.image("out/base_color.exr"), orm = session.image("out/orm.exr");
   const Converter& brdf = find_converter("mitsuba/ward", "mitsuba/ggx");
   WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
-  conversion.specular.width = conversion.metallic.width = RoughnessConvention::kAlpha;
+  conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
   conversion.metallic.diffuse = DiffuseConvention::kScaled;
   // The layer over Ward leaves its diffuse open and takes the meaning that glTF has: the reflectance comes
   // first.
@@ -298,7 +298,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   CHECK_THAT(session.texremap(whole + "-o none").last_error(),
              Contains("would hold whole numbers, and its roughness is an exponent"));
   CHECK_FALSE(std::filesystem::exists(session.path("none")));
-  REQUIRE(session.texremap(whole + "--output-roughness-factor 1000 -o whole").exit_code == 0);
+  REQUIRE(session.texremap(whole + "--exponent-of-white 1000 -o whole").exit_code == 0);
   const TestImage stored = session.image("whole/exponent.png");
   for (int i = 0; i < kWorkflowSize; ++i)
     CHECK(stored.at(i, i, 0) * 1000.0f ==
@@ -308,8 +308,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
       "--diffuse whole/diffuse.png ";
   CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--roughness-factor says"));
   CHECK(session.texremap(back + "--roughness-factor 1000 -o back").exit_code == 0);
-  CHECK_THAT(session.texremap(command + "--to unity --output-roughness-factor 128 -o none").last_error(),
-             Contains("applies to exponents alone"));
+  CHECK_THAT(session.texremap(command + "--to unity --exponent-of-white 128 -o none").last_error(),
+             Contains("applies to exponents only"));
 }
 
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {

@@ -1,8 +1,8 @@
 // Fits as JSON, of every kind, as remapc and texremap read them. What is read can be written, and is then
 // read as the same.
-#include "convert/converter_file.hpp"
 #include "fuzz/fuzz.hpp"
 #include "lower/fit_file.hpp"
+#include "paths/converter_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   remap::read_or_refuse([&] { remap::fitted_converter_from_json(remap::text_of(data, size), "fit.json"); });

@@ -1,6 +1,6 @@
 // Whole glTF files, text and binary, as `texremap convert` edits them. What comes out is read again, and has
 // nothing left to convert, unless a material failed.
-#include "assets/gltf_asset.hpp"
+#include "assets/gltf/gltf_asset.hpp"
 #include "core/errors.hpp"
 #include "fuzz/fuzz.hpp"
 

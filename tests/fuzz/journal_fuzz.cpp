@@ -8,7 +8,7 @@
 
 #include "core/files.hpp"
 #include "fuzz/fuzz.hpp"
-#include "texremap/journal.hpp"
+#include "texremap/run/journal.hpp"
 
 namespace fs = std::filesystem;
 

@@ -6,7 +6,7 @@
 #include "core/files.hpp"
 #include "fuzz/fuzz.hpp"
 #include "fuzz/fuzz_file.hpp"
-#include "texremap/manifest.hpp"
+#include "texremap/plan/manifest.hpp"
 
 namespace fs = std::filesystem;
 

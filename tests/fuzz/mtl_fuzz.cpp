@@ -2,9 +2,9 @@
 // holds every byte that was not touched. The same bytes are also read as an OBJ file with that MTL file.
 #include <optional>
 
-#include "assets/mtl_asset.hpp"
-#include "assets/obj_gltf.hpp"
-#include "assets/text_encoding.hpp"
+#include "assets/document/text_encoding.hpp"
+#include "assets/mtl/mtl_asset.hpp"
+#include "assets/obj/obj_gltf.hpp"
 #include "core/errors.hpp"
 #include "fuzz/fuzz.hpp"
 

@@ -7,21 +7,18 @@
 #include "core/json_field.hpp"
 #include "core/plain_text.hpp"
 #include "fuzz/fuzz.hpp"
-#include "texremap/part_report.hpp"
+#include "texremap/report/part_report.hpp"
 
 namespace {
 
 void write_again(const std::filesystem::path& output, std::string_view lines) {
-  remap::ConvertOptions options;
-  options.output = output;
-  options.part = remap::GivenPart{{3, 3}, ""};
-  remap::RunLines run(options);
+  const remap::GivenPart part{{3, 3}, ""};
   remap::ConversionNote note;
   note.details = {{"version", "0.1.0"}};
-  run.tell(remap::part_json(*options.part, remap::ManifestHead(), note));
+  std::string report = remap::part_json(part, remap::ManifestHead(), note).dump() + "\n";
   for (const std::string& line : remap::parts_between(lines, '\n'))
-    remap::read_or_refuse([&] { run.tell(remap::parse_json(line, "line")); });
-  run.finish();
+    remap::read_or_refuse([&] { report += remap::parse_json(line, "line").dump() + "\n"; });
+  remap::write_part_report(output, part.part, report);
 }
 
 }  // namespace
@@ -31,7 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::filesystem::remove_all(output);
   std::filesystem::create_directories(output / remap::kPartsFolder);
   for (const std::size_t index : {1u, 2u})
-    std::ofstream(remap::report_of(output, {index, 2}), std::ios::binary)
+    std::ofstream(output / remap::kPartsFolder / (remap::name_of(remap::Part{index, 2}) + remap::kPartReport),
+                  std::ios::binary)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   const auto merge = [&] { remap::merge_reports(output, [](std::string_view) {}); };
   remap::read_or_refuse(merge);

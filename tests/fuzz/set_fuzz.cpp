@@ -45,7 +45,7 @@ void read_set(const remap::TextureSetRequest& request) {
     (void)map.noted_metadata("remap");
     read_rows(map);
   }
-  remap::require_scale(set, remap::RoughnessConvention::kExponent);
+  remap::require_scale(set, remap::RoughnessEncoding::kExponent);
 }
 
 // A grey Targa file of 8 x 8 texels that are all equal.

@@ -98,7 +98,7 @@ constexpr Domain kBright = {{0.2, 0.95}, {0.15, 0.6}};
 std::vector<MadeModel> subjects() {
   const Fit base = committed_fit();
   std::vector<MadeModel> all = {lowered(base)};
-  const auto add = [&](const std::string& id, RoughnessConvention source, RoughnessConvention target,
+  const auto add = [&](const std::string& id, RoughnessEncoding source, RoughnessEncoding target,
                        const MappingKind& mapping) {
     Fit fit = base;
     fit.id = id;
@@ -116,7 +116,7 @@ std::vector<MadeModel> subjects() {
                          {1, {0.74, -0.19, 0.0, -0.6, 3.6, 1e-4}},
                          {1, {0.05, 0.0, 0.0, 0.1, 9.0, 0.0}},
                          {2, {0.2, 0.3, 1.5, 0.0, 0.0, 0.0}}}};
-  const auto kAlpha = RoughnessConvention::kAlpha;
+  const auto kAlpha = RoughnessEncoding::kAlpha;
   add("all_powers", kAlpha, kAlpha, full);
   add("same_names", kAlpha, kAlpha, Parametric{{{0.9}}, {{1, {0.7, 0.0, 0.0, 0.0, 0.0, 0.0}}}});
   const std::vector<TableRow> rows = rows_of(full, kBright);
@@ -130,12 +130,12 @@ std::vector<MadeModel> subjects() {
     add("network_" + std::string(activation_name(activation)), kAlpha, kAlpha,
         fit_mlp(rows, options).mapping);
   }
-  add("from_roughness", RoughnessConvention::kRoughness, RoughnessConvention::kGlossiness, paper);
-  add("from_glossiness", RoughnessConvention::kGlossiness, RoughnessConvention::kRoughness, full);
-  add("to_squared", kAlpha, RoughnessConvention::kSquared, paper);
-  add("from_squared", RoughnessConvention::kSquared, kAlpha, full);
-  add("to_exponent", kAlpha, RoughnessConvention::kExponent, paper);
-  add("from_exponent", RoughnessConvention::kExponent, kAlpha, full);
+  add("from_roughness", RoughnessEncoding::kRoughness, RoughnessEncoding::kGlossiness, paper);
+  add("from_glossiness", RoughnessEncoding::kGlossiness, RoughnessEncoding::kRoughness, full);
+  add("to_squared", kAlpha, RoughnessEncoding::kSquared, paper);
+  add("from_squared", RoughnessEncoding::kSquared, kAlpha, full);
+  add("to_exponent", kAlpha, RoughnessEncoding::kExponent, paper);
+  add("from_exponent", RoughnessEncoding::kExponent, kAlpha, full);
   Fit capped = base;  // at both limits, without a hinge
   capped.id = "capped";
   capped.mapping = Parametric{{{1.3}}, {{1, {1.4, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
@@ -150,7 +150,7 @@ std::vector<MadeModel> subjects() {
   form.alpha_limit = form.specular_limit = 1.0f;
   form.hinge = {-0.3f, 0.1f, 0.2f, 0.4f};
   add("hinged", kAlpha, kAlpha, form);
-  add("hinged_roughness", RoughnessConvention::kRoughness, RoughnessConvention::kExponent, form);
+  add("hinged_roughness", RoughnessEncoding::kRoughness, RoughnessEncoding::kExponent, form);
   return all;
 }
 
@@ -222,8 +222,8 @@ bool close(float value, double expected, double within) {
 // Judged as the alpha it stands for: an exponent is 2 / alpha^2 - 2 and doubles its relative error, a root
 // doubles nothing but is steep at 0. A float of the parameter itself is as close as can be.
 bool close_width(const MadeModel& subject, float value, double expected) {
-  const RoughnessConvention convention = subject.fit.target.roughness;
-  if (convention == RoughnessConvention::kAlpha || !std::isfinite(expected))
+  const RoughnessEncoding convention = subject.fit.target.roughness;
+  if (convention == RoughnessEncoding::kAlpha || !std::isfinite(expected))
     return close(value, expected, subject.alpha_within);
   return close(static_cast<float>(to_alpha(convention, value)), to_alpha(convention, expected),
                subject.alpha_within + 1e-6);

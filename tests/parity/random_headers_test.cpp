@@ -71,7 +71,7 @@ Fit random_fit(std::uint64_t seed) {
   std::uniform_real_distribution<float> share(0.0f, 1.0f);
   Fit fit = example_fit();
   fit.id = "random_" + std::to_string(seed);
-  fit.target.roughness = RoughnessConvention::kAlpha;
+  fit.target.roughness = RoughnessEncoding::kAlpha;
   fit.domain = {{0.01 + 0.2 * static_cast<double>(share(random)), 1.0},
                 {0.0, std::pow(10.0, static_cast<double>(share(random) - 0.5f))}};
   CompactForm form;

@@ -59,10 +59,10 @@ std::vector<WorkflowFit> probed_models() {
   all.push_back({"random_network", workflow_test::gltf(workflow_test::random_network()), {}, {}, "0"});
   WorkflowFit mixed{"mixed_conventions", workflow_test::gltf(Projection{kNoisyPrior}), {}, {}, "0"};
   mixed.conversion.specular.diffuse = DiffuseConvention::kPlain;
-  mixed.conversion.specular.width = RoughnessConvention::kAlpha;
-  mixed.conversion.metallic.width = RoughnessConvention::kGlossiness;
+  mixed.conversion.specular.width = RoughnessEncoding::kAlpha;
+  mixed.conversion.metallic.width = RoughnessEncoding::kGlossiness;
   WorkflowFit black{"black_dielectric", workflow_test::plain(Projection{0.0}, 0.0), {}, {}, "0"};
-  black.conversion.metallic.width = RoughnessConvention::kAlpha;
+  black.conversion.metallic.width = RoughnessEncoding::kAlpha;
   all.push_back(mixed);
   all.push_back(black);
   return all;

@@ -8,8 +8,8 @@ namespace remap {
 inline Fit example_fit() {
   Fit fit;
   fit.id = "example_a_to_example_b";
-  fit.source = {"example/a", RoughnessConvention::kAlpha, "specular"};
-  fit.target = {"example/b", RoughnessConvention::kRoughness, "f0"};
+  fit.source = {"example/a", RoughnessEncoding::kAlpha, "specular"};
+  fit.target = {"example/b", RoughnessEncoding::kRoughness, "f0"};
   fit.domain = {{0.05, 1.0}, {0.0, 0.5}};
   fit.mapping = Parametric{{{1.04, -0.388, -0.332, 0.25}}, {{1, {0.9, -0.3, 0.5, 0.1, 3.0, 0.0}}}};
   fit.table = {"example.csv", std::string(64, '0'), {}};

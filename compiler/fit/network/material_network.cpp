@@ -90,9 +90,9 @@ std::string comment_of(const MaterialTable& table, const std::string& key) {
   throw input_error(table.name + ": missing comment " + key + " (remapc sample writes it)");
 }
 
-RoughnessConvention width_of(const MaterialTable& table, const std::string& key) {
+RoughnessEncoding width_of(const MaterialTable& table, const std::string& key) {
   const std::string name = comment_of(table, key);
-  const auto convention = convention_from_name(name);
+  const auto convention = encoding_from_name(name);
   if (!convention)
     throw input_error(table.name + ": unknown convention '" + name + "' in the comment " + key);
   return *convention;

@@ -99,14 +99,14 @@ test('materials: metals and dielectrics of specular-gloss become those of metal-
   const made = convert({
     source: 'gltf-specgloss', target: 'gltf', glossiness: new Float32Array([0.75, 0.5]),
     diffuse: new Float32Array([0, 0, 0, 0.5, 0.4, 0.3]), specular: new Float32Array([0.9, 0.7, 0.3, 0.04, 0.04, 0.04]),
-    measures: ['residual', 'doubts'],
+    measures: ['residual', 'issues'],
   });
   const near = (found, expected) => found.forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 2e-3, `${found}`));
   near(made.metallic, [1, 0]);
   near(made.baseColor, [0.9, 0.7, 0.3, 0.5, 0.4, 0.3]);
   near(made.roughness, [0.25, 0.5]);
   near(made.residual, [0, 0]);
-  assert.equal(made.doubts.length, 2);
+  assert.equal(made.issues.length, 2);
   const back = convert({ source: 'gltf', target: 'gltf-specgloss', roughness: made.roughness, baseColor: made.baseColor, metallic: made.metallic });
   near(back.specular, [0.9, 0.7, 0.3, 0.04, 0.04, 0.04]);
   near(back.diffuse, [0, 0, 0, 0.5, 0.4, 0.3]);

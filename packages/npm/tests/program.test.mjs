@@ -66,7 +66,7 @@ test('two commands at once in one folder give what one gives', async () => {
   await requireSameResults(together, alone);
 });
 
-// FNV-1a, as runtime/core/process_mark.cpp has it.
+// FNV-1a, as runtime/core/owner_tag.cpp has it.
 function tagOfMachine() {
   let hash = 0x811c9dc5;
   for (const byte of Buffer.from(`${hostname()}/${readFileSync('/proc/sys/kernel/random/boot_id')}/${readlinkSync('/proc/self/ns/pid')}`)) hash = Math.imul(hash ^ byte, 0x01000193);

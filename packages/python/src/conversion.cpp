@@ -5,8 +5,8 @@
 
 #include "buffers.hpp"
 #include "command_line/command.hpp"
-#include "convert/converter_file.hpp"
 #include "core/errors.hpp"
+#include "paths/converter_file.hpp"
 #include "remap/error.hpp"
 #include "remap/warp.hpp"
 #include "stages/brdf_stage.hpp"
@@ -171,7 +171,7 @@ MaterialConversion MaterialConversion::load(const std::string& path,
   } else if (const auto* warp = std::get_if<WarpMapFit>(&fit)) {
     const WorkflowKind source =
         source_workflow == "metallic" ? WorkflowKind::kMetallic : WorkflowKind::kSpecular;
-    conversion.choice_ = choice_of_warp(*warp, source, RoughnessConvention::kRoughness);
+    conversion.choice_ = choice_of_warp(*warp, source, RoughnessEncoding::kRoughness);
     built.material = make_warp_converter(*warp, *conversion.choice_.source, best_instruction_set());
   } else {
     throw input_error(path +
@@ -192,8 +192,8 @@ nb::dict MaterialConversion::convert(const nb::dict& sources, const nb::dict& ta
   };
   add_sources(sources, transfers("source_transfers"), size, prepared);
   add_targets(targets, transfers("target_transfers"), size, prepared);
-  maps.source_convention = named_member(options, "roughness_encoding", kConventions);
-  maps.target_convention = named_member(options, "output_encoding", kConventions);
+  maps.source_convention = named_member(options, "roughness_encoding", kRoughnessEncodings);
+  maps.target_convention = named_member(options, "output_encoding", kRoughnessEncodings);
   maps.bad_texels = named_member(options, "bad_texels", kBadTexels).value_or(BadTexels::kKeep);
   maps.dither = member<bool>(options, "dither").value_or(false);
   prepared.threads = member<int>(options, "threads").value_or(1);
@@ -223,8 +223,8 @@ nb::dict MaterialConversion::describe() const {
   text["is_material"] = choice_.is_material();
   text["sources"] = names_of_parameters(converter.sources());
   text["targets"] = names_of_parameters(converter.targets());
-  text["roughness_encoding"] = std::string(convention_name(choice_.source_width(info)));
-  text["output_encoding"] = std::string(convention_name(choice_.target_width(info)));
+  text["roughness_encoding"] = std::string(encoding_name(choice_.source_width(info)));
+  text["output_encoding"] = std::string(encoding_name(choice_.target_width(info)));
   text["roughness_domain"] = range(domain.roughness);
   text["specular_domain"] = range(domain.specular);
   text["models"] = built_->path.steps.empty() ? std::vector<std::string>{} : path_models(built_->path);

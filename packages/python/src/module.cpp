@@ -14,7 +14,7 @@
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "remap/workflow.hpp"
-#include "texremap/commands.hpp"
+#include "texremap/commands/commands.hpp"
 
 namespace nb = nanobind;
 
@@ -42,11 +42,11 @@ nb::list models() {
   };
   for (const std::string& name : graph.models()) {
     const ModelSide side = graph.side_of(name);
-    add(name, "brdf", std::string(convention_name(side.roughness)), side.specular, "");
+    add(name, "brdf", std::string(encoding_name(side.roughness)), side.specular, "");
   }
   for (const WorkflowModel& model : workflow_models())
     add(model_of(model.end), kind_of(model.end) == WorkflowKind::kSpecular ? "specular" : "metallic",
-        std::string(convention_name(width_of(model.end))), "f0", model.reason);
+        std::string(encoding_name(width_of(model.end))), "f0", model.reason);
   return all;
 }
 

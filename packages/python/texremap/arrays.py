@@ -13,7 +13,7 @@ from ._error import Error
 _COLORS = {"specular", "diffuse", "base_color", "residual"}
 _SURELY_NO_FRACTION = 2  # a number from here on
 _LOOKED_AT = 64  # values of each axis of an array
-_MEASURES = ("residual", "metallic_width", "doubts")
+_MEASURES = ("residual", "metallic_uncertainty", "issues")
 
 
 Map = Union[npt.NDArray[Any], float]
@@ -298,7 +298,7 @@ def convert(*, source: str, target: str, roughness: Optional[Map] = None, glossi
     dtype: of the results: whole numbers of 8 to 32 bits (0 to 1 as 0 to the largest), float16, float32, float64; by
         default that of the source's array of the same name, else of its first array, else float32.
     out: arrays to write into, by the names of the results, of shape S or S + (3,); they may be the sources themselves.
-    measures: of a metallic target also ``"residual"``, ``"metallic_width"``, ``"doubts"``.
+    measures: of a metallic target also ``"residual"``, ``"metallic_uncertainty"``, ``"issues"``.
     outside: also a Boolean array ``outside`` of the texels outside of the converter's domain.
     bad_texels: NaN, infinite and negative values: ``"keep"``, ``"clamp"`` to the domain, or ``"fail"``.
     dither: adds noise of half a step to 8-bit results, the same in every run.

@@ -44,7 +44,7 @@ struct ConversionRequest {
   std::optional<double> dielectric_f0;  // of metallic workflows, [0, 0.9]; by default the model's own
   double prior = kCleanPrior;           // of the projection, towards a metallic of 0 and 1
   // The BRDFs are those of a fit, of which the graph need not know.
-  bool is_of_fit = false;
+  bool uses_fit_file = false;
   ConversionWords words;
 };
 
@@ -68,10 +68,10 @@ struct ConversionChoice {
   bool finds_metallic() const noexcept { return is_to_metallic() && !changes_nothing; }
   // What roughness is at each end, unless somebody says otherwise. `info` is of the converter, which may have
   // another convention inside where it converts a material.
-  RoughnessConvention source_width(const ConverterInfo& info) const noexcept {
+  RoughnessEncoding source_width(const ConverterInfo& info) const noexcept {
     return source ? width_of(*source) : info.source.roughness;
   }
-  RoughnessConvention target_width(const ConverterInfo& info) const noexcept {
+  RoughnessEncoding target_width(const ConverterInfo& info) const noexcept {
     return target ? width_of(*target) : info.target.roughness;
   }
   // The parameters of the source and of the target, in the order of Parameter.
@@ -108,7 +108,7 @@ BuiltConversion build_conversion(const ConversionChoice& choice, std::unique_ptr
 
 // The ends of a warp: both have plain diffuse, specular and a width of that convention; a metallic source is
 // read by equation (2).
-ConversionChoice choice_of_warp(const WarpMapFit& warp, WorkflowKind source, RoughnessConvention width);
+ConversionChoice choice_of_warp(const WarpMapFit& warp, WorkflowKind source, RoughnessEncoding width);
 
 // The stages of a conversion between workflows, around `brdf`, which may be null.
 WorkflowStages stages_of(const ConversionChoice& choice, const Converter* brdf);

@@ -38,23 +38,23 @@ struct TexelPosition {
   std::size_t y = 0;
 };
 
-// Statistics of the texels with one Doubt.
-struct DoubtStatistics {
+// Statistics of the texels with one MetallicIssue.
+struct IssueStatistics {
   std::size_t count = 0;
   std::optional<TexelPosition> first;  // in row order
 
   // Adds the statistics of rows below.
-  DoubtStatistics& operator+=(const DoubtStatistics& other) noexcept;
+  IssueStatistics& operator+=(const IssueStatistics& other) noexcept;
 };
 
 // The reliability of metallic over all covered texels without NaN. All members are 0 if they were not
-// requested or if the converter cannot diagnose (Converter::can_diagnose).
+// requested or if the converter cannot diagnose (Converter::has_diagnostics).
 struct MetallicStatistics {
   std::size_t texel_count = 0;
   // Sum of squared residuals in units of 2^-40. The integer sum does not depend on the order.
   std::uint64_t residual_squares = 0;
   float largest_residual = 0.0f;
-  DoubtStatistics undetermined, dark, ambiguous, clamped;
+  IssueStatistics undetermined, dark, ambiguous, clamped;
 
   double rms_residual() const noexcept;
   MetallicStatistics& operator+=(const MetallicStatistics& other) noexcept;
@@ -86,7 +86,7 @@ ParameterStatistics statistics_of(std::span<const float> values);
 struct DiagnosedRow {
   TexelPosition first;
   const float* residual;
-  const float* doubts;
+  const float* issues;
   const float* coverage;
 };
 MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row);
@@ -119,8 +119,8 @@ inline constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 
 struct MapTreatment {
-  std::optional<RoughnessConvention> target_convention;  // of the results; by default that of the model
-  float target_roughness_factor = 1.0f;                  // stored roughness times this is the roughness
+  std::optional<RoughnessEncoding> target_convention;  // of the results; by default that of the model
+  float target_roughness_factor = 1.0f;                // stored roughness times this is the roughness
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;               // add noise of half a step to 8-bit integers, equal in every run
   bool value_statistics = false;     // fill in ranges and histograms
@@ -140,8 +140,8 @@ struct MapConversion : MapTreatment {
   // Opacity. Texels with coverage 0 or less are converted like all others, but are left out of the
   // statistics.
   std::optional<ConstChannelView> coverage;
-  std::optional<RoughnessConvention> source_convention;  // of the roughness; by default that of the model
-  std::optional<ChannelView> mask;                       // receives 1 for texels outside the domain, else 0
+  std::optional<RoughnessEncoding> source_convention;  // of the roughness; by default that of the model
+  std::optional<ChannelView> mask;                     // receives 1 for texels outside the domain, else 0
   std::size_t first_row = 0;  // position of row 0 in the whole map, for positions and dithering
 };
 

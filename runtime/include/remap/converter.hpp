@@ -50,34 +50,34 @@ enum class Parameter {
   kDiffuse,    // of the specular workflow
   kBaseColor,  // of the metallic workflow
   kMetallic,
-  kMetalMask,      // source only: chooses among metallic values that look alike
-  kResidual,       // target only: the part of a texel that metal-rough cannot represent
-  kMetallicWidth,  // target only: the share of [0, 1] that metallic could take
-  kDoubts,         // target only: the sum of Doubt values, divided by 255, so that 8 bits hold it
+  kMetalMask,            // source only: chooses among metallic values that look alike
+  kResidual,             // target only: the part of a texel that metal-rough cannot represent
+  kMetallicUncertainty,  // target only: the share of [0, 1] that metallic could take
+  kMetallicIssues,  // target only: the sum of MetallicIssue values, divided by 255, so that 8 bits hold it
 };
 inline constexpr std::size_t kParameterCount = 9;
 
 // Reasons why the metallic material of a texel may differ from the intended one; powers of two.
-enum class Doubt {
+enum class MetallicIssue {
   kClamped = 1,       // a parameter is outside [0, 1], or the base color would be
   kAmbiguous = 2,     // two separate metallic values look alike
   kDark = 4,          // metallic is undetermined, because diffuse and specular are dark
-  kUndetermined = 8,  // metallic is undetermined: kMetallicWidth is above kUndeterminedWidth
+  kUndetermined = 8,  // metallic is undetermined: kMetallicUncertainty is above kUndeterminedWidth
 };
-// The value of kMetallicWidth above which metallic is undetermined: maps authored in both workflows differ by
-// 0.15 RMS there, and by less than 0.01 below half of it.
+// The value of kMetallicUncertainty above which metallic is undetermined: maps authored in both workflows
+// differ by 0.15 RMS there, and by less than 0.01 below half of it.
 inline constexpr float kUndeterminedWidth = 0.2f;
 // A texel is dark if diffuse and F0, linear, are below this value.
 inline constexpr float kDarkTexel = 0.06f;
 
 // `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `residual`,
-// `metallic_width`, `doubts`.
+// `metallic_uncertainty`, `issues`.
 std::string_view parameter_name(Parameter parameter);
 // The name in files and messages: `base_color`; always `roughness` for the width.
 std::string plain_name(Parameter parameter);
 // `--base-color`; `--roughness` for the width.
 std::string parameter_option(Parameter parameter);
-// Whether it measures the result: kResidual, kMetallicWidth, kDoubts.
+// Whether it measures the result: kResidual, kMetallicUncertainty, kMetallicIssues.
 bool is_measure(Parameter parameter);
 // Whether it can have three channels.
 bool is_color(Parameter parameter);
@@ -161,9 +161,9 @@ class Converter {
   bool has_source(Parameter parameter) const noexcept;
   bool has_target(Parameter parameter) const noexcept;
   // Whether it takes and makes width and specular alone.
-  bool is_of_brdf() const noexcept { return sources_.size() == 2; }
-  // Whether it can make kResidual, kMetallicWidth and kDoubts.
-  bool can_diagnose() const noexcept { return has_target(Parameter::kResidual); }
+  bool converts_brdf_only() const noexcept { return sources_.size() == 2; }
+  // Whether it can make kResidual, kMetallicUncertainty and kMetallicIssues.
+  bool has_diagnostics() const noexcept { return has_target(Parameter::kResidual); }
   // The rows that it writes for a parameter if the source has `specular_channels` of specular.
   std::size_t target_channels(Parameter parameter, std::size_t specular_channels) const noexcept;
 

@@ -57,7 +57,7 @@ struct Range {
 // The parameters by which BRDF models state the microfacet width. Each is an invertible function of alpha, in
 // which sweeps and fits work.
 
-enum class RoughnessConvention {
+enum class RoughnessEncoding {
   kAlpha,       // the microfacet width itself, (0, 1]
   kRoughness,   // perceptual roughness, sqrt(alpha) (Burley 2012; glTF 2.0; Cycles since Blender 2.80)
   kExponent,    // Phong exponent, 2 / alpha^2 - 2 (Walter et al. 2007, section 5.2)
@@ -67,31 +67,31 @@ enum class RoughnessConvention {
 
 // Converts the model's own parameter to alpha and back. The functions are inverses up to rounding for alpha
 // in (0, 1]; the exponent of alpha 0 is infinite.
-double to_alpha(RoughnessConvention convention, double own);
-double from_alpha(RoughnessConvention convention, double alpha);
+double to_alpha(RoughnessEncoding convention, double own);
+double from_alpha(RoughnessEncoding convention, double alpha);
 
 // The names in fits and tables, and of the parameter in generated headers.
-inline constexpr NamedValues<RoughnessConvention, 5> kConventions = {
-    {{RoughnessConvention::kAlpha, "alpha"},
-     {RoughnessConvention::kRoughness, "roughness"},
-     {RoughnessConvention::kExponent, "exponent"},
-     {RoughnessConvention::kGlossiness, "glossiness"},
-     {RoughnessConvention::kSquared, "squared"}}};
-inline std::string_view convention_name(RoughnessConvention convention) {
-  return name_of(kConventions, convention);
+inline constexpr NamedValues<RoughnessEncoding, 5> kRoughnessEncodings = {
+    {{RoughnessEncoding::kAlpha, "alpha"},
+     {RoughnessEncoding::kRoughness, "roughness"},
+     {RoughnessEncoding::kExponent, "exponent"},
+     {RoughnessEncoding::kGlossiness, "glossiness"},
+     {RoughnessEncoding::kSquared, "squared"}}};
+inline std::string_view encoding_name(RoughnessEncoding convention) {
+  return name_of(kRoughnessEncodings, convention);
 }
-inline std::optional<RoughnessConvention> convention_from_name(std::string_view name) {
-  return value_named(kConventions, name);
+inline std::optional<RoughnessEncoding> encoding_from_name(std::string_view name) {
+  return value_named(kRoughnessEncodings, name);
 }
-inline std::vector<std::string> convention_names() { return names_of(kConventions); }
+inline std::vector<std::string> convention_names() { return names_of(kRoughnessEncodings); }
 
 // The ends of a conversion and their names.
 
 // One end of a conversion: a model and the meaning of its two parameters.
 struct ModelSide {
-  std::string model;                                            // e.g. "mitsuba/ward"
-  RoughnessConvention roughness = RoughnessConvention::kAlpha;  // the model's own width parameter
-  std::string specular = "specular";                            // "specular" (plain scale) or "f0"
+  std::string model;                                        // e.g. "mitsuba/ward"
+  RoughnessEncoding roughness = RoughnessEncoding::kAlpha;  // the model's own width parameter
+  std::string specular = "specular";                        // "specular" (plain scale) or "f0"
   bool operator==(const ModelSide&) const = default;
 };
 

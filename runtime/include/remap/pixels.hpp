@@ -132,6 +132,6 @@ void from_linear(Transfer transfer, std::span<float> values) noexcept;
 // Converts roughness from one encoding to another, in place; equal encodings change nothing. Invalid values
 // of `from` (below 0, and above 1 except for exponents) are clamped. The exponent of alpha 0 is infinite. NaN
 // stays NaN.
-void change_convention(RoughnessConvention from, RoughnessConvention to, std::span<float> widths) noexcept;
+void change_convention(RoughnessEncoding from, RoughnessEncoding to, std::span<float> widths) noexcept;
 
 }  // namespace remap

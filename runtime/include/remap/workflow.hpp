@@ -34,7 +34,7 @@ inline constexpr double kPaperDielectricF0 = 0.03;   // Sztrajman et al. 2019
 struct SpecularWorkflow {
   std::string model = "specular";
   DiffuseConvention diffuse = DiffuseConvention::kPlain;
-  RoughnessConvention width = RoughnessConvention::kRoughness;  // roughness, glossiness or alpha
+  RoughnessEncoding width = RoughnessEncoding::kRoughness;  // roughness, glossiness or alpha
   bool operator==(const SpecularWorkflow&) const = default;
 };
 
@@ -45,7 +45,7 @@ struct MetallicWorkflow {
   std::string model = "metallic";
   double dielectric_f0 = kCommonDielectricF0;  // [0, 0.9]
   DiffuseConvention diffuse = DiffuseConvention::kPlain;
-  RoughnessConvention width = RoughnessConvention::kRoughness;
+  RoughnessEncoding width = RoughnessEncoding::kRoughness;
   bool operator==(const MetallicWorkflow&) const = default;
 };
 
@@ -69,7 +69,7 @@ inline WorkflowKind kind_of(const WorkflowEnd& end) noexcept {
 inline const std::string& model_of(const WorkflowEnd& end) noexcept {
   return std::visit([](const auto& workflow) -> const std::string& { return workflow.model; }, end);
 }
-inline RoughnessConvention width_of(const WorkflowEnd& end) noexcept {
+inline RoughnessEncoding width_of(const WorkflowEnd& end) noexcept {
   return std::visit([](const auto& workflow) { return workflow.width; }, end);
 }
 inline DiffuseConvention diffuse_of(const WorkflowEnd& end) noexcept {
@@ -105,7 +105,7 @@ const ModelAlias* find_alias(std::string_view name);
 
 // A BRDF model of the graph, such as `mitsuba/ward`, as a specular or a metallic workflow with the common
 // conventions.
-WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessConvention width);
+WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessEncoding width);
 
 // Whether maps of the model `name` hold materials of `end` over `brdf`. For example `specular` and
 // mitsuba/ggx are both layers over mitsuba/ggx with plain diffuse. The encoding of the roughness is not
@@ -126,8 +126,8 @@ struct WorkflowStages {
   WorkflowEnd source, target;
   // Between the BRDFs of both ends; null if they are the same.
   const Converter* brdf = nullptr;
-  RoughnessConvention width = RoughnessConvention::kRoughness;  // of both ends if `brdf` is null
-  double prior = kCleanPrior;  // of the projection, if the target is metallic
+  RoughnessEncoding width = RoughnessEncoding::kRoughness;  // of both ends if `brdf` is null
+  double prior = kCleanPrior;                               // of the projection, if the target is metallic
 };
 
 // The stages: equation (2) if the source is metallic, then those of `brdf` for width and specular, then the

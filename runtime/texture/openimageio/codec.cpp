@@ -3,7 +3,7 @@
 
 #include <OpenImageIO/filesystem.h>
 
-#include "assets/image_codec.hpp"
+#include "assets/document/image_codec.hpp"
 #include "core/errors.hpp"
 #include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"

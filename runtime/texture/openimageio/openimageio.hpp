@@ -10,7 +10,7 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include "assets/image_codec.hpp"
+#include "assets/document/image_codec.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {

@@ -241,7 +241,7 @@ void OpenedImage::open_input() {
   input_ = OIIO::ImageInput::create(head_.format, false);
   next_row_ = 0;
   if (input_ && input_->set_ioproxy(&proxy_) && input_->open(path().string(), ignored, hints)) return;
-  if (passes_soon(errno)) throw system_error(ErrorKind::kInput, path().string() + ": cannot be read", errno);
+  if (is_transient(errno)) throw system_error(ErrorKind::kInput, path().string() + ": cannot be read", errno);
   std::string reason = input_ ? input_->geterror() : OIIO::geterror();
   if (reason.empty()) reason = OIIO::geterror();
   fail("cannot be read as an image: " + first_line(reason, "it is damaged"));
@@ -326,7 +326,7 @@ void OpenedImage::read_rows(int first_row, int row_count, std::byte* texels) {
   if (read && message.empty()) return;
   const std::string rows = "rows " + std::to_string(first_row) + " to " +
                            std::to_string(first_row + row_count - 1) + " cannot be read: ";
-  if (passes_soon(errno)) fail(rows + std::strerror(errno), errno);
+  if (is_transient(errno)) fail(rows + std::strerror(errno), errno);
   fail(rows + first_line(message, "unknown reason") + " (the file may be truncated)");
 }
 

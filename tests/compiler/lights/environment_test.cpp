@@ -262,7 +262,7 @@ TEST_CASE("environment: files that do not hold a map are refused") {
                     Catch::Contains("none.exr: cannot be read"));
   CHECK_THROWS_WITH(load_environment(folder.path()), Catch::Contains("not a file"));
   CHECK_THROWS_WITH(load_environment(written({4, 4, 1, std::vector<float>(16, 1.0f)})),
-                    Catch::Contains("size 4x4 is not that of a map in latitude and longitude"));
+                    Catch::Contains("size 4x4 does not fit a map in latitude and longitude"));
   CHECK_THROWS_WITH(load_environment(written({4, 2, 1, std::vector<float>(8, 0.0f)})),
                     Catch::Contains("the map is black"));
   CHECK_THROWS_WITH(

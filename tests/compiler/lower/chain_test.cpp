@@ -79,7 +79,7 @@ TEST_CASE("chain: what cannot be composed is refused with the place") {
   CHECK_THROWS_WITH(compose({a, fit_of("x/b", "x/a", straight(1.0, 0.0, 1.0))}),
                     Catch::Contains("x/a a second time") && Catch::Contains("x_b_to_x_a"));
   Fit rough = b;
-  rough.source.roughness = RoughnessConvention::kRoughness;
+  rough.source.roughness = RoughnessEncoding::kRoughness;
   CHECK_THROWS_WITH(compose({a, rough}),
                     Catch::Contains("(alpha, specular)") && Catch::Contains("(roughness,"));
   const Fit far = fit_of("x/b", "x/c", straight(1.0, 0.0, 1.0), {{0.8, 1.0}, {0.0, 1.0}});

@@ -16,8 +16,8 @@ namespace {
 Fit sample_fit() {
   Fit fit;
   fit.id = "a_b_to_c_d";
-  fit.source = {"a/b", RoughnessConvention::kAlpha, "specular"};
-  fit.target = {"c/d", RoughnessConvention::kExponent, "f0"};
+  fit.source = {"a/b", RoughnessEncoding::kAlpha, "specular"};
+  fit.target = {"c/d", RoughnessEncoding::kExponent, "f0"};
   fit.domain = {{1.0 / 3.0 * 0.1, 0.99}, {0.0, 0.7}};
   fit.mapping =
       Parametric{{{1.0 / 3.0, -0.1, 1e-17, 0.25}, {0.5}},

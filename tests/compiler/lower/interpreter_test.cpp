@@ -139,8 +139,8 @@ TEST_CASE("interpreter: NaN and infinity anywhere spoil the whole texel") {
 
 TEST_CASE("interpreter: own parameters go through alpha on both sides") {
   Fit fit = ward_to_as();
-  fit.source.roughness = RoughnessConvention::kGlossiness;
-  fit.target.roughness = RoughnessConvention::kExponent;
+  fit.source.roughness = RoughnessEncoding::kGlossiness;
+  fit.target.roughness = RoughnessEncoding::kExponent;
   std::array<double, 1> out{};
   bool in_domain = false;
   const double exponent = evaluate_texel(fit, 0.4, std::array{0.2}, out, &in_domain);
@@ -151,13 +151,13 @@ TEST_CASE("interpreter: own parameters go through alpha on both sides") {
 
 TEST_CASE("convention: every one is its own inverse on (0, 1]") {
   for (const std::string& name : convention_names()) {
-    const RoughnessConvention convention = *convention_from_name(name);
+    const RoughnessEncoding convention = *encoding_from_name(name);
     for (double alpha = 0.001; alpha <= 1.0; alpha += 0.037)
       CHECK(to_alpha(convention, from_alpha(convention, alpha)) == Approx(alpha).epsilon(1e-12));
   }
-  CHECK(from_alpha(RoughnessConvention::kRoughness, 0.25) == 0.5);
-  CHECK(from_alpha(RoughnessConvention::kExponent, 0.5) == 6.0);
-  CHECK(from_alpha(RoughnessConvention::kGlossiness, 0.25) == 0.5);
-  CHECK(from_alpha(RoughnessConvention::kSquared, 0.5) == 0.25);
-  CHECK_FALSE(convention_from_name("shininess").has_value());
+  CHECK(from_alpha(RoughnessEncoding::kRoughness, 0.25) == 0.5);
+  CHECK(from_alpha(RoughnessEncoding::kExponent, 0.5) == 6.0);
+  CHECK(from_alpha(RoughnessEncoding::kGlossiness, 0.25) == 0.5);
+  CHECK(from_alpha(RoughnessEncoding::kSquared, 0.5) == 0.25);
+  CHECK_FALSE(encoding_from_name("shininess").has_value());
 }

@@ -26,7 +26,7 @@ constexpr Domain kWhole{{0.01, 1.0}, {0.0, 1.0}}, kLit{{0.2, 1.0}, {0.2, 1.0}};
 
 Fit fit_of(const MappingKind& mapping, const Domain& domain) {
   Fit fit = example_fit();
-  fit.target.roughness = RoughnessConvention::kAlpha;
+  fit.target.roughness = RoughnessEncoding::kAlpha;
   fit.mapping = mapping;
   fit.domain = domain;
   fit.limits.alpha = INFINITY;

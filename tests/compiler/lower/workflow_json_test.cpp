@@ -11,8 +11,8 @@ namespace {
 
 WorkflowFit example(const WorkflowFormula& formula) {
   WorkflowFit fit{"a_to_b", {}, {}, {"A remark."}, "0.1"};
-  fit.conversion.specular = {"a", DiffuseConvention::kScaled, RoughnessConvention::kGlossiness};
-  fit.conversion.metallic = {"b", 0.05, DiffuseConvention::kScaled, RoughnessConvention::kAlpha};
+  fit.conversion.specular = {"a", DiffuseConvention::kScaled, RoughnessEncoding::kGlossiness};
+  fit.conversion.metallic = {"b", 0.05, DiffuseConvention::kScaled, RoughnessEncoding::kAlpha};
   fit.conversion.formula = formula;
   return fit;
 }

@@ -110,11 +110,11 @@ TEST_CASE("roles: another parameter with another convention can be the roughness
   const ModelDescription metal = metallic();
   ParameterRoles roles;
   roles.roughness = "metallic";
-  roles.convention = RoughnessConvention::kGlossiness;
+  roles.convention = RoughnessEncoding::kGlossiness;
   roles.fixed = {{"roughness", 0.5}};
   const ModelDescription cast = recast(metal, roles);
   CHECK(cast.parameter(ParameterRole::kRoughness).name == "metallic");
-  CHECK(cast.roughness == RoughnessConvention::kGlossiness);
+  CHECK(cast.roughness == RoughnessEncoding::kGlossiness);
   CHECK(cast.alpha == Range{0.0, 1.0});
   CHECK(fixed_text(cast) == "roughness=0.5,specular=0.5");
   CHECK(fixed_text(recast(metal, {})) == fixed_text(metal));

@@ -231,10 +231,10 @@ TEST_CASE("rows: any count gives the bits of single texels, in place too, and co
 }
 
 TEST_CASE("widths: every pair of parameters leads through alpha") {
-  for (const RoughnessConvention from :
-       {RoughnessConvention::kAlpha, RoughnessConvention::kRoughness, RoughnessConvention::kGlossiness})
-    for (const RoughnessConvention to :
-         {RoughnessConvention::kAlpha, RoughnessConvention::kRoughness, RoughnessConvention::kGlossiness}) {
+  for (const RoughnessEncoding from :
+       {RoughnessEncoding::kAlpha, RoughnessEncoding::kRoughness, RoughnessEncoding::kGlossiness})
+    for (const RoughnessEncoding to :
+         {RoughnessEncoding::kAlpha, RoughnessEncoding::kRoughness, RoughnessEncoding::kGlossiness}) {
       WorkflowConversion conversion = plain(kClean);
       conversion.specular.width = from;
       conversion.metallic.width = to;
@@ -252,7 +252,7 @@ TEST_CASE("conversions that make no sense are refused") {
   refuses(plain(Projection{-1.0}), "prior -1 is out of range");
   refuses(plain(KhronosSolver{}), "scaled diffuse on both sides");
   WorkflowConversion exponent = plain(kClean);
-  exponent.specular.width = RoughnessConvention::kExponent;
+  exponent.specular.width = RoughnessEncoding::kExponent;
   refuses(exponent, "choose roughness, glossiness or alpha");
   CHECK_THROWS_WITH(to_specular(plain(kClean), {}), Catch::Contains("not the other way"));
   CHECK_THROWS_WITH(convert_workflow(plain(kClean), 0, {}, {}), Catch::Contains("(give 7)"));

@@ -45,14 +45,14 @@ class BothRenderers final : public DisguisedRenderer {
  private:
   ModelDescription disguise() const override {
     return {"disguised/metal",
-            RoughnessConvention::kGlossiness,
+            RoughnessEncoding::kGlossiness,
             {1e-3, 1.0},
             {{"gloss", ParameterRole::kRoughness, {0.0, 1.0}},
              {"shine", ParameterRole::kSpecular, {0.0, 4.0}},
              {"paint", ParameterRole::kDiffuse, {0.0, 1.0}}}};
   }
   Image render_disguise(const Material& material, const Scene& scene) const override {
-    const double alpha = to_alpha(RoughnessConvention::kGlossiness, material.parameters.at("gloss")[0]);
+    const double alpha = to_alpha(RoughnessEncoding::kGlossiness, material.parameters.at("gloss")[0]);
     const double shine = material.parameters.at("shine")[0], paint = material.parameters.at("paint")[0];
     Image image = builtin().render(
         {"mitsuba/ward", {{"alpha", {alpha * 0.8}}, {"specular", {shine / 4.0}}, {"diffuse", {paint}}}},
@@ -137,7 +137,7 @@ class BlendRenderer final : public DisguisedRenderer {
  private:
   ModelDescription disguise() const override {
     return {"disguised/blend",
-            RoughnessConvention::kAlpha,
+            RoughnessEncoding::kAlpha,
             {0.05, 0.8},
             {{"alpha", ParameterRole::kRoughness, {0.05, 0.8}},
              {"level", ParameterRole::kSpecular, speculars_, 0.0, true}}};

@@ -130,7 +130,7 @@ TEST_CASE("preview: an index is shown as the F0 of the fit, and light of another
 
 TEST_CASE("preview: a fit of a model with fixed parameters is shown with them") {
   Fit fit = scaled_fit("mitsuba/ggx-metallic", "mitsuba/ggx", 1.0);
-  fit.source.roughness = RoughnessConvention::kRoughness;
+  fit.source.roughness = RoughnessEncoding::kRoughness;
   fit.source.specular = "base_color";
   fit.table.comments = {{"source_specular", "base_color"}, {"source_fixed", "metallic=1,specular=0.5"}};
   for (const PreviewFigure& figure : preview_of(fit).figures)

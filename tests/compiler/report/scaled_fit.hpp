@@ -11,8 +11,8 @@ namespace remap {
 inline Fit scaled_fit(const std::string& source, const std::string& target, double scale) {
   Fit fit;
   fit.id = "test";
-  fit.source = {source, RoughnessConvention::kAlpha, "f0"};
-  fit.target = {target, RoughnessConvention::kAlpha, "f0"};
+  fit.source = {source, RoughnessEncoding::kAlpha, "f0"};
+  fit.target = {target, RoughnessEncoding::kAlpha, "f0"};
   fit.domain = {{0.05, 1.0}, {0.0, 1.0}};
   fit.mapping = Parametric{{{scale, 0.0, 0.0, 0.0}}, {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
   return fit;

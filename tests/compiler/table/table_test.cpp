@@ -39,7 +39,7 @@ TEST_CASE("table: what is written is read back number for number") {
   CHECK(back.rows[1].status == RowStatus::kClamped);
   CHECK(back.rows[3].line == 10);
   CHECK(back.source.model == "mitsuba/ward");
-  CHECK(back.target.roughness == RoughnessConvention::kExponent);
+  CHECK(back.target.roughness == RoughnessEncoding::kExponent);
 }
 
 TEST_CASE("table: diffuse is written where rows have it, and read back") {

@@ -90,7 +90,7 @@ TEST_CASE("picture cache: a damaged picture is rendered again, and said once") {
     CHECK(session.pictures() == ++rendered);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("worker fake: cache: " + files[0].string() + ": ") &&
-                                Contains("(the picture is rendered anew)"));
+                                Contains("(the picture is rendered again)"));
     CHECK(read_file(files[0]) == whole);  // repaired
   }
 }

@@ -189,7 +189,7 @@ TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the cu
   for (const auto& point : curve) options.samples.push_back({point[0], 0.04 / point[2]});
   const Table table = run_sweep(renderers, options, {});
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const double roughness = from_alpha(RoughnessConvention::kRoughness, table.rows[i].alpha2);
+    const double roughness = from_alpha(RoughnessEncoding::kRoughness, table.rows[i].alpha2);
     CHECK(roughness == Approx(curve[i][1]).margin(2e-3));
     // The search took F0 in proportion, which it is but for the light that Schlick's Fresnel leaves at 0.
     CHECK(table.rows[i].specular2 == Approx(0.04).epsilon(0.02));

@@ -7,9 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/worker/fake_session.hpp"
+#include "core/owner_tag.hpp"
 #include "core/parallel.hpp"
 #include "core/plain_text.hpp"
-#include "core/process_mark.hpp"
 #include "worker/child_process.hpp"
 
 using namespace remap;
@@ -214,7 +214,7 @@ TEST_CASE("worker: pictures go through the folder, which several runs share and 
     const std::vector<Image> found = twelve_pictures(one), expected = twelve_pictures(other);
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i].values == expected[i].values);
     for (const std::string& name : content())
-      CHECK((name.ends_with(".f32") || name.find(process_mark()) < name.size()));
+      CHECK((name.ends_with(".f32") || name.find(owner_tag()) < name.size()));
     CHECK(content().size() == 2 + one.pictures().lost_workers);
   }
   CHECK(content().empty());
@@ -332,7 +332,7 @@ TEST_CASE("worker: every message names the worker, is short, and has no control 
       {"error-number", "expected a text, found 5"},
       {"error-long", std::string(900, 'x')},
       {"error-lines", "line 1 line 2 \\x1b[31m\\u202e"},
-      {"deep", "JSON nested deeper than 100 levels"},
+      {"deep", "nested deeper than 100 levels"},
       {"talkative", "ended with exit code 3; last lines of its log: ..."},
       {"negative", "in row 16, column 16 (values must not be negative)"},
       {"huge", "the picture is 1e+38 in row 16, column 16 (values must not be above 1e18)"}};
@@ -353,7 +353,7 @@ TEST_CASE("worker: every message names the worker, is short, and has no control 
 TEST_CASE("private folder: those of processes that have ended are deleted at once, all others stay") {
   std::filesystem::path parent;
   { parent = PrivateFolder().path().parent_path(); }
-  const std::string tag = process_mark().substr(0, 9);
+  const std::string tag = owner_tag().substr(0, 9);
   const pid_t dead = ::fork();
   if (dead == 0) ::_exit(0);
   int status = 0;
@@ -361,7 +361,7 @@ TEST_CASE("private folder: those of processes that have ended are deleted at onc
   const auto folder_of = [&](const std::string& mark) {
     return parent / ("remap-pictures-" + mark + "-aBc123");
   };
-  const std::filesystem::path left = folder_of(tag + std::to_string(dead)), own = folder_of(process_mark()),
+  const std::filesystem::path left = folder_of(tag + std::to_string(dead)), own = folder_of(owner_tag()),
                               foreign = folder_of("00000000-" + std::to_string(dead));
   for (const auto& folder : {left, own, foreign}) std::filesystem::create_directory(folder);
   std::ofstream(left / "0.f32") << "x";

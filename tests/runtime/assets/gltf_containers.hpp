@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/map_pixels.hpp"
+#include "assets/maps/map_pixels.hpp"
 #include "runtime/assets/gltf_texts.hpp"
 
 namespace remap {

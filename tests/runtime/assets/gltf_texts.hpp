@@ -9,11 +9,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "assets/gltf_asset.hpp"
-#include "assets/gltf_container.hpp"
-#include "assets/gltf_extensions.hpp"
-#include "assets/json_spans.hpp"
+#include "assets/document/gltf_extensions.hpp"
+#include "assets/gltf/gltf_asset.hpp"
+#include "assets/gltf/gltf_container.hpp"
 #include "core/errors.hpp"
+#include "core/json_spans.hpp"
 
 namespace remap {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/mtl_asset.hpp"
+#include "assets/mtl/mtl_asset.hpp"
 #include "runtime/assets/gltf_texts.hpp"
 
 namespace remap {

@@ -52,7 +52,7 @@ MaterialUse use_of(Role role, Channels channels = Channels::kWhole) {
   return {role, 0, channels, "", {}, "", false};
 }
 
-std::vector<std::string> found(const CheckedMaterial& material, const TargetReader* reader = nullptr) {
+std::vector<std::string> found(const CheckedMaterial& material, const GltfConsumer* reader = nullptr) {
   std::vector<std::string> names;
   for (const MaterialFinding& finding : findings_in(material, reader)) names.emplace_back(finding.rule);
   return names;
@@ -103,7 +103,7 @@ TEST_CASE("rules: the curl of slopes tells which way green points") {
   CHECK(normals("a_NormalDX.png", green_up) == Names{"normal-orientation"});
   CHECK(normals("a_Normal.png", green_down) == Names{});  // nothing says which way
   CHECK(found(set_of({{map_of("a_Normal.png", {red, green_up, blue}), {use_of(Role::kNormal)}}}),
-              &target_readers()[2]) == Names{"normal-orientation"});
+              &gltf_consumers()[2]) == Names{"normal-orientation"});
 }
 
 TEST_CASE("rules: greys of metallic count over areas, not at edges") {
@@ -140,7 +140,7 @@ TEST_CASE("check: what assets state, and files that are no assets") {
   const auto rules_of = [&](const std::filesystem::path& path) {
     Names names;
     for (const CheckedMaterial& material : materials_of(path, built_in_naming()).materials)
-      for (const std::string& name : found(material, &target_readers()[3])) names.push_back(name);
+      for (const std::string& name : found(material, &gltf_consumers()[3])) names.push_back(name);
     return names;
   };
   CHECK(rules_of(write("a.gltf", R"({"materials": [{"pbrMetallicRoughness": {"metallicFactor": 0},

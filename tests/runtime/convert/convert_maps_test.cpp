@@ -217,11 +217,11 @@ TEST_CASE("convert_maps: statistics cover all values, for any number of threads"
 
 TEST_CASE("convert_maps: every encoding of roughness gives the same result") {
   const auto converter = make_interpreted_converter(example_fit());
-  const RoughnessConvention own = converter->info().source.roughness,
-                            target = converter->info().target.roughness;
+  const RoughnessEncoding own = converter->info().source.roughness,
+                          target = converter->info().target.roughness;
   for (const std::string& name : convention_names()) {
     INFO(name);
-    const RoughnessConvention encoding = *convention_from_name(name);
+    const RoughnessEncoding encoding = *encoding_from_name(name);
     float width = static_cast<float>(from_alpha(encoding, 0.25)), result = 0.0f;
     MapConversion maps;
     maps.width = maps.height = 1;

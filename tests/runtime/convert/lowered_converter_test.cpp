@@ -30,7 +30,7 @@ const std::vector<Fit>& fits() {
     std::vector<Fit> made;
     for (const std::string& name : convention_names()) {
       Fit fit = example_fit();
-      fit.source.roughness = convention_from_name(name).value();
+      fit.source.roughness = encoding_from_name(name).value();
       made.push_back(lowered_fit(fit));
       fit.target.roughness = fit.source.roughness;
       fit.mapping = curved(name == "alpha" ? 2.0 : 0.5);
@@ -77,7 +77,7 @@ void check_texel(const Fit& fit, const TestTexels& in, const TestTexels& out, st
 
 TEST_CASE("lowered converter: stays within its proven bound of the interpreter, whatever the convention") {
   for (const Fit& fit : fits()) {
-    INFO(kind_name(fit.mapping) << " of " << convention_name(fit.source.roughness));
+    INFO(kind_name(fit.mapping) << " of " << encoding_name(fit.source.roughness));
     const auto converter = make_lowered_converter(fit);
     TestTexels in = odd_and_random_texels(converter->info(), 2000);
     // Beyond 1e30 a channel is left as it is, by converters in floats alone.
@@ -95,7 +95,7 @@ TEST_CASE("lowered converter: stays within its proven bound of the interpreter, 
 
 TEST_CASE("lowered converter: every instruction set computes the same bits") {
   for (const Fit& fit : fits()) {
-    INFO(kind_name(fit.mapping) << " of " << convention_name(fit.source.roughness));
+    INFO(kind_name(fit.mapping) << " of " << encoding_name(fit.source.roughness));
     const auto baseline = make_lowered_converter(fit, InstructionSet::kBaseline);
     const TestTexels texels = odd_and_random_texels(baseline->info(), 1000);
     for (const InstructionSet set : instruction_sets()) {

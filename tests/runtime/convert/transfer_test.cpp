@@ -65,16 +65,16 @@ TEST_CASE("transfer: sRGB is invertible and continuous") {
 
 TEST_CASE("transfer: invalid roughness is clamped") {
   float width = -0.5f;
-  change_convention(RoughnessConvention::kRoughness, RoughnessConvention::kAlpha, {&width, 1});
+  change_convention(RoughnessEncoding::kRoughness, RoughnessEncoding::kAlpha, {&width, 1});
   CHECK(width == 0.0f);
   width = 3.0f;
-  change_convention(RoughnessConvention::kGlossiness, RoughnessConvention::kAlpha, {&width, 1});
+  change_convention(RoughnessEncoding::kGlossiness, RoughnessEncoding::kAlpha, {&width, 1});
   CHECK(width == 0.0f);
   width = NAN;
-  change_convention(RoughnessConvention::kGlossiness, RoughnessConvention::kAlpha, {&width, 1});
+  change_convention(RoughnessEncoding::kGlossiness, RoughnessEncoding::kAlpha, {&width, 1});
   CHECK(std::isnan(width));
   width = 0.0f;
-  change_convention(RoughnessConvention::kAlpha, RoughnessConvention::kExponent, {&width, 1});
+  change_convention(RoughnessEncoding::kAlpha, RoughnessEncoding::kExponent, {&width, 1});
   CHECK(std::isinf(width));
 }
 

@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/process_mark.hpp"
+#include "core/owner_tag.hpp"
 #include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -97,7 +97,7 @@ TEST_CASE("unfinished files: those of processes that were killed are removed, al
   }
   int status = 0;
   REQUIRE(::waitpid(dead, &status, 0) == dead);
-  const std::string tag = process_mark().substr(0, 9);
+  const std::string tag = owner_tag().substr(0, 9);
   const std::string mark = ".left.unfinished-" + tag + std::to_string(dead) + "-";
   const auto is_left = [&] {
     for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
@@ -105,9 +105,9 @@ TEST_CASE("unfinished files: those of processes that were killed are removed, al
     return false;
   };
   REQUIRE(is_left());
-  CHECK(is_mark_of_the_dead(tag + std::to_string(dead)));
+  CHECK(is_stale_owner(tag + std::to_string(dead)));
   const std::vector<std::string> others = {
-      ".a.unfinished-" + process_mark() + "-abc.png",                 // of a process that lives
+      ".a.unfinished-" + owner_tag() + "-abc.png",                    // of a process that lives
       ".a.unfinished-00000000-" + std::to_string(dead) + "-abc.png",  // of another machine
       ".a.unfinished-" + std::to_string(dead) + "-abc.png",           // without a machine
       ".a.unfinished-" + tag + std::to_string(dead) + "x-abc.png",    // not quite the name

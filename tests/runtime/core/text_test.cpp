@@ -100,7 +100,7 @@ TEST_CASE("parse JSON: nested deeper than 100 levels is refused, whatever the de
   CHECK_NOTHROW(parse_json(nested(100), "x.json"));
   for (const std::size_t depth : {101u, 65'700u, 10'000'000u}) {
     CHECK_THROWS_WITH(parse_json(nested(depth), "x.json"),
-                      "x.json: invalid JSON: nested deeper than 100 levels");
+                      "x.json: invalid JSON at line 1, column 101: nested deeper than 100 levels");
     CHECK_THROWS_WITH(parse_json("{\"a\": " + nested(depth) + "}", "x.json"), Catch::Contains("100 levels"));
   }
   CHECK_NOTHROW(parse_json("\"" + std::string(200, '[') + "\\\"" + std::string(200, '{') + "\"", "x.json"));

@@ -157,10 +157,10 @@ TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are not text") {
         "a\\x0ab: 2 roughness maps found: a\\x0ab_Roughness.png (roughness), a\\x0ab_rough.png (roughness); "
         "keep "
         "one, or choose by --prefer WORD");
-  CHECK(shown("tab\there\x1b") == "tab\\x09here\\x1b");
-  CHECK(shown("\xc2\x9b"
-              "1m\xe2\x80\xae\xff") == "\\u009b1m\\u202e\\xff");
-  CHECK(shown(std::string(5000, 'a')).size() == 5000);
+  CHECK(display_path("tab\there\x1b") == "tab\\x09here\\x1b");
+  CHECK(display_path("\xc2\x9b"
+                     "1m\xe2\x80\xae\xff") == "\\u009b1m\\u202e\\xff");
+  CHECK(display_path(std::string(5000, 'a')).size() == 5000);
 }
 
 TEST_CASE("find sets: circular links end, and a folder is found once, by its own name") {

@@ -30,9 +30,9 @@ inline remap::WorkflowConversion plain(remap::WorkflowFormula formula, double f0
 inline remap::WorkflowConversion gltf(remap::WorkflowFormula formula) {
   remap::WorkflowConversion conversion;
   conversion.specular = {"gltf-specgloss", remap::DiffuseConvention::kScaled,
-                         remap::RoughnessConvention::kGlossiness};
+                         remap::RoughnessEncoding::kGlossiness};
   conversion.metallic = {"gltf", 0.04, remap::DiffuseConvention::kScaled,
-                         remap::RoughnessConvention::kRoughness};
+                         remap::RoughnessEncoding::kRoughness};
   conversion.formula = formula;
   return conversion;
 }

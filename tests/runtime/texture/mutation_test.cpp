@@ -59,7 +59,6 @@ void convert(const std::filesystem::path& file, const std::filesystem::path& fol
   TextureSet set = open_texture_set(request);
   TargetChoice choice;
   choice.folder = folder;
-  choice.force = true;
   std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice));
   run_texture_pass(set, targets, converter, {});
 }

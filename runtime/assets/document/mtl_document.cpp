@@ -1,0 +1,123 @@
+#include "assets/document/mtl_document.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/errors.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf";
+
+}  // namespace
+
+std::string in_lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+MtlDocument::MtlDocument(std::string_view text, const std::string& place) : text_(text) {
+  if (text.size() > kLongestMtl)
+    throw input_error(place + ": has " + std::to_string(text.size()) + " bytes; at most " +
+                      std::to_string(kLongestMtl) + " are read");
+  std::size_t at = text.starts_with(kMarkOfUtf8) ? kMarkOfUtf8.size() : 0;
+  while (at < text.size()) {
+    const std::size_t end = end_of_line(at);
+    add_line(at, end);
+    if (statements_.size() > kMostMtlStatements)
+      throw input_error(place + ": has more than " + std::to_string(kMostMtlStatements) + " statements");
+    at = end + ending_length(end);
+  }
+  if (!materials_.empty()) materials_.back().last = statements_.size();
+}
+
+// Of `\n`, `\r\n` or `\r`; 0 elsewhere.
+std::size_t MtlDocument::ending_length(std::size_t at) const {
+  if (at >= text_.size()) return 0;
+  if (text_[at] == '\r') return at + 1 < text_.size() && text_[at + 1] == '\n' ? 2 : 1;
+  return text_[at] == '\n' ? 1 : 0;
+}
+
+// A comment has no second line, since paths of Windows in it may end in a backslash.
+std::size_t MtlDocument::end_of_line(std::size_t begin) const {
+  std::size_t at = begin;
+  while (at < text_.size() && is_space(at)) at += space_length(at);
+  const bool is_comment = at < text_.size() && text_[at] == '#';
+  for (;;) {
+    at = std::min(text_.find_first_of("\r\n", at), text_.size());
+    if (is_comment || at == begin || at >= text_.size() || text_[at - 1] != '\\') return at;
+    at += ending_length(at);
+  }
+}
+
+bool MtlDocument::is_space(std::size_t at) const { return space_length(at) > 0; }
+
+// A backslash before a line ending is white space with it.
+std::size_t MtlDocument::space_length(std::size_t at) const {
+  const char c = text_[at];
+  if (c == ' ' || c == '\t' || c == '\v' || c == '\f') return 1;
+  if (c != '\\') return 0;
+  const std::size_t ending = ending_length(at + 1);
+  return ending == 0 ? 0 : 1 + ending;
+}
+
+void MtlDocument::add_line(std::size_t begin, std::size_t end) {
+  std::size_t at = begin;
+  while (at < end && is_space(at)) at += space_length(at);
+  if (at >= end || text_[at] == '#') return;
+  MtlStatement statement;
+  statement.line = {begin, end};
+  statement.ending = {end, end + ending_length(end)};
+  statement.word.begin = at;
+  while (at < end && !is_space(at)) ++at;
+  statement.word.end = at;
+  while (at < end && is_space(at)) at += space_length(at);
+  statement.arguments = {std::min(at, end), std::min(at, end)};
+  for (; at < end; at += std::max<std::size_t>(space_length(at), 1))
+    if (!is_space(at)) statement.arguments.end = at + 1;
+  if (in_lower_case(raw(statement.word)) == "newmtl") {
+    if (!materials_.empty()) materials_.back().last = statements_.size();
+    materials_.push_back({rest(statement), statements_.size(), 0});
+  }
+  statements_.push_back(statement);
+}
+
+std::string MtlDocument::word(const MtlStatement& statement) const {
+  return in_lower_case(raw(statement.word));
+}
+
+std::vector<TextSpan> MtlDocument::words(const MtlStatement& statement) const {
+  std::vector<TextSpan> spans;
+  const std::size_t end = statement.arguments.end;
+  for (std::size_t at = statement.arguments.begin; at < end;) {
+    const std::size_t begin = at;
+    while (at < end && !is_space(at)) ++at;
+    spans.push_back({begin, at});
+    while (at < end && is_space(at)) at += space_length(at);
+  }
+  return spans;
+}
+
+std::string MtlDocument::rest(const MtlStatement& statement) const {
+  std::string result;
+  for (std::size_t at = statement.arguments.begin; at < statement.arguments.end;) {
+    const std::size_t length = space_length(at);
+    result += length > 1 ? ' ' : text_[at];
+    at += std::max<std::size_t>(length, 1);
+  }
+  return result;
+}
+
+std::string_view MtlDocument::line_ending() const noexcept {
+  std::array<std::size_t, 3> counts{};
+  constexpr std::array<std::string_view, 3> kEndings = {"\n", "\r\n", "\r"};
+  for (const MtlStatement& statement : statements_)
+    for (std::size_t i = 0; i < kEndings.size(); ++i)
+      if (raw(statement.ending) == kEndings[i]) ++counts[i];
+  return kEndings[static_cast<std::size_t>(std::ranges::max_element(counts) - counts.begin())];
+}
+
+}  // namespace remap

@@ -1,0 +1,32 @@
+// Who wrote an MTL file. Some programs give statements of the format another meaning than its text does.
+#pragma once
+
+#include <string>
+
+#include "assets/document/mtl_document.hpp"
+#include "remap/model.hpp"
+
+namespace remap {
+
+enum class MtlMaker {
+  kText,       // statements mean what the text of the format says (Alias|Wavefront 1995)
+  kBlender,    // Blender 3.4 and later: Ns is 1000 (1 - roughness)^2
+  kBlender28,  // Blender 2.8 to 3.3: Ns is 900 (1 - roughness)^2
+  kNvdiffrec,  // `bsdf pbr`: map_Ks holds roughness in green and metallic in blue (Munkberg et al. 2022)
+};
+inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "text"},
+                                                         {MtlMaker::kBlender, "blender"},
+                                                         {MtlMaker::kBlender28, "blender-2.8"},
+                                                         {MtlMaker::kNvdiffrec, "nvdiffrec"}}};
+
+// The maker that the first comments name, or statements that only it writes; else kText. Blender 2.7 wrote
+// exponents of its own Blinn and Phong shaders, which the text of the format describes.
+MtlMaker maker_of(const MtlDocument& document);
+
+// The warning that reports how a file of this maker is read: `Blender wrote it: ...`; empty for kText.
+std::string maker_warning(MtlMaker maker);
+
+// The Ns that Blender writes for roughness 0.
+double blender_scale(MtlMaker maker);
+
+}  // namespace remap

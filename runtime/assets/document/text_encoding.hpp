@@ -1,0 +1,48 @@
+// Encodings of texts: bytes as they are, UTF-8 among them, or UTF-16, as tools of Windows write it. A text is
+// read and edited as UTF-8.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "assets/document/asset.hpp"
+
+namespace remap {
+
+enum class TextEncoding { kBytes, kUtf16Little, kUtf16Big };
+
+// By the byte order mark, or by the zeros of the first letters.
+TextEncoding encoding_of(const ByteSource& source);
+
+// Reads a text in blocks.
+class TextReader {
+ public:
+  // Both must outlive it.
+  TextReader(const ByteSource& source, const std::string& place)
+      : source_(source), place_(place), encoding_(encoding_of(source)) {}
+
+  // The next block, with a byte order mark as UTF-8 has it; empty at the end. Throws kInput, beginning with
+  // `place`, for UTF-16 with half a character.
+  std::string next();
+
+ private:
+  void add_unit(std::uint32_t unit, std::uint64_t begin, std::string& text);
+  [[noreturn]] void refuse(std::uint64_t begin) const;
+
+  const ByteSource& source_;
+  const std::string& place_;
+  TextEncoding encoding_;
+  std::uint64_t at_ = 0;
+  std::uint32_t first_half_ = 0;  // of a character, the surrogate before this place; 0 for none
+};
+
+// The whole text. As TextReader::next().
+std::string utf8_text(const ByteSource& source, const std::string& place);
+
+// A text as it is written: utf8_text() of the bytes is the text again. Throws kInput, beginning with `place`,
+// where UTF-16 is asked of what is not UTF-8.
+std::string encoded(const std::string& text, TextEncoding encoding, const std::string& place);
+
+}  // namespace remap

@@ -1,0 +1,140 @@
+#include "assets/gltf/gltf_asset.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "assets/gltf/gltf_container.hpp"
+#include "assets/gltf/gltf_conversion.hpp"
+#include "core/errors.hpp"
+#include "core/plain_text.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::uint64_t kMostPadding = 3;  // of a binary chunk, after its buffer
+
+// `/images/2/uri`.
+std::string pointer_of(SpanValue value) {
+  const SpanValue parent = value.parent();
+  if (!parent) return "";
+  if (parent.is(SpanKind::kObject)) return pointer_of(parent) + "/" + plain(value.key(), 80);
+  const std::vector<SpanValue> entries = parent.children();
+  return pointer_of(parent) + "/" + std::to_string(std::ranges::find(entries, value) - entries.begin());
+}
+
+bool is_in_extras(SpanValue value) {
+  for (; value; value = value.parent())
+    if (value.has_key("extras")) return true;
+  return false;
+}
+
+// Every `uri` of the file, those of extensions among them. Extras are of other programs.
+std::vector<AssetResource> resources_of(const SpannedJson& json) {
+  std::vector<AssetResource> resources;
+  std::set<std::string> known;
+  bool is_up_known = false;
+  for (std::size_t i = 1; i < json.value_count(); ++i) {
+    const SpanValue value = json.value(i);
+    if (!value.has_key("uri") || !value.is(SpanKind::kText) || value.raw().starts_with("\"data:")) continue;
+    const std::string uri = value.text().value_or("");
+    const UriKind kind = uri_kind(uri);
+    if (kind == UriKind::kData || is_in_extras(value)) continue;
+    const std::string path = kind == UriKind::kRemote ? uri : percent_decoded(uri);
+    if (!known.insert(path).second) continue;
+    const bool is_up = kind == UriKind::kAbsolute || path.find("..") != std::string::npos;
+    const bool is_first = is_up && !std::exchange(is_up_known, true);
+    resources.push_back({is_first ? pointer_of(value) : "", path, kind});
+  }
+  return resources;
+}
+
+// A file that only replaced images named is no longer one of the asset.
+void drop_unnamed(AssetConversion& conversion, const std::string& place) {
+  std::set<std::string> named;
+  for (const AssetResource& resource : resources_of(SpannedJson(conversion.text, place)))
+    named.insert(resource.path);
+  std::erase_if(conversion.resources,
+                [&](const AssetResource& resource) { return !named.contains(resource.path); });
+}
+
+// Views lie within their buffers, and the first buffer of a container within its binary chunk.
+class ViewCheck {
+ public:
+  ViewCheck(const SpannedJson& json, const GltfContainer& container, const std::string& place)
+      : root_(json.root()), container_(container), place_(place) {}
+
+  // Returns warnings.
+  std::vector<std::string> run() {
+    for (const SpanValue& buffer : root_["buffers"].entries()) {
+      const std::optional<std::size_t> length = buffer["byteLength"].whole();
+      if (!length)
+        throw input_error(place_ + ": /buffers/" + std::to_string(lengths_.size()) +
+                          ": its byteLength is not a whole number");
+      lengths_.push_back(*length);
+    }
+    std::vector<std::string> warnings = check_chunk();
+    const std::vector<SpanValue> views = root_["bufferViews"].entries();
+    for (std::size_t i = 0; i < views.size(); ++i) check_view(views[i], i);
+    return warnings;
+  }
+
+ private:
+  std::vector<std::string> check_chunk() const {
+    const GlbChunk* const chunk = container_.binary_chunk();
+    if (chunk == nullptr || lengths_.empty()) return {};
+    const std::vector<SpanValue> buffers = root_["buffers"].entries();
+    if (buffers.front()["uri"]) return {};
+    const std::uint64_t size = chunk->content_size(), length = lengths_.front();
+    if (length > size)
+      throw input_error(place_ + ": /buffers/0 has " + std::to_string(length) +
+                        " bytes, but the binary chunk has " + std::to_string(size));
+    if (size - length <= kMostPadding) return {};
+    return {"its binary chunk is " + std::to_string(size - length) + " bytes longer than its buffer"};
+  }
+
+  void check_view(SpanValue view, std::size_t index) const {
+    const std::string name = place_ + ": /bufferViews/" + std::to_string(index);
+    const std::optional<std::size_t> buffer = view["buffer"].whole(), length = view["byteLength"].whole();
+    const SpanValue offset_value = view["byteOffset"];
+    const std::optional<std::size_t> offset = offset_value ? offset_value.whole() : std::size_t{0};
+    if (!buffer || !length || !offset)
+      throw input_error(name + ": its buffer, byteOffset and byteLength are not whole numbers");
+    if (*buffer >= lengths_.size())
+      throw input_error(name + ": names buffer " + std::to_string(*buffer) + ", of which there are " +
+                        std::to_string(lengths_.size()));
+    if (const std::size_t size = lengths_[*buffer]; *offset + *length > size)
+      throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
+                        std::to_string(*buffer) + ", which has " + std::to_string(size));
+  }
+
+  SpanValue root_;
+  const GltfContainer& container_;
+  const std::string& place_;
+  std::vector<std::size_t> lengths_;  // of the buffers
+};
+
+}  // namespace
+
+std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& place) {
+  const GltfContainer container = read_container(source, place);
+  return resources_of(SpannedJson(container.json, place));
+}
+
+AssetConversion convert_gltf(const ByteSource& source, const std::string& place, const AssetOptions& options,
+                             const AssetResources* resources) {
+  const GltfContainer container = read_container(source, place);
+  const SpannedJson json(container.json, place);
+  std::vector<std::string> warnings = container.notes;
+  for (const std::string& warning : ViewCheck(json, container, place).run()) warnings.push_back(warning);
+  GltfResult result = convert_materials({json, container, source, place}, options, resources);
+  AssetConversion& conversion = result.asset;
+  conversion.warnings.insert(conversion.warnings.begin(), warnings.begin(), warnings.end());
+  conversion.resources = resources_of(json);
+  if (options.compacts && conversion.changed) drop_unnamed(conversion, place);
+  if (conversion.changed) conversion.pieces = with_json(container, conversion.text, result.tail, place);
+  return std::move(conversion);
+}
+
+}  // namespace remap

@@ -1,0 +1,20 @@
+// A whole glTF file: its container, its materials, and the files that it names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assets/document/asset.hpp"
+
+namespace remap {
+
+// The files that an asset names. Throws as convert_gltf().
+std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& place);
+
+// Reads and converts a file of either form. Throws kInput, beginning with `place`, for a container or a text
+// that cannot be read, and for views that lie outside of their buffers; kOutput as with_json(). Without
+// `resources`, materials with textures fail.
+AssetConversion convert_gltf(const ByteSource& source, const std::string& place,
+                             const AssetOptions& options = {}, const AssetResources* resources = nullptr);
+
+}  // namespace remap

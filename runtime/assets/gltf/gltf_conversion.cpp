@@ -1,0 +1,207 @@
+#include "assets/gltf/gltf_conversion.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "assets/document/gltf_extensions.hpp"
+#include "assets/document/text_edits.hpp"
+#include "assets/gltf/gltf_bytes.hpp"
+#include "assets/gltf/gltf_direction.hpp"
+#include "assets/gltf/gltf_images.hpp"
+#include "assets/gltf/gltf_material_writer.hpp"
+#include "assets/gltf/gltf_new_images.hpp"
+#include "assets/gltf/gltf_spares.hpp"
+#include "assets/gltf/material_textures.hpp"
+#include "core/errors.hpp"
+#include "core/plain_text.hpp"
+#include "core/report_text.hpp"
+
+namespace remap {
+namespace {
+
+// The material of a pointer such as /materials/3/extensions/..., and what follows; none for other pointers.
+std::optional<std::pair<std::size_t, std::string>> pointed_material(std::string_view pointer) {
+  constexpr std::string_view kStart = "/materials/";
+  if (!pointer.starts_with(kStart)) return std::nullopt;
+  pointer.remove_prefix(kStart.size());
+  std::size_t index = 0;
+  const auto [end, failure] = std::from_chars(pointer.data(), pointer.data() + pointer.size(), index);
+  if (failure != std::errc()) return std::nullopt;
+  return std::pair(index, std::string(end, static_cast<std::size_t>(pointer.data() + pointer.size() - end)));
+}
+
+// Images of the file, and new ones.
+struct ImageParts {
+  ImageParts(const GltfSource& source, const AssetOptions& options, const AssetResources& resources)
+      : bytes(source.json, source.container, source.bytes, resources),
+        images(source.json, bytes, resources),
+        added(source.json, source.container, resources, source.place),
+        textures(options, resources, images, added) {}
+
+  GltfBytes bytes;
+  GltfImages images;
+  GltfNewImages added;
+  MaterialTextures textures;
+};
+
+class GltfConversion {
+ public:
+  GltfConversion(const GltfSource& source, const AssetOptions& options, const AssetResources* resources)
+      : source_(source), root_(source.json.root()), options_(options) {
+    if (options.folds_specular &&
+        (options.target != AssetTarget::kMetalRough || options.profile != MaterialProfile::kCore))
+      throw usage_error("KHR_materials_specular is only folded into core (--to gltf --profile core)");
+    if (resources != nullptr) parts_ = std::make_unique<ImageParts>(source, options, *resources);
+    const DirectionParts parts{options, parts_ ? &parts_->textures : nullptr};
+    if (options.target == AssetTarget::kSpecGloss)
+      directions_.push_back(make_core_to_specgloss(parts));
+    else
+      directions_.push_back(make_specgloss_to_core(parts));
+    if (options.folds_specular) directions_.push_back(make_specular_fold(parts));
+  }
+
+  GltfResult result() {
+    require_gltf();
+    read_pointers();
+    convert_all();
+    result_.asset.text = source_.json.text();
+    if (!edits_.empty()) write_all();
+    return std::move(result_);
+  }
+
+ private:
+  void require_gltf() {
+    const std::optional<std::string> version = root_["asset"]["version"].text();
+    if (!version) throw input_error(source_.place + ": has no asset.version (it is not a glTF file)");
+    if (!version->starts_with("2."))
+      throw input_error(source_.place + ": is glTF " + plain(*version, 20) + "; version 2 is read");
+    for (const SpanValue& entry : root_["extensionsRequired"].children())
+      if (const std::string name = entry.text().value_or(""); !is_known_extension(name))
+        result_.asset.warnings.push_back(
+            "requires " + plain(name) +
+            ", which is unknown here: it is kept, and its meaning for materials is not");
+  }
+
+  // What animations change in materials.
+  void read_pointers() {
+    for (const SpanValue& animation : root_["animations"].children())
+      for (const SpanValue& channel : animation["channels"].children()) {
+        const SpanValue target = channel["target"]["extensions"][kPointerExtension]["pointer"];
+        if (const auto material = pointed_material(target.text().value_or(""))) pointers_.insert(*material);
+      }
+  }
+
+  GltfDirection* direction_of(SpanValue material) const {
+    const auto found =
+        std::ranges::find_if(directions_, [&](const auto& direction) { return direction->takes(material); });
+    return found == directions_.end() ? nullptr : found->get();
+  }
+
+  void convert_all() {
+    const SpanValue list = root_["materials"];
+    if (list && !list.is(SpanKind::kList)) throw input_error(source_.place + ": materials: expected a list");
+    const std::vector<SpanValue> all = list.children();
+    result_.asset.materials.resize(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      AssetMaterial& report = result_.asset.materials[i];
+      report.index = i;
+      report.name = all[i]["name"].text().value_or("");
+      if (GltfDirection* const direction = direction_of(all[i])) convert(*direction, all[i], report);
+    }
+  }
+
+  void convert(GltfDirection& direction, SpanValue material, AssetMaterial& report) {
+    try {
+      require_not_animated(direction, report.index);
+      edits_.emplace_back(report.index, direction.convert(material, report));
+      report.state = MaterialState::kConverted;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
+      report.state = MaterialState::kFailed;
+      report.failure = plain(error.what(), 500);
+    }
+  }
+
+  void require_not_animated(const GltfDirection& direction, std::size_t index) const {
+    for (auto at = pointers_.lower_bound({index, ""}); at != pointers_.end() && at->first == index; ++at)
+      for (const std::string& member : direction.replaced())
+        if (at->second.starts_with("/" + member))
+          throw input_error("an animation changes it by " + std::string(kPointerExtension) +
+                            ", which would lose its target (remove that channel)");
+  }
+
+  void write_all() {
+    std::vector<MaterialEdit> edits;
+    for (const auto& [index, edit] : edits_) edits.push_back(edit);
+    TextEdits text(source_.json);
+    GltfMaterialWriter writer(source_.json, source_.place, parts_ ? &parts_->added : nullptr, text);
+    std::set<std::size_t> removed;  // values of extensions of textures
+    std::set<std::string> formats;
+    if (parts_) {
+      const GltfSpares spares =
+          options_.compacts ? find_spares(source_.json, source_.container, edits, result_.asset.warnings)
+                            : GltfSpares();
+      parts_->added.write(spares, text);
+      for (const SpanValue& extension : parts_->added.removed_extensions()) {
+        removed.insert(extension.index());
+        formats.insert(extension.key());
+      }
+      result_.tail = parts_->added.tail();
+      result_.asset.files = std::move(parts_->added.files());
+    }
+    note_colored();
+    for (const auto& [index, edit] : edits_) writer.write(edit, result_.asset.materials[index]);
+    writer.update_lists(formats, removed);
+    result_.asset.changed = !text.empty();
+    result_.asset.touched = text.touched();
+    result_.asset.text = text.result();
+  }
+
+  // COLOR_0 multiplies a color of one workflow, and another color of the other.
+  void note_colored() {
+    std::vector<std::size_t> counts(result_.asset.materials.size());
+    for (const SpanValue& mesh : root_["meshes"].children())
+      for (const SpanValue& primitive : mesh["primitives"].children())
+        if (primitive["attributes"]["COLOR_0"]) count_uses(primitive, counts);
+    for (const auto& [index, edit] : edits_)
+      if (counts[index] > 0 && !edit.colored.empty())
+        result_.asset.materials[index].warnings.push_back(
+            "vertex colors of " + counted(counts[index], "primitive") + " " + edit.colored);
+  }
+
+  static void count_uses(SpanValue primitive, std::vector<std::size_t>& counts) {
+    std::set<std::size_t> used;
+    const auto use = [&](SpanValue material) {
+      const std::optional<std::size_t> index = material.whole();
+      if (index && *index < counts.size()) used.insert(*index);
+    };
+    use(primitive["material"]);
+    for (const SpanValue& mapping : primitive["extensions"]["KHR_materials_variants"]["mappings"].children())
+      use(mapping["material"]);
+    for (const std::size_t index : used) ++counts[index];
+  }
+
+  const GltfSource& source_;
+  SpanValue root_;
+  const AssetOptions& options_;
+  std::unique_ptr<ImageParts> parts_;
+  std::vector<std::unique_ptr<GltfDirection>> directions_;  // the first that takes a material converts it
+  std::set<std::pair<std::size_t, std::string>> pointers_;  // by material
+  std::vector<std::pair<std::size_t, MaterialEdit>> edits_;
+  GltfResult result_;
+};
+
+}  // namespace
+
+GltfResult convert_materials(const GltfSource& source, const AssetOptions& options,
+                             const AssetResources* resources) {
+  return GltfConversion(source, options, resources).result();
+}
+
+}  // namespace remap

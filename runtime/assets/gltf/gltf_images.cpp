@@ -1,0 +1,116 @@
+#include "assets/gltf/gltf_images.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "assets/document/gltf_extensions.hpp"
+#include "core/errors.hpp"
+
+namespace remap {
+namespace {
+
+// Images that stay decoded: materials that follow each other often share a pair.
+constexpr std::size_t kRecentImages = 2;
+
+// The extensions of textures that name an image of another format, the most common first.
+constexpr std::array<std::string_view, 4> kTextureExtensions = {"EXT_texture_webp", "EXT_texture_avif",
+                                                                "KHR_texture_basisu", "MSFT_texture_dds"};
+
+std::string image_name(std::size_t index) { return "image " + std::to_string(index); }
+
+[[noreturn]] void refuse_transform(const char* name) {
+  throw input_error(std::string(kTransformExtension) + "." + name + ": cannot be read");
+}
+
+void read_transform_pair(SpanValue transform, const char* name, double (&pair)[2]) {
+  const SpanValue value = transform[name];
+  if (!value) return;
+  const std::vector<SpanValue> entries = value.entries();
+  if (entries.size() != 2) refuse_transform(name);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::optional<double> number = entries[i].number();
+    if (!number) refuse_transform(name);
+    pair[i] = *number;
+  }
+}
+
+TextureTransform transform_of(SpanValue value) {
+  TextureTransform transform;
+  read_transform_pair(value, "offset", transform.offset);
+  read_transform_pair(value, "scale", transform.scale);
+  if (const SpanValue rotation = value["rotation"]) {
+    if (!rotation.number()) refuse_transform("rotation");
+    transform.rotation = *rotation.number();
+  }
+  return transform;
+}
+
+}  // namespace
+
+std::vector<std::size_t> images_of_texture(SpanValue texture) {
+  std::vector<std::size_t> found;
+  for (const std::string_view extension : kTextureExtensions)
+    if (const auto image = texture["extensions"][extension]["source"].whole()) found.push_back(*image);
+  if (const auto image = texture["source"].whole()) found.push_back(*image);
+  return found;
+}
+
+GltfImages::GltfImages(const SpannedJson& json, const GltfBytes& bytes, const AssetResources& resources)
+    : bytes_(bytes),
+      resources_(resources),
+      textures_(json.root()["textures"].entries()),
+      samplers_(json.root()["samplers"].entries()) {}
+
+TextureInfo GltfImages::info_of(SpanValue texture_info) const {
+  TextureInfo info;
+  info.value = texture_info;
+  const std::optional<std::size_t> index = texture_info["index"].whole();
+  if (!index) throw input_error("a texture without an index");
+  info.texture = *index;
+  (void)gltf_entry(textures_, info.texture, "texture");
+  info.tex_coord = texture_info["texCoord"].whole().value_or(0);
+  const SpanValue transform = texture_info["extensions"][kTransformExtension];
+  if (const auto own = transform["texCoord"].whole()) info.tex_coord = *own;
+  info.transform = transform_of(transform);
+  return info;
+}
+
+AssetImage GltfImages::load(const TextureInfo& info) {
+  const std::vector<std::size_t> candidates = images_of_texture(textures_[info.texture]);
+  if (candidates.empty())
+    throw input_error("texture " + std::to_string(info.texture) + " has no image that is known here");
+  std::string reason;
+  for (const std::size_t image : candidates) {
+    if (const auto known = std::ranges::find(recent_, image, &AssetImage::image); known != recent_.end()) {
+      AssetImage found = *known;
+      found.texture = info.texture;
+      return found;
+    }
+    try {
+      const std::string bytes = bytes_.of_image(image);
+      recent_.push_front(
+          {info.texture, image,
+           std::make_shared<const ImagePixels>(resources_.codec().decode(bytes, image_name(image))),
+           bytes.starts_with("\xff\xd8")});
+      if (recent_.size() > kRecentImages) recent_.pop_back();
+      return recent_.front();
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
+      reason += (reason.empty() ? "" : "; ") + std::string(error.what());
+    }
+  }
+  throw input_error(reason);
+}
+
+bool GltfImages::wraps_alike(std::size_t texture, std::size_t other) const {
+  constexpr std::size_t kRepeat = 10497;
+  const auto wraps = [&](std::size_t index) {
+    const std::optional<std::size_t> own = textures_[index]["sampler"].whole();
+    const SpanValue sampler = own && *own < samplers_.size() ? samplers_[*own] : SpanValue();
+    return std::pair(sampler["wrapS"].whole().value_or(kRepeat), sampler["wrapT"].whole().value_or(kRepeat));
+  };
+  return wraps(texture) == wraps(other);
+}
+
+}  // namespace remap

@@ -1,0 +1,231 @@
+#include "assets/gltf/gltf_new_images.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include "assets/document/asset_uri.hpp"
+#include "assets/document/gltf_extensions.hpp"
+#include "assets/gltf/gltf_images.hpp"
+#include "core/base64.hpp"
+#include "core/errors.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::size_t kNoSampler = std::numeric_limits<std::size_t>::max();
+constexpr std::string_view kPng = "image/png", kJpeg = "image/jpeg";
+
+// Takes `wanted` out of `spares`, else the first.
+std::optional<std::size_t> take_spare(std::vector<std::size_t>& spares, std::optional<std::size_t> wanted) {
+  if (spares.empty()) return std::nullopt;
+  auto found = wanted ? std::ranges::find(spares, *wanted) : spares.end();
+  if (found == spares.end()) found = spares.begin();
+  const std::size_t taken = *found;
+  spares.erase(found);
+  return taken;
+}
+
+}  // namespace
+
+GltfNewImages::GltfNewImages(const SpannedJson& json, const GltfContainer& container,
+                             const AssetResources& resources, const std::string& place)
+    : root_(json.root()),
+      container_(container),
+      resources_(resources),
+      place_(place),
+      textures_(root_["textures"].entries()),
+      images_(root_["images"].entries()),
+      views_(root_["bufferViews"].entries()),
+      buffers_(root_["buffers"].entries()),
+      image_count_(images_.size()),
+      texture_count_(textures_.size()),
+      view_count_(views_.size()),
+      names_(resources.image_prefix()) {
+  for (const std::vector<SpanValue>* list : {&images_, &buffers_})
+    for (const SpanValue& value : *list)
+      if (const auto uri = value["uri"].text(); uri && uri_kind(*uri) == UriKind::kFile)
+        names_.take(percent_decoded(*uri));
+}
+
+std::size_t GltfNewImages::add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
+                                     const ImageCoding& coding) {
+  const ImageCodec& codec = resources_.codec();
+  const std::optional<int> quality = coding.jpeg_quality;
+  std::string bytes =
+      quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.png_level);
+  // Materials that differ in color alone often have the same metallic and roughness.
+  const auto same = std::ranges::find(new_images_, bytes, &NewImage::bytes);
+  if (same != new_images_.end()) return static_cast<std::size_t>(same - new_images_.begin());
+  new_images_.push_back({std::move(bytes), quality ? kJpeg : kPng, model, std::string(suffix)});
+  return new_images_.size() - 1;
+}
+
+std::size_t GltfNewImages::add_texture(std::size_t image, std::size_t model) {
+  const std::size_t sampler = textures_[model]["sampler"].whole().value_or(kNoSampler);
+  const auto [known, is_new] = known_textures_.try_emplace({image, sampler}, new_textures_.size());
+  if (is_new) new_textures_.push_back({image, model});
+  return known->second;
+}
+
+void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
+  spares_ = spares;
+  dead_images_.insert(spares.images.begin(), spares.images.end());
+  tail_.kept = spares.chunk_end;
+  if (const GlbChunk* const chunk = container_.binary_chunk())
+    chunk_start_ = (tail_.kept.value_or(chunk->content_size()) + 3) / 4 * 4;
+  for (std::size_t i = 0; i < new_images_.size(); ++i) {
+    write_image(new_images_[i], i, edits);
+    new_images_[i].bytes = std::string();  // they are written, and may be many
+  }
+  for (NewTexture& texture : new_textures_) write_texture(texture, edits);
+  empty_spares(edits);
+  if (tail_.appended.empty() && !tail_.kept) return;
+  // A buffer has a byte at least.
+  if (tail_.appended.empty() && *tail_.kept == 0) tail_.kept = 1;
+  const std::uint64_t length = tail_.appended.empty() ? *tail_.kept : chunk_start_ + tail_.appended.size();
+  if (length > std::numeric_limits<std::uint32_t>::max())
+    throw output_error(place_ + ": would have a binary chunk of " + std::to_string(length) +
+                       " bytes; a .glb holds less than 4 GiB (convert it as .gltf with a .bin)");
+  edits.replace(buffers_.front()["byteLength"], std::to_string(length));
+}
+
+bool GltfNewImages::is_in_chunk(SpanValue image) const {
+  const std::optional<std::size_t> view = image["bufferView"].whole();
+  return view && *view < views_.size() && views_[*view]["buffer"].whole() == std::size_t{0} &&
+         !buffers_.empty() && !buffers_.front()["uri"] && container_.binary_chunk() != nullptr;
+}
+
+// `a/wood_baseColor.png` of `a/wood.jpg`, with a number where that is taken.
+std::string GltfNewImages::free_uri(const std::string& model, const NewImage& image) {
+  const std::string prefix = resources_.image_prefix();
+  std::string stem = stem_beside(model, percent_encoded(prefix), image.suffix);
+  // Line breaks may be encoded. A URI without any keeps its spelling.
+  if (const std::string path = stem_beside(percent_decoded(model), prefix, image.suffix);
+      path != percent_decoded(stem))
+    stem = uri_of_path(path);
+  return stem + names_.free_ending(percent_decoded(stem), image.type == kJpeg ? ".jpg" : ".png");
+}
+
+// `own`: the image whose place it takes; none for a new place.
+std::size_t GltfNewImages::add_view(const std::string& bytes, SpanValue own, TextEdits& edits) {
+  std::string& appended = tail_.appended;
+  appended.append((4 - appended.size() % 4) % 4, '\0');
+  const std::string start = std::to_string(chunk_start_ + appended.size()),
+                    length = std::to_string(bytes.size());
+  appended += bytes;
+  if (const auto spare = take_spare(spares_.views, own["bufferView"].whole())) {
+    edits.set_member(views_[*spare], "byteOffset", start);
+    edits.set_member(views_[*spare], "byteLength", length);
+    return *spare;
+  }
+  edits.append_entry(root_["bufferViews"],
+                     "{\"buffer\":0,\"byteOffset\":" + start + ",\"byteLength\":" + length + "}");
+  return view_count_++;
+}
+
+GltfNewImages::Location GltfNewImages::location_of(const NewImage& image, SpanValue own, TextEdits& edits) {
+  const SpanValue model = images_[image.model];
+  const std::string type = quoted_json(image.type);
+  if (is_in_chunk(model))
+    return {{"bufferView", std::to_string(add_view(image.bytes, own, edits))}, {"mimeType", type}};
+  const std::optional<std::string> uri = model["uri"].text();
+  if (!uri || uri_kind(*uri) != UriKind::kFile)
+    return {{"uri", "\"data:" + std::string(image.type) + ";base64," + base64(image.bytes) + "\""}};
+  const std::string file = free_uri(*uri, image);
+  files_.push_back({percent_decoded(file), image.bytes});
+  return {{"uri", quoted_json(file)}, {"mimeType", type}};
+}
+
+void GltfNewImages::set_location(SpanValue image, const Location& location, TextEdits& edits) {
+  for (const std::string_view name : {"uri", "bufferView", "mimeType"}) {
+    const auto own = std::ranges::find(location, name, &Location::value_type::first);
+    if (own != location.end())
+      edits.set_member(image, name, own->second);
+    else
+      edits.remove_members(image, name);
+  }
+}
+
+void GltfNewImages::write_image(const NewImage& image, std::size_t number, TextEdits& edits) {
+  const std::optional<std::size_t> spare = take_spare(spares_.images, image.model);
+  const SpanValue own = spare ? images_[*spare] : SpanValue();
+  locations_.push_back(location_of(image, own, edits));
+  image_places_.push_back(spare ? *spare : image_count_++);
+  std::string name;
+  if (const auto text = images_[image.model]["name"].text()) name = quoted_json(*text + image.suffix);
+  if (spare) {
+    set_location(own, locations_[number], edits);
+    if (!name.empty()) edits.set_member(own, "name", name);
+    return;
+  }
+  std::string text;
+  for (const auto& [key, value] : locations_[number])
+    text += (text.empty() ? "{" : ",") + quoted_json(key) + ":" + value;
+  if (!name.empty()) text += ",\"name\":" + name;
+  edits.append_entry(root_["images"], text + "}");
+}
+
+void GltfNewImages::write_texture(NewTexture& texture, TextEdits& edits) {
+  const std::optional<std::size_t> sampler = textures_[texture.model]["sampler"].whole(),
+                                   spare = take_spare(spares_.textures, texture.model);
+  const std::string source = std::to_string(image_place(texture.image));
+  texture.place = spare ? *spare : texture_count_;
+  if (!spare) {
+    ++texture_count_;
+    const std::string samples = sampler ? ",\"sampler\":" + std::to_string(*sampler) : "";
+    return edits.append_entry(root_["textures"], "{\"source\":" + source + samples + "}");
+  }
+  const SpanValue own = textures_[*spare];
+  edits.set_member(own, "source", source);
+  if (!sampler)
+    edits.remove_members(own, "sampler");
+  else if (own["sampler"].whole() != sampler)
+    edits.set_member(own, "sampler", std::to_string(*sampler));
+  drop_formats(own, edits);
+}
+
+// A texture of a PNG or JPEG file needs no extension.
+void GltfNewImages::drop_formats(SpanValue texture, TextEdits& edits) {
+  const SpanValue extensions = texture["extensions"];
+  std::vector<SpanValue> gone = extensions.children();
+  std::erase_if(gone, [](const SpanValue& member) { return !is_of_image_format(member.key()); });
+  removed_extensions_.insert(removed_extensions_.end(), gone.begin(), gone.end());
+  if (!gone.empty() && gone.size() == extensions.size()) return edits.remove_members(texture, "extensions");
+  for (const SpanValue& member : gone) edits.remove(member);
+}
+
+// An image that takes no bytes of its own, if there is one; else one texel.
+GltfNewImages::Location GltfNewImages::cheapest_location() const {
+  const auto is_short = [](const Location& location) { return location.back().first == "mimeType"; };
+  if (const auto found = std::ranges::find_if(locations_, is_short); found != locations_.end()) return *found;
+  const ImagePixels texel{1, 1, 1, PixelType::kUint8, std::vector<std::byte>(1)};
+  return {{"uri",
+           "\"data:image/png;base64," + base64(resources_.codec().encode_png(texel, kUsualPngLevel)) + "\""}};
+}
+
+// Spare places that no new image took: an image must have bytes and a view must have one, so they share
+// those of others.
+void GltfNewImages::empty_spares(TextEdits& edits) {
+  for (const std::size_t image : spares_.images) set_location(images_[image], cheapest_location(), edits);
+  for (const std::size_t view : spares_.views) {
+    edits.set_member(views_[view], "byteOffset", "0");
+    edits.set_member(views_[view], "byteLength", "1");
+  }
+  for (const std::size_t texture : spares_.textures) {
+    const std::vector<std::size_t> images = images_of_texture(textures_[texture]);
+    if (images.empty() || !dead_images_.contains(images.front())) continue;
+    edits.set_member(textures_[texture], "source", std::to_string(images.front()));
+    drop_formats(textures_[texture], edits);
+  }
+}
+
+std::string GltfNewImages::info_text(const TextureText& texture) const {
+  const SpanValue index = texture.info["index"];
+  std::string text(texture.info.raw());
+  const std::size_t begin = texture.info.span().begin;
+  return text.replace(index.span().begin - begin, index.span().end - index.span().begin,
+                      std::to_string(new_textures_[*texture.added].place));
+}
+
+}  // namespace remap

@@ -1,0 +1,100 @@
+// New images and textures of a glTF file. Each is as its model: in the binary chunk, in a URI, in a file.
+// They follow the last ones, or take places that became spare. No index changes and no byte moves.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "assets/document/asset_uri.hpp"
+#include "assets/document/image_codec.hpp"
+#include "assets/document/text_edits.hpp"
+#include "assets/gltf/gltf_container.hpp"
+#include "assets/gltf/gltf_direction.hpp"
+#include "assets/gltf/gltf_spares.hpp"
+#include "core/json_spans.hpp"
+
+namespace remap {
+
+struct ImageCoding {
+  std::optional<int> jpeg_quality = std::nullopt;  // none for PNG
+  int png_level = kUsualPngLevel;
+};
+
+class GltfNewImages {
+ public:
+  // All must outlive it.
+  GltfNewImages(const SpannedJson& json, const GltfContainer& container, const AssetResources& resources,
+                const std::string& place);
+
+  // Adds an image beside its model, an image of the file. `suffix` goes to names: `_baseColor`.
+  // Returns its number among the new ones, of one that was added before where their bytes are equal.
+  std::size_t add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
+                        const ImageCoding& coding);
+  // A texture of that new image with the sampler of its model, a texture of the file. Returns its number, of
+  // one that was added before where they agree.
+  std::size_t add_texture(std::size_t image, std::size_t model);
+
+  // Writes them all, once: until then nobody knows which places are spare.
+  void write(const GltfSpares& spares, TextEdits& edits);
+  // The texture info of a new texture. After write().
+  std::string info_text(const TextureText& texture) const;
+  // What becomes of the binary chunk. After write().
+  const BinaryTail& tail() const noexcept { return tail_; }
+  std::vector<NewResource>& files() noexcept { return files_; }
+  // Values of extensions of textures that write() removed.
+  const std::vector<SpanValue>& removed_extensions() const noexcept { return removed_extensions_; }
+
+ private:
+  struct NewImage {
+    std::string bytes;
+    std::string_view type;  // image/png
+    std::size_t model = 0;
+    std::string suffix;
+  };
+  struct NewTexture {
+    std::size_t image = 0, model = 0;
+    std::size_t place = 0;  // after write()
+  };
+  // Members of an image that say where it is, and names its type.
+  using Location = std::vector<std::pair<std::string_view, std::string>>;
+
+  bool is_in_chunk(SpanValue image) const;
+  std::string free_uri(const std::string& model, const NewImage& image);
+  Location location_of(const NewImage& image, SpanValue own, TextEdits& edits);
+  std::size_t add_view(const std::string& bytes, SpanValue own, TextEdits& edits);
+  void write_image(const NewImage& image, std::size_t number, TextEdits& edits);
+  void write_texture(NewTexture& texture, TextEdits& edits);
+  void drop_formats(SpanValue texture, TextEdits& edits);
+  void empty_spares(TextEdits& edits);
+  void set_location(SpanValue image, const Location& location, TextEdits& edits);
+  Location cheapest_location() const;
+  std::size_t image_place(std::size_t number) const { return image_places_[number]; }
+
+  SpanValue root_;
+  const GltfContainer& container_;
+  const AssetResources& resources_;
+  const std::string& place_;
+  std::vector<SpanValue> textures_, images_, views_, buffers_;
+  std::vector<NewImage> new_images_;
+  std::vector<NewTexture> new_textures_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // by image and sampler
+  GltfSpares spares_;                                                          // that are not taken yet
+  std::set<std::size_t> dead_images_;                                          // spare ones, taken or not
+  std::vector<std::size_t> image_places_;
+  std::vector<Location> locations_;
+  std::size_t image_count_ = 0, texture_count_ = 0, view_count_ = 0;
+  std::uint64_t chunk_start_ = 0;  // of what is appended
+  BinaryTail tail_;
+  std::vector<NewResource> files_;
+  std::vector<SpanValue> removed_extensions_;
+  NewImageNames names_;  // beside the URIs of files
+};
+
+}  // namespace remap

@@ -1,0 +1,79 @@
+// Pixels of images as maps of the conversion in memory (remap/convert_maps.hpp), and what is found out about
+// them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+
+#include "assets/document/image_codec.hpp"
+#include "remap/convert_maps.hpp"
+#include "remap/pixels.hpp"
+
+namespace remap {
+
+// Of constant pixels one to read, of others one to write.
+template <typename Pixels>
+auto channel_of_pixels(Pixels& pixels, std::size_t channel) {
+  const auto texel = static_cast<std::ptrdiff_t>(pixels.texel_bytes());
+  using Byte = std::remove_pointer_t<decltype(pixels.bytes.data())>;
+  return BasicChannelView<Byte>{pixels.bytes.data() + channel * byte_count(pixels.type), pixels.type, texel,
+                                texel * static_cast<std::ptrdiff_t>(pixels.width)};
+}
+
+// Of the size and type of the model; every value is the largest.
+ImagePixels blank_like(const ImagePixels& model, std::size_t channels);
+
+// Whether every texel equals the first.
+bool is_constant(const ImagePixels& pixels);
+
+// Whether the values of a channel are within a step of 8 bits.
+bool hardly_varies(const ImagePixels& pixels, std::size_t channel);
+
+// The first texel: red, green, blue and alpha from 0 to 1 as stored; grey is repeated, alpha 1 where there is
+// none.
+std::array<float, 4> first_texel(const ImagePixels& pixels);
+
+// A stored value of sRGB as a linear one.
+float linear_of_srgb(float value);
+
+// A color in sRGB times linear factors; the factors where `pixels` is null. `name`: in messages.
+SourceParameter color_source(const ImagePixels* pixels, const std::array<double, 3>& factors,
+                             const char* name);
+// A channel times a factor; the factor where `pixels` is null. `channel`: of RGBA; grey has one for all three
+// colors.
+SourceParameter value_source(const ImagePixels* pixels, std::size_t channel, double factor, const char* name);
+
+// Three channels in sRGB.
+TargetParameter color_target(ImagePixels& pixels);
+TargetParameter value_target(ImagePixels& pixels, std::size_t channel);
+
+// Whether the colors of `result` are those of `map` times the factors, within a step of 8 bits.
+bool is_map_times(const ImagePixels& result, const ImagePixels& map, const std::array<double, 3>& factors);
+
+// Measures that separate normals from other colors. Vectors are decoded from 0 to 1.
+struct NormalShares {
+  double unit = 0.0, inwards = 0.0;  // shares of texels: of about unit length; pointing into the surface
+  std::array<double, 3> mean{};      // of red, green and blue as stored
+
+  // Whether a map that may hold heights or normals holds normals of tangent space. Heights are grey.
+  bool are_normals() const;
+};
+// The planes have one size.
+NormalShares normal_shares(const std::array<std::span<const float>, 3>& rgb);
+
+// are_normals() of an even grid of texels.
+bool holds_normals(const ImagePixels& pixels);
+
+// Between pixels with alpha.
+void copy_alpha(const ImagePixels& from, ImagePixels& to);
+
+// Fills a channel with its largest value.
+void fill_channel(ImagePixels& pixels, std::size_t channel);
+
+// The root of the mean square of Parameter::kResidual, of an even grid: finding it out takes longer than to
+// convert.
+double sampled_residual(const Converter& converter, MapConversion conversion);
+
+}  // namespace remap

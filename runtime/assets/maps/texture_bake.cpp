@@ -1,0 +1,186 @@
+#include "assets/maps/texture_bake.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assets/document/gltf_extensions.hpp"
+#include "core/errors.hpp"
+#include "remap/pixels.hpp"
+
+namespace remap {
+namespace {
+
+struct TextureCoordinates {
+  double u = 0.0, v = 0.0;
+};
+
+// Scale, then rotation, then offset. A positive angle turns counter-clockwise as seen, with v downwards; so
+// read it three.js (Matrix3.setUvTransform) and Khronos' sample viewer.
+TextureCoordinates transformed(const TextureTransform& transform, const TextureCoordinates& at) {
+  const double u = at.u * transform.scale[0], v = at.v * transform.scale[1];
+  const double cosine = std::cos(transform.rotation), sine = std::sin(transform.rotation);
+  return {cosine * u + sine * v + transform.offset[0], cosine * v - sine * u + transform.offset[1]};
+}
+
+TextureCoordinates untransformed(const TextureTransform& transform, const TextureCoordinates& at) {
+  const double u = at.u - transform.offset[0], v = at.v - transform.offset[1];
+  const double cosine = std::cos(transform.rotation), sine = std::sin(transform.rotation);
+  return {(cosine * u - sine * v) / transform.scale[0], (sine * u + cosine * v) / transform.scale[1]};
+}
+
+// A place between two texels of a row or column that repeats.
+struct RepeatedPlace {
+  std::size_t before = 0, after = 0;
+  float share = 0.0f;  // of `after`
+};
+
+RepeatedPlace place_at(double coordinate, std::size_t count) {
+  const double size = static_cast<double>(count);
+  const double position = (coordinate - std::floor(coordinate)) * size - 0.5;
+  const double floor = std::floor(position);
+  const auto before = static_cast<std::size_t>(floor < 0.0 ? floor + size : floor) % count;
+  return {before, (before + 1) % count, static_cast<float>(position - floor)};
+}
+
+// Changes all channels but alpha.
+template <typename Change>
+void change_colors(const ImagePixels& pixels, std::vector<float>& values, const Change& change) {
+  const std::size_t colors = pixels.channels - (pixels.has_alpha() ? 1 : 0);
+  for (std::size_t i = 0; i < values.size(); i += pixels.channels)
+    change(std::span<float>(values.data() + i, colors));
+}
+
+// One row of the grid, of the map's linear values.
+class GridSampler {
+ public:
+  GridSampler(const ImagePixels& map, const std::vector<float>& values, const TextureTransform& transform,
+              const TextureGrid& grid)
+      : map_(map), values_(values), transform_(transform), grid_(grid) {}
+
+  void sample(std::size_t x, std::size_t y, float* out) const {
+    const TextureCoordinates own = {(static_cast<double>(x) + 0.5) / static_cast<double>(grid_.width),
+                                    (static_cast<double>(y) + 0.5) / static_cast<double>(grid_.height)};
+    const TextureCoordinates at = transformed(transform_, untransformed(grid_.transform, own));
+    if (!std::isfinite(at.u) || !std::isfinite(at.v))
+      throw input_error(std::string(kTransformExtension) + ": its numbers are too large to bake");
+    const RepeatedPlace column = place_at(at.u, map_.width), row = place_at(at.v, map_.height);
+    for (std::size_t c = 0; c < map_.channels; ++c)
+      out[c] = mixed(row.before, column, c) * (1.0f - row.share) + mixed(row.after, column, c) * row.share;
+  }
+
+ private:
+  float mixed(std::size_t row, const RepeatedPlace& column, std::size_t channel) const {
+    const float* const first = values_.data() + row * map_.width * map_.channels + channel;
+    return first[column.before * map_.channels] * (1.0f - column.share) +
+           first[column.after * map_.channels] * column.share;
+  }
+
+  const ImagePixels& map_;
+  const std::vector<float>& values_;
+  const TextureTransform& transform_;
+  const TextureGrid& grid_;
+};
+
+// Moving the texture coordinates of `from` by 1 in u or v moves the coordinates of `to` by one of the
+// columns.
+using Matrix = std::array<std::array<double, 2>, 2>;
+Matrix steps_between(const TextureTransform& from, const TextureTransform& to) {
+  Matrix steps{};
+  const TextureCoordinates origin = transformed(to, untransformed(from, {0.0, 0.0}));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TextureCoordinates moved =
+        transformed(to, untransformed(from, {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0}));
+    steps[0][i] = moved.u - origin.u;
+    steps[1][i] = moved.v - origin.v;
+  }
+  return steps;
+}
+
+bool is_whole(const Matrix& steps) {
+  constexpr double kRounding = 1e-4;
+  for (const auto& row : steps)
+    for (const double step : row)
+      if (!(std::fabs(step - std::round(step)) < kRounding)) return false;
+  return true;
+}
+
+// Returns whether texture coordinates from 0 to 1 stay within 0 to 1.
+bool is_within_one(const TextureTransform& transform) {
+  constexpr double kRounding = 1e-6;
+  for (const double u : {0.0, 1.0})
+    for (const double v : {0.0, 1.0}) {
+      const TextureCoordinates at = transformed(transform, {u, v});
+      for (const double coordinate : {at.u, at.v})
+        if (!(coordinate > -kRounding && coordinate < 1.0 + kRounding)) return false;
+    }
+  return true;
+}
+
+// As fine as the finest of the textures.
+TextureGrid grid_of(const std::vector<PlacedTexture>& textures, const TextureTransform& place) {
+  constexpr double kMostTexels = 4096.0;
+  double width = 0.0, height = 0.0, most = kMostTexels;
+  for (const PlacedTexture& texture : textures) {
+    const Matrix steps = steps_between(place, texture.transform);
+    const auto own_width = static_cast<double>(texture.width),
+               own_height = static_cast<double>(texture.height);
+    most = std::max({most, own_width, own_height});
+    width = std::max({width, own_width * std::fabs(steps[0][0]), own_height * std::fabs(steps[1][0])});
+    height = std::max({height, own_width * std::fabs(steps[0][1]), own_height * std::fabs(steps[1][1])});
+  }
+  const auto texels = [most](double count) {
+    return static_cast<std::size_t>(std::clamp(std::round(count), 1.0, most));
+  };
+  return {texels(width), texels(height), place};
+}
+
+}  // namespace
+
+std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures) {
+  const auto area = [&](std::size_t i) {
+    const TextureTransform& transform = textures[i].transform;
+    return std::fabs(transform.scale[0] * transform.scale[1]);
+  };
+  std::vector<std::size_t> order(textures.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, area);
+  const auto repeats_in = [&](std::size_t i) {
+    return std::ranges::all_of(textures, [&](const PlacedTexture& other) {
+      return is_whole(steps_between(textures[i].transform, other.transform));
+    });
+  };
+  if (const auto found = std::ranges::find_if(order, repeats_in); found != order.end())
+    return CommonGrid{*found, grid_of(textures, textures[*found].transform), true};
+  const auto covers = [&](std::size_t i) { return area(i) > 0.0 && is_within_one(textures[i].transform); };
+  if (const auto found = std::ranges::find_if(order, covers); found != order.end())
+    return CommonGrid{*found, grid_of(textures, textures[*found].transform), false};
+  return std::nullopt;
+}
+
+ImagePixels baked(const ImagePixels& map, Transfer transfer, const TextureTransform& transform,
+                  const TextureGrid& grid) {
+  for (const double scale : grid.transform.scale)
+    if (scale == 0.0 || !std::isfinite(1.0 / scale))
+      throw input_error(std::string(kTransformExtension) +
+                        ".scale: is 0, so that nothing can be baked onto its texture");
+  std::vector<float> from(map.width * map.height * map.channels);
+  load_values(map.type, map.bytes.data(), byte_count(map.type), from.size(), from.data());
+  change_colors(map, from, [&](std::span<float> colors) { to_linear(transfer, colors); });
+  const GridSampler sampler(map, from, transform, grid);
+  std::vector<float> values(grid.width * grid.height * map.channels);
+  for (std::size_t y = 0; y < grid.height; ++y)
+    for (std::size_t x = 0; x < grid.width; ++x)
+      sampler.sample(x, y, values.data() + (y * grid.width + x) * map.channels);
+  change_colors(map, values, [&](std::span<float> colors) { from_linear(transfer, colors); });
+  ImagePixels result{grid.width, grid.height, map.channels, map.type, {}};
+  result.bytes.resize(values.size() * byte_count(map.type));
+  (void)store_values(map.type, values.data(), values.size(), result.bytes.data(), byte_count(map.type));
+  return result;
+}
+
+}  // namespace remap

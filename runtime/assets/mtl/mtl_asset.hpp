@@ -1,0 +1,30 @@
+// A whole MTL file: the lines of its materials, and the images that they name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assets/document/asset.hpp"
+
+namespace remap {
+
+// Adds metallic and roughness (Pr, Pm and their maps, as later tools know them) to each material that has
+// none, and makes Kd the base color. All other lines stay byte for byte, Ks and Ns for older readers; UTF-16
+// stays UTF-16. Images are relative to the folder of the file. Throws kInput, beginning with `place`, for a
+// text that cannot be read. Without `resources`, materials whose maps must be read fail.
+AssetConversion convert_mtl(const ByteSource& source, const std::string& place,
+                            const AssetOptions& options = {}, const AssetResources* resources = nullptr);
+
+// The images that the file names, each once. With `resources`, where they are found. Throws kInput, beginning
+// with `place`.
+std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& place,
+                                         const AssetResources* resources = nullptr);
+
+// The text of an MTL file as UTF-8. Throws kInput, beginning with `place`, for one that is too long, and for
+// UTF-16 with half a character.
+std::string mtl_text(const ByteSource& source, const std::string& place);
+
+// A word that names an image: map_Kd, bump, norm and the like, in lower case.
+bool is_mtl_map(const std::string& word);
+
+}  // namespace remap

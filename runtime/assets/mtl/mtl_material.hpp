@@ -1,0 +1,111 @@
+// What a material of an MTL file says: its numbers and maps, and the lobes that they describe.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets/document/mtl_document.hpp"
+#include "assets/document/mtl_maker.hpp"
+#include "assets/maps/legacy_material.hpp"
+
+namespace remap {
+
+// A number that is finite; a plus sign may precede it. None for any other text.
+std::optional<double> mtl_number(std::string_view text);
+
+// A texture: `map_Kd -s 2 2 wood.jpg`.
+struct MtlMap {
+  std::size_t statement = 0;  // index
+  TextSpan name;              // in the text
+  std::string file;           // the name with '/' between folders; may hold spaces; may be empty
+  std::string options;        // as they are written before and after the name
+  std::array<double, 2> scale = {1.0, 1.0}, offset = {0.0, 0.0};  // -s and -o: u and v
+  double strength = 1.0;                                          // -bm
+  bool clamps = false;                                            // -clamp on
+  char channel = '\0';                                            // -imfchan; 0 where it is not said
+  double base = 0.0, gain = 1.0;     // -mm: base + gain times a stored value, kept within 0 to 1
+  std::vector<TextSpan> levels;      // where -mm stands, with the white space behind it
+  bool is_color = false;             // else all channels are values, alpha among them
+  std::vector<std::string> unusual;  // options that change what it looks like, and are not applied
+
+  // Whether it lies in the same place on the surface.
+  bool lies_like(const MtlMap& other) const {
+    return scale == other.scale && offset == other.offset && clamps == other.clamps;
+  }
+  // Whether it is other values than its file has.
+  bool has_levels() const { return base != 0.0 || gain != 1.0; }
+};
+
+// The file of a statement that names one. Options may also follow the name, as some tools write them.
+MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement);
+
+// What reflects light. Of a statement that is repeated the last counts, as for other readers.
+struct MtlSurface {
+  std::optional<std::array<double, 3>> diffuse, specular;  // Kd, Ks, clamped to 0 and 1
+  std::optional<double> exponent;                          // Ns, at most 10000; may be below 0
+  std::optional<double> illumination;                      // illum
+  std::optional<double> ambient;                           // red of Ka
+  std::optional<double> roughness, metallic;               // Pr, Pm
+  std::optional<double> specular_level;                    // 1 means F0 0.04; only of a maker that writes it
+  std::optional<MtlMap> diffuse_map, specular_map, exponent_map, reflection_map, roughness_map, metallic_map;
+  bool has_pbr_bsdf = false;    // bsdf pbr
+  bool is_metal_rough = false;  // metallic and roughness are said, by Pr or Pm or by the maker
+  std::optional<std::size_t> diffuse_statement;  // Kd; makers define the color of a material without it
+  std::size_t last_statement = 0;                // of the material
+
+  bool is_empty() const {
+    return !diffuse && !specular && !exponent && !diffuse_map && !specular_map && !exponent_map;
+  }
+};
+
+// Whether a material has lines Pr, Pm, map_Pr or map_Pm, as later tools add them.
+bool has_metal_rough_lines(const MtlDocument& document, const MtlBlock& block);
+
+// Reads the surface as its maker means it. Appends warnings. Throws kInput, without the name of the material,
+// if a number cannot be read or a color is not RGB; `surface` then holds the other statements.
+void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMaker maker, MtlSurface& surface,
+                      std::vector<std::string>& warnings);
+
+// What covers and lights the surface.
+struct MtlCover {
+  std::optional<double> opacity;       // d, 0 to 1
+  std::optional<double> transparency;  // Tr, 0 to 1
+  std::array<double, 3> emissive{};    // Ke
+  bool has_emissive = false;
+  bool has_displacement = false;                   // disp
+  std::optional<double> refraction;                // Ni
+  std::array<double, 3> filter = {1.0, 1.0, 1.0};  // Tf, 0 to 1
+  bool refracts = false;                           // illum 4, 6, 7 or 9
+  // bump_map: heights by the text of the format; most exporters write normals (holds_normals()).
+  std::optional<MtlMap> opacity_map, emissive_map, normal_map, bump_map;
+};
+
+// As read_mtl_surface().
+MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
+                        std::vector<std::string>& warnings);
+
+// A surface that says metallic and roughness, as numbers. A number beside a map of roughness or metallic does
+// not count, and is 1.
+struct MetalRoughNumbers {
+  std::array<double, 3> base = {1.0, 1.0, 1.0};
+  double metallic = 0.0, roughness = 1.0;
+};
+// `is_core`: for a target that adds a highlight to every dielectric, so that one without it becomes rough.
+MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
+
+// The surface as factors, which its maps multiply.
+struct MtlReflection {
+  LegacyMaterial factors;
+  bool has_highlight = false;
+};
+
+// Fills in what is not said, and appends a warning for it: Kd .8 and Ns 0 (as J. Burkardt's description of
+// MTL has it; the one of Alias|Wavefront has no defaults), Ks 0, or 1 with a map. Throws kInput where a map
+// multiplies an exponent that is missing.
+MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>& warnings);
+
+}  // namespace remap

@@ -1,0 +1,480 @@
+#include "assets/obj/obj_materials.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "assets/document/gltf_extensions.hpp"
+#include "assets/gltf/specgloss_material.hpp"
+#include "assets/maps/legacy_maps.hpp"
+#include "assets/maps/map_pixels.hpp"
+#include "assets/mtl/mtl_asset.hpp"
+#include "assets/mtl/mtl_material.hpp"
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
+#include "core/plain_text.hpp"
+#include "remap/pixels.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::array<double, 3> kWhite = {1.0, 1.0, 1.0};
+constexpr std::size_t kLongestShown = 200;
+constexpr std::size_t kNoImage = std::numeric_limits<std::size_t>::max();
+
+Json numbers_of(const std::array<double, 3>& values) {
+  Json list = Json::list();
+  for (const double value : values) list.push_back(float_value(value));
+  return list;
+}
+
+std::string numbers_text(const std::array<double, 3>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + number_text(float_value(value));
+  return text;
+}
+
+Json specular_of(double specular, const std::array<double, 3>& color) {
+  std::array<double, 3> scaled{};
+  for (std::size_t c = 0; c < 3; ++c) scaled[c] = kDielectricScale * color[c];
+  return Json{{"specularFactor", float_value(specular)}, {"specularColorFactor", numbers_of(scaled)}};
+}
+
+// Opacity is the alpha of a map that has one, as most tools write it, else its luminance.
+char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
+  if (map.channel != '\0') return map.channel;
+  return pixels.has_alpha() ? 'm' : 'l';
+}
+
+}  // namespace
+
+// What a conversion of maps became, without its pixels; kNoImage where it is a factor.
+struct ObjMaterials::ConvertedImages {
+  LegacyMapResult result;
+  bool has_own_base = false;
+  std::size_t base = kNoImage, metal_rough = kNoImage, specular = kNoImage;
+};
+
+// A material on its way into the file.
+struct ObjMaterials::Planned {
+  Planned(MtlLibrary& own_library, const MtlBlock& own_block, AssetMaterial& own_report)
+      : library(own_library), block(own_block), report(own_report) {}
+
+  MtlLibrary& library;
+  const MtlBlock& block;
+  AssetMaterial& report;
+  MtlSurface surface;
+  MtlCover cover;
+  std::array<double, 3> base = {1.0, 1.0, 1.0};
+  double alpha = 1.0, metallic = 0.0, roughness = 1.0;
+  // The map of base color: a file as it is, or pixels. `base_map` says where it lies on the surface.
+  const MtlMap* base_map = nullptr;
+  bool keeps_file = false;
+  std::shared_ptr<const ImagePixels> base_pixels;
+  std::size_t base_image = kNoImage;    // that is in the file already
+  std::size_t* shared_image = nullptr;  // where others find it
+  Json core = Json::object(), material = Json::object();
+  bool blends = false;
+
+  // A map that is missing or cannot be read leaves the rest of the material.
+  bool attempt(const std::function<void()>& step) {
+    try {
+      step();
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
+      report.state = MaterialState::kFailed;
+      report.failure += (report.failure.empty() ? "" : "; ") + std::string(error.what());
+      return false;
+    }
+    return true;
+  }
+};
+
+ObjMaterials::ObjMaterials(const AssetOptions& options, const AssetResources& resources,
+                           const MtlLibraries& libraries, GltfTextures& textures, AssetConversion& conversion)
+    : options_(options),
+      resources_(resources),
+      libraries_(libraries),
+      textures_(textures),
+      conversion_(conversion),
+      reads_tr_(!libraries.has_tr_for_opaque()) {
+  if (!reads_tr_)
+    conversion.warnings.push_back(
+        "Tr is 1 in every material and d in none, as MeshLab writes it: the materials are opaque");
+}
+
+ObjMaterials::~ObjMaterials() = default;
+
+std::vector<SceneMaterial> ObjMaterials::converted(const std::vector<ObjMaterialName>& names) {
+  std::vector<SceneMaterial> materials;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    AssetMaterial& report = conversion_.materials.emplace_back();
+    report.index = i;
+    report.name = names[i].name;
+    const std::size_t before = textures_.info_count();
+    SceneMaterial& material = materials.emplace_back();
+    material.json = material_of(names[i], report);
+    material.has_texture = textures_.info_count() > before;
+  }
+  return materials;
+}
+
+Json ObjMaterials::material_of(const ObjMaterialName& name, AssetMaterial& report) {
+  const auto found = name.is_given ? libraries_.find(name.name) : std::nullopt;
+  if (found) return converted_block(*found->library, *found->block, report);
+  Json material = Json::object();
+  if (!name.name.empty()) material["name"] = utf8_name(name.name);
+  material["pbrMetallicRoughness"] = Json{{"metallicFactor", 0}};
+  if (name.is_given) report.warnings.push_back("is in no MTL file that is there, and counts as white");
+  return material;
+}
+
+Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, AssetMaterial& report) {
+  Planned planned(library, block, report);
+  report.state = MaterialState::kConverted;
+  if (!block.name.empty()) planned.material["name"] = utf8_name(block.name);
+  planned.attempt(
+      [&] { read_mtl_surface(library.document, block, library.maker, planned.surface, report.warnings); });
+  planned.attempt(
+      [&] { planned.cover = read_mtl_cover(library.document, block, library.maker, report.warnings); });
+  set_reflection(planned);
+  // What lacks its opacity is not shared.
+  if (!planned.attempt([&] { set_opacity(planned); })) planned.shared_image = nullptr;
+  Json color = numbers_of(planned.base);
+  color.push_back(float_value(planned.alpha));
+  Json factors = Json::object();
+  factors["baseColorFactor"] = std::move(color);
+  const bool has_base = planned.attempt([&] {
+    if (planned.base_map == nullptr) return;
+    const std::size_t image = base_image_of(planned);
+    factors["baseColorTexture"] = textures_.info(image, *planned.base_map);
+  });
+  if (!has_base) planned.base_map = nullptr;
+  factors["metallicFactor"] = float_value(planned.metallic);
+  factors["roughnessFactor"] = float_value(planned.roughness);
+  factors.update(planned.core);
+  planned.material["pbrMetallicRoughness"] = factors;
+  planned.attempt([&] { set_normals(planned); });
+  planned.attempt([&] { set_emission(planned); });
+  if (planned.blends) planned.material["alphaMode"] = "BLEND";
+  if (planned.cover.has_displacement)
+    report.warnings.push_back("loses its map of displacement (disp), which glTF does not have");
+  describe(planned);
+  return std::move(planned.material);
+}
+
+void ObjMaterials::describe(const Planned& planned) {
+  AssetMaterial& report = planned.report;
+  report.becomes = "base color " + std::string(planned.base_map != nullptr ? "map times " : "") +
+                   numbers_text(planned.base);
+  if (planned.alpha != 1.0 || planned.blends) report.becomes += ", alpha " + number_text(planned.alpha);
+  const bool has_map = planned.core.contains("metallicRoughnessTexture");
+  report.becomes += ", metallic " + number_text(float_value(planned.metallic)) + ", roughness " +
+                    number_text(float_value(planned.roughness)) + (has_map ? ", both times map" : "");
+  if (!has_map && planned.base_map == nullptr)
+    report.factors = {{"base_color", {planned.base.begin(), planned.base.end()}},
+                      {"metallic", {planned.metallic}},
+                      {"roughness", {planned.roughness}}};
+}
+
+std::size_t ObjMaterials::base_image_of(Planned& planned) {
+  if (planned.keeps_file)
+    return textures_.add_file(planned.library.images, *planned.base_map, planned.report.warnings);
+  if (planned.base_image == kNoImage)
+    planned.base_image =
+        textures_.add_pixels(planned.library.images, *planned.base_pixels, *planned.base_map, "_baseColor");
+  if (planned.shared_image != nullptr) *planned.shared_image = planned.base_image;
+  return planned.base_image;
+}
+
+// A map that fails leaves the factors, and that of diffuse.
+void ObjMaterials::set_reflection(Planned& planned) {
+  const bool is_done = planned.attempt([&] {
+    if (planned.surface.is_metal_rough) return set_metal_rough(planned);
+    if (is_glass(planned)) return set_glass(planned);
+    const MtlReflection reflection = reflection_of(planned.surface, planned.report.warnings);
+    if (options_.profile == MaterialProfile::kExtensions)
+      set_dielectric(planned, reflection);
+    else
+      set_core(planned, reflection);
+  });
+  if (is_done) return;
+  planned.base = planned.surface.diffuse.value_or(kWhite);
+  planned.metallic = 0.0;
+  keep_diffuse_map(planned);
+}
+
+void ObjMaterials::keep_diffuse_map(Planned& planned) {
+  if (!planned.surface.diffuse_map) return;
+  planned.base_map = &*planned.surface.diffuse_map;
+  planned.keeps_file = true;
+}
+
+// Later tools' lines say what glTF does. A map of them stands in the place of the number.
+void ObjMaterials::set_metal_rough(Planned& planned) {
+  const MtlSurface& surface = planned.surface;
+  const MetalRoughNumbers numbers = metal_rough_of(surface, options_.profile == MaterialProfile::kCore);
+  planned.base = numbers.base;
+  keep_diffuse_map(planned);
+  planned.metallic = numbers.metallic;
+  planned.roughness = numbers.roughness;
+  set_specular_level(planned);
+  if (!surface.roughness && !surface.roughness_map)
+    planned.report.warnings.push_back("has metallic (Pm) but no roughness (Pr), which then counts as 1");
+  const MtlMap* model = nullptr;
+  if (const auto pixels = packed_metal_rough(planned, &model))
+    planned.core["metallicRoughnessTexture"] = textures_.info(
+        textures_.add_pixels(planned.library.images, *pixels, *model, "_metallicRoughness"), *model);
+}
+
+// A level of 1 is glTF's own F0 of 0.04, and a metal has none.
+void ObjMaterials::set_specular_level(Planned& planned) {
+  constexpr double kSeen = 0.25;  // F0 0.03 to 0.05 look alike
+  const double level = planned.surface.specular_level.value_or(1.0);
+  if (std::fabs(level - 1.0) < kSeen || planned.metallic == 1.0) return;
+  if (options_.profile == MaterialProfile::kCore) {
+    if (level > 0.0)
+      planned.report.warnings.push_back("loses its specular level Ks " + number_text(0.5 * level) +
+                                        " (--profile extensions keeps it)");
+    return;
+  }
+  set_extension(planned, kSpecularExtension,
+                level <= 1.0 ? Json{{"specularFactor", float_value(level)}}
+                             : Json{{"specularColorFactor", numbers_of({level, level, level})}});
+}
+
+// illum 4, 6, 7 and 9 refract. Maya writes illum 4 with an index of 1 for every opaque material.
+bool ObjMaterials::is_glass(Planned& planned) const {
+  const MtlCover& cover = planned.cover;
+  if (!cover.refracts || is_transparent(planned) || cover.refraction.value_or(2.0) <= 1.0) return false;
+  if (cover.refraction && options_.profile == MaterialProfile::kExtensions) return true;
+  planned.report.warnings.push_back(
+      cover.refraction
+          ? "is glass by illum and Ni " + number_text(*cover.refraction) +
+                ", and becomes opaque (--profile extensions keeps it)"
+          : "refracts by illum, but has no index Ni, so it becomes opaque (add a line Ni 1.5 for glass)");
+  return false;
+}
+
+// The index gives the strength of reflection, Tf the color of what comes through.
+void ObjMaterials::set_glass(Planned& planned) {
+  const MtlReflection reflection = reflection_of(planned.surface, planned.report.warnings);
+  planned.base = planned.cover.filter;
+  planned.roughness = reflection.has_highlight ? ggx_lobe(reflection.factors).roughness : 0.0;
+  set_extension(planned, kTransmissionExtension, Json{{"transmissionFactor", 1}});
+  set_extension(planned, kIorExtension, Json{{"ior", float_value(*planned.cover.refraction)}});
+}
+
+std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(Planned& planned, const MtlMap** model) {
+  std::shared_ptr<ImagePixels> packed;
+  const auto add = [&](const std::optional<MtlMap>& map, std::size_t channel) {
+    if (!map) return;
+    const std::shared_ptr<const ImagePixels> pixels =
+        planned.library.images.load(*map, planned.report.warnings);
+    if (packed && (packed->width != pixels->width || packed->height != pixels->height))
+      throw input_error("map_Pr and map_Pm differ in size (make them equal)");
+    if (*model != nullptr && !(*model)->lies_like(*map))
+      throw input_error("map_Pr and map_Pm lie on the surface in different places (-s, -o, -clamp)");
+    if (!packed) {
+      packed = std::make_shared<ImagePixels>(blank_like(*pixels, 3));
+      *model = &*map;
+    }
+    set_channel(*packed, channel, *pixels, map->channel);
+  };
+  add(planned.surface.roughness_map, 1);
+  add(planned.surface.metallic_map, 2);
+  return packed;
+}
+
+void ObjMaterials::set_core(Planned& planned, const MtlReflection& reflection) {
+  const MtlSurface& surface = planned.surface;
+  const bool has_maps = surface.diffuse_map || surface.specular_map || surface.exponent_map;
+  planned.base = reflection.factors.diffuse;
+  if (has_maps && reflection.has_highlight) return set_converted_maps(planned, reflection, false);
+  const MetalRoughFactors core = reflection.has_highlight ? core_of_legacy(reflection.factors)
+                                                          : core_of_diffuse(reflection.factors.diffuse);
+  for (std::size_t c = 0; c < 3; ++c) planned.base[c] = static_cast<double>(core.base_color[c]);
+  planned.metallic = static_cast<double>(core.metallic);
+  planned.roughness = static_cast<double>(core.roughness);
+  keep_diffuse_map(planned);
+}
+
+void ObjMaterials::set_dielectric(Planned& planned, const MtlReflection& reflection) {
+  const MtlSurface& surface = planned.surface;
+  planned.base = reflection.factors.diffuse;
+  if (!reflection.has_highlight) {
+    keep_diffuse_map(planned);
+    return set_extension(planned, kSpecularExtension, Json{{"specularFactor", 0}});
+  }
+  // A map of diffuse alone is divided by 1 - F as a factor is.
+  const LegacyDielectric result = dielectric_of_legacy(reflection.factors);
+  const bool is_factor = std::ranges::none_of(result.base_color, [](double value) { return value >= 1.0; });
+  if (surface.specular_map || surface.exponent_map || (surface.diffuse_map && !is_factor))
+    return set_converted_maps(planned, reflection, true);
+  planned.base = result.base_color;
+  planned.roughness = result.roughness;
+  keep_diffuse_map(planned);
+  set_extension(planned, kSpecularExtension, specular_of(result.specular, result.specular_color));
+}
+
+void ObjMaterials::set_extension(Planned& planned, std::string_view name, Json value) {
+  extensions_.emplace(name);
+  if (!planned.material.contains("extensions")) planned.material["extensions"] = Json::object();
+  planned.material["extensions"][std::string(name)] = std::move(value);
+}
+
+void ObjMaterials::set_converted_maps(Planned& planned, const MtlReflection& reflection, bool as_dielectric) {
+  const MtlSurface& surface = planned.surface;
+  const MtlMap& data_map = surface.specular_map   ? *surface.specular_map
+                           : surface.exponent_map ? *surface.exponent_map
+                                                  : *surface.diffuse_map;
+  if (surface.exponent_map) planned.report.warnings.push_back(exponent_warning(surface));
+  ConvertedImages& images = converted_images(planned, reflection, as_dielectric, data_map);
+  const LegacyMapResult& result = images.result;
+  planned.base = result.base;
+  planned.metallic = as_dielectric ? 0.0 : result.metallic;
+  planned.roughness = result.roughness;
+  if (result.keeps_diffuse) keep_diffuse_map(planned);
+  if (images.has_own_base) {
+    planned.base_map = surface.diffuse_map ? &*surface.diffuse_map : &data_map;
+    planned.base_image = images.base;
+    planned.shared_image = &images.base;
+  }
+  if (images.metal_rough != kNoImage)
+    planned.core["metallicRoughnessTexture"] = textures_.info(images.metal_rough, data_map);
+  if (!as_dielectric) return;
+  Json specular = specular_of(result.specular_factor, result.specular_color);
+  if (images.specular != kNoImage) {
+    specular["specularTexture"] = textures_.info(images.specular, data_map);
+    specular["specularColorTexture"] = textures_.info(images.specular, data_map);
+  }
+  set_extension(planned, kSpecularExtension, std::move(specular));
+}
+
+// Materials with the same maps, factors and opacity share what they become. The base color of a first one is
+// in `planned`, so that opacity is added before it goes into the file.
+ObjMaterials::ConvertedImages& ObjMaterials::converted_images(Planned& planned,
+                                                              const MtlReflection& reflection,
+                                                              bool as_dielectric, const MtlMap& data_map) {
+  MtlImages& images = planned.library.images;
+  const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
+  const std::string opacity = opacity_map ? opacity_map->file + '\0' + opacity_map->options : "";
+  const std::string key = images.folder() + '\0' + opacity + '\0' + (is_transparent(planned) ? "1" : "0") +
+                          key_of(planned.surface, reflection.factors);
+  std::shared_ptr<ConvertedImages>& known = converted_[key];
+  if (known && (!known->has_own_base || known->base != kNoImage)) return *known;
+  const SurfaceMaps maps = load_maps(planned.surface, images, options_, planned.report.warnings);
+  auto made = std::make_shared<ConvertedImages>();
+  made->result = converted_maps(maps.with(reflection.factors, planned.surface, as_dielectric));
+  LegacyMapResult& result = made->result;
+  made->has_own_base = result.base_color.has_value();
+  if (result.base_color)
+    planned.base_pixels = std::make_shared<const ImagePixels>(*std::move(result.base_color));
+  if (result.metal_rough)
+    made->metal_rough = textures_.add_pixels(images, *result.metal_rough, data_map, "_metallicRoughness");
+  if (result.specular) made->specular = textures_.add_pixels(images, *result.specular, data_map, "_specular");
+  result.base_color.reset();
+  result.metal_rough.reset();
+  result.specular.reset();
+  known = std::move(made);
+  return *known;
+}
+
+double ObjMaterials::alpha_of(const MtlCover& cover) const {
+  if (cover.opacity) return *cover.opacity;
+  return reads_tr_ ? 1.0 - cover.transparency.value_or(0.0) : 1.0;
+}
+
+bool ObjMaterials::is_transparent(const Planned& planned) const {
+  return planned.cover.opacity_map || alpha_of(planned.cover) < 1.0;
+}
+
+// Opacity is the alpha of base color. Without it, the alpha of an image says nothing.
+void ObjMaterials::set_opacity(Planned& planned) {
+  const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
+  planned.alpha = alpha_of(planned.cover);
+  planned.blends = is_transparent(planned);
+  const bool has_map = planned.base_map != nullptr || opacity_map;
+  if (!planned.blends || planned.base_image != kNoImage || !has_map) return;
+  if (planned.base_pixels == nullptr) {
+    // Other materials may have the same two files.
+    const std::string key =
+        planned.library.images.folder() + '\0' +
+        (planned.base_map != nullptr ? planned.base_map->file + '\0' + planned.base_map->options : "") +
+        '\0' + (opacity_map ? opacity_map->file + '\0' + opacity_map->options : "");
+    planned.shared_image = &composed_.try_emplace(key, kNoImage).first->second;
+    planned.base_image = *planned.shared_image;
+  }
+  const bool is_new = planned.base_image != kNoImage || add_opacity(planned);
+  if (!is_new) return;
+  planned.keeps_file = false;
+  if (planned.base_map == nullptr) planned.base_map = &*opacity_map;
+}
+
+// Returns whether there are other pixels than those of the file.
+bool ObjMaterials::add_opacity(Planned& planned) {
+  const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
+  MtlImages& images = planned.library.images;
+  std::vector<std::string>& warnings = planned.report.warnings;
+  std::shared_ptr<const ImagePixels> color = planned.base_pixels, opacity;
+  if (planned.keeps_file) color = images.load(*planned.base_map, warnings);
+  char channel = 'l';
+  if (opacity_map) {
+    opacity = images.load(*opacity_map, warnings);
+    channel = opacity_channel(*opacity_map, *opacity);
+    if (planned.base_map != nullptr && !planned.base_map->lies_like(*opacity_map))
+      throw input_error("map_Kd and map_d lie on the surface in different places (-s, -o, -clamp)");
+  } else if (!planned.keeps_file || !color->has_alpha()) {
+    return !planned.keeps_file;
+  }
+  // Many materials name one file for both.
+  if (planned.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
+  if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
+    if (!options_.enlarges)
+      throw input_error(plain(opacity_map->file, kLongestShown) +
+                        ": its size differs from map_Kd (--resample enlarges the smaller one)");
+    const std::size_t width = std::max(color->width, opacity->width),
+                      height = std::max(color->height, opacity->height);
+    color = std::make_shared<const ImagePixels>(resources_.enlarged(*color, width, height));
+    opacity = std::make_shared<const ImagePixels>(resources_.enlarged(*opacity, width, height));
+  }
+  planned.base_pixels = std::make_shared<const ImagePixels>(with_alpha(color.get(), opacity.get(), channel));
+  return true;
+}
+
+void ObjMaterials::set_emission(Planned& planned) {
+  const MtlCover& cover = planned.cover;
+  std::array<double, 3> factor = cover.emissive;
+  const bool is_dark = std::ranges::all_of(factor, [](double value) { return value <= 0.0; });
+  if (cover.emissive_map) {
+    if (cover.has_emissive && is_dark)
+      planned.report.warnings.push_back("Ke is 0 beside map_Ke, and counts as 1");
+    if (is_dark) factor = kWhite;
+    const std::size_t image =
+        textures_.add_file(planned.library.images, *cover.emissive_map, planned.report.warnings);
+    planned.material["emissiveTexture"] = textures_.info(image, *cover.emissive_map);
+  }
+  if (cover.emissive_map || !is_dark) planned.material["emissiveFactor"] = numbers_of(factor);
+}
+
+// Most exporters write a map of normals as map_Bump, because MTL has no statement for it that all readers
+// know.
+void ObjMaterials::set_normals(Planned& planned) {
+  const std::optional<MtlMap>&bump = planned.cover.bump_map,
+        &map = planned.cover.normal_map ? planned.cover.normal_map : bump;
+  if (!map) return;
+  if (!planned.cover.normal_map &&
+      !holds_normals(*planned.library.images.load(*bump, planned.report.warnings))) {
+    planned.report.warnings.push_back(
+        "loses its bump map: it is a map of heights, and glTF has maps of normals");
+    return;
+  }
+  Json info = textures_.info(textures_.add_file(planned.library.images, *map, planned.report.warnings), *map);
+  if (map->strength != 1.0) info["scale"] = float_value(map->strength);
+  planned.material["normalTexture"] = std::move(info);
+}
+
+}  // namespace remap

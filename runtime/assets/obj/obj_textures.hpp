@@ -1,0 +1,84 @@
+// Images and textures of a new glTF file.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "assets/document/asset.hpp"
+#include "assets/document/asset_uri.hpp"
+#include "assets/mtl/mtl_images.hpp"
+#include "assets/mtl/mtl_material.hpp"
+#include "assets/obj/obj_buffer.hpp"
+
+namespace remap {
+
+// Where images go.
+enum class NewImagePlace {
+  kBuffer,  // into the buffer
+  kFiles,   // files that are there stay where they are, new ones lie beside them
+};
+
+class GltfTextures {
+ public:
+  // All must outlive it. New files, and resources that stay, are added to `conversion`.
+  GltfTextures(const AssetOptions& options, const AssetResources& resources, NewImagePlace place,
+               GltfBuffer& buffer, AssetConversion& conversion)
+      : png_level_(options.png_level.value_or(kUsualPngLevel)),
+        resources_(resources),
+        place_(place),
+        buffer_(buffer),
+        conversion_(conversion),
+        names_(resources.image_prefix()) {}
+
+  // Keeps a path from new images.
+  void take(const std::string& path) { names_.take(path); }
+  // The image of a map: PNG and JPEG as they are, others and those with -mm as PNG, each file once. Appends
+  // warnings. Throws kInput where it is missing, cannot be read, or has options that change what it looks
+  // like.
+  std::size_t add_file(MtlImages& images, const MtlMap& map, std::vector<std::string>& warnings);
+  // A new image, named after the file of `model`, or one that was added before with the same bytes. Returns
+  // its index.
+  std::size_t add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
+                         std::string_view suffix);
+  // A reference to a texture of an image, which lies on the surface as `map` says.
+  Json info(std::size_t image, const MtlMap& map);
+
+  // References so far.
+  std::size_t info_count() const noexcept { return info_count_; }
+  bool has_transforms() const noexcept { return has_transforms_; }
+  // The lists of the file; each may be empty.
+  const Json& textures() const noexcept { return textures_; }
+  const Json& images() const noexcept { return images_; }
+  const Json& samplers() const noexcept { return samplers_; }
+
+ private:
+  std::size_t add_bytes(std::string bytes, const char* type, const std::string& path);
+  std::size_t add_uri(const std::string& path);
+
+  int png_level_;
+  const AssetResources& resources_;
+  NewImagePlace place_;
+  GltfBuffer& buffer_;
+  AssetConversion& conversion_;
+  Json textures_ = Json::list(), images_ = Json::list(), samplers_ = Json::list();
+  NewImageNames names_;
+  std::map<std::string, std::size_t> of_files_;  // images by path, and options with -mm
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_bytes_;  // new images by size and hash
+  std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;  // textures by image and whether they clamp
+  std::size_t info_count_ = 0;
+  bool has_transforms_ = false;
+};
+
+inline constexpr std::string_view kTextureTransform = "KHR_texture_transform";
+
+// Rounded to float, as viewers hold it, with the shortest text.
+double float_value(double value);
+
+// A text that JSON can hold: one that is not UTF-8 is read as Latin-1.
+std::string utf8_name(const std::string& text);
+
+}  // namespace remap

@@ -1,0 +1,240 @@
+#include "remap/conversion.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "core/nearest_name.hpp"
+#include "remap/error.hpp"
+
+namespace remap {
+namespace {
+
+// One end of the conversion, before both ends are known.
+struct NamedEnd {
+  std::string name;
+  const WorkflowModel* model = nullptr;  // null where `name` is a BRDF model
+  std::optional<WorkflowKind> kind;      // as the request says
+
+  // Has the roughness parameter of a BRDF model; an unknown one is refused later, by the search for a path.
+  const ConverterGraph* graph = nullptr;
+
+  bool has_workflow() const { return model != nullptr || kind; }
+  WorkflowModel workflow() const {
+    if (model == nullptr)
+      return workflow_over(name, kind.value_or(WorkflowKind::kSpecular), graph->side_of(name).roughness);
+    return *model;
+  }
+};
+
+constexpr std::size_t kNamesShown = 5;
+
+// Refuses a name that is neither a model, a renderer nor a workflow, with the nearest of all names.
+void require_known(const std::string& word, const std::string& name, const ConverterGraph& graph,
+                   const std::string& all_names) {
+  if (graph.has_model(name) || !graph.models_of(name).empty() || find_workflow_model(name) != nullptr) return;
+  std::vector<std::string> known = graph.models();
+  for (const std::string& model : graph.models())
+    if (std::ranges::find(known, renderer_of(model)) == known.end()) known.push_back(renderer_of(model));
+  for (const WorkflowModel& model : workflow_models()) known.push_back(model_of(model.end));
+  for (const ModelAlias& alias : model_aliases()) known.emplace_back(alias.name);
+  const std::string near = joined(nearest_names(name, known, kNamesShown), ", ");
+  throw usage_error(word + ": unknown model '" + name + "' (" +
+                    (near.empty() ? "" : "nearest: " + near + "; ") + "all: " + all_names + ")");
+}
+
+NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, const std::string& word,
+                   const ConverterGraph& graph) {
+  NamedEnd end{name, find_workflow_model(name), kind, &graph};
+  if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
+    throw usage_error(word + ": " + name + " has the " + std::string(kind_name(end.model->end)) +
+                      " workflow, not " + std::string(name_of(kWorkflowKinds, *kind)) +
+                      " (remove this option)");
+  return end;
+}
+
+// The model that the target names: of a renderer the closest one to the source. A workflow around the
+// source's own model of that renderer needs no other model.
+std::string target_named(const ConversionRequest& request, const NamedEnd& from) {
+  const std::string& to = request.target.name;
+  const bool is_model = to.find('/') != std::string::npos || find_workflow_model(to) != nullptr;
+  if (request.uses_fit_file || from.name.empty() || is_model) return to;
+  const ConverterGraph& graph = *from.graph;
+  const std::string source = from.workflow().brdf;
+  if (graph.has_model(to) || graph.models_of(to).empty()) return to;
+  if (renderer_of(source) == to) {
+    if (from.has_workflow() || request.target_workflow) return source;
+    throw usage_error(request.words.target + ": " + source + " is a model of " + to +
+                      " already (choose another model)");
+  }
+  const std::vector<ConverterPath> paths = graph.paths_to_renderer({source, to, request.via});
+  if (paths.empty()) return graph.models_of(to).front();  // refused by the search for a path
+  return target_model(closest_path(paths));
+}
+
+void set_diffuse(WorkflowEnd& end, DiffuseConvention convention) {
+  std::visit([convention](auto& workflow) { workflow.diffuse = convention; }, end);
+}
+
+void set_f0(std::optional<WorkflowEnd>& end, double f0) {
+  if (auto* metallic = end ? std::get_if<MetallicWorkflow>(&*end) : nullptr) metallic->dielectric_f0 = f0;
+}
+
+// Sets the diffuse convention of each end whose model leaves it open: that of the other end, so that there
+// and back changes nothing, or the one that was asked for. Where both models say it, the source's is
+// overridden by that.
+void choose_diffuse(const ConversionRequest& request, const WorkflowModel& source,
+                    const WorkflowModel& target, ConversionChoice& choice) {
+  std::vector<WorkflowEnd*> open;
+  if (!source.conventions_known) open.push_back(&*choice.source);
+  if (!target.conventions_known) open.push_back(&*choice.target);
+  if (request.diffuse_convention) {
+    if (open.empty()) open.push_back(&*choice.source);
+    for (WorkflowEnd* end : open) set_diffuse(*end, *request.diffuse_convention);
+    return;
+  }
+  if (open.empty()) return;
+  const WorkflowEnd& known = source.conventions_known ? *choice.source : *choice.target;
+  std::string models;
+  for (WorkflowEnd* end : open) {
+    set_diffuse(*end, diffuse_of(known));
+    models += (models.empty() ? "" : " and ") + model_of(*end);
+  }
+  const bool is_plain = diffuse_of(known) == DiffuseConvention::kPlain;
+  choice.assumptions.push_back(
+      "diffuse of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
+      (open.size() == 1 ? ", as in " + model_of(known) : "") + " (" + request.words.diffuse_convention + " " +
+      (is_plain ? "scaled" : "plain") + " changes that)");
+}
+
+void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {
+  if (!request.dielectric_f0) return;
+  if (kind_of(*choice.source) == WorkflowKind::kSpecular && !choice.is_to_metallic())
+    throw usage_error(request.words.dielectric_f0 +
+                      " requires a model of the metallic workflow (remove this option)");
+  set_f0(choice.source, *request.dielectric_f0);
+  set_f0(choice.target, *request.dielectric_f0);
+}
+
+void note_alias(const ModelName& given, ConversionChoice& choice) {
+  if (given.alias != nullptr)
+    choice.notes.push_back(std::string(given.alias->name) + " means " + given.name + ": " +
+                           std::string(given.alias->meaning));
+}
+
+}  // namespace
+
+ModelName model_named(const std::string& word) {
+  if (const ModelAlias* alias = find_alias(word)) return {std::string(alias->model), alias};
+  std::string small = word;
+  for (char& letter : small)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return {find_workflow_model(small) != nullptr ? small : word, nullptr};
+}
+
+std::vector<Parameter> ConversionChoice::sources() const {
+  return is_material() ? parameters_of(*source) : std::vector{Parameter::kRoughness, Parameter::kSpecular};
+}
+
+std::vector<Parameter> ConversionChoice::targets() const {
+  return is_material() ? parameters_of(*target) : std::vector{Parameter::kRoughness, Parameter::kSpecular};
+}
+
+bool ConversionChoice::has_source(Parameter parameter) const {
+  const std::vector<Parameter> all = sources();
+  return std::find(all.begin(), all.end(), parameter) != all.end();
+}
+
+ConversionChoice choose_conversion(const ConversionRequest& request, const ConverterGraph& graph) {
+  const ConversionWords& words = request.words;
+  if (!request.uses_fit_file) {
+    if (!request.source.empty()) require_known(words.source, request.source.name, graph, words.all_names);
+    if (!request.target.empty()) require_known(words.target, request.target.name, graph, words.all_names);
+  }
+  const NamedEnd from = named_end(request.source.name, request.source_workflow, words.source_workflow, graph);
+  const std::string target = target_named(request, from);
+  const NamedEnd to = named_end(target, request.target_workflow, words.target_workflow, graph);
+  ConversionChoice choice;
+  choice.source_brdf = from.name;
+  choice.target_brdf = target;
+  choice.is_closest = target != request.target.name;
+  choice.renderer = renderer_of(target);
+  note_alias(request.source, choice);
+  note_alias(request.target, choice);
+  if (!from.has_workflow() && !to.has_workflow()) return choice;
+  if (from.name.empty() || request.target.empty())
+    throw usage_error((from.name.empty() ? words.source : words.target) + " is required");
+  const WorkflowModel source_end = from.workflow(), target_end = to.workflow();
+  choice.source_brdf = source_end.brdf;
+  choice.target_brdf = target_end.brdf;
+  choice.source = source_end.end;
+  choice.target = target_end.end;
+  choose_diffuse(request, source_end, target_end, choice);
+  choose_f0(request, choice);
+  choice.prior = request.prior;
+  choice.changes_nothing = choice.source_brdf == choice.target_brdf && request.via.empty() &&
+                           is_same_material(*choice.source, *choice.target);
+  if (choice.changes_nothing)
+    choice.notes.push_back("both ends are one material: files and encodings change, no value does");
+  return choice;
+}
+
+WorkflowStages stages_of(const ConversionChoice& choice, const Converter* brdf) {
+  WorkflowStages stages{*choice.source, *choice.target};
+  stages.brdf = brdf;
+  stages.width = width_of(stages.target);
+  stages.prior = choice.prior;
+  return stages;
+}
+
+namespace {
+
+// Adds the material around the BRDF.
+BuiltConversion with_material(const ConversionChoice& choice, BuiltConversion conversion,
+                              InstructionSet set) {
+  if (conversion.brdf != nullptr && !conversion.brdf->self_test())
+    throw Error(ErrorKind::kNumeric,
+                conversion.brdf->info().id + ": self-test failed (results would be wrong)");
+  if (choice.is_material())
+    conversion.material = make_workflow_converter(stages_of(choice, conversion.brdf), set);
+  return conversion;
+}
+
+}  // namespace
+
+BuiltConversion build_conversion(const ConversionChoice& choice, std::unique_ptr<Converter> brdf) {
+  const InstructionSet set = brdf->info().instructions;
+  BuiltConversion conversion;
+  conversion.owned_brdf = std::move(brdf);
+  conversion.brdf = conversion.owned_brdf.get();
+  conversion.path = {{conversion.brdf}, expected_error(conversion.brdf->info())};
+  return with_material(choice, std::move(conversion), set);
+}
+
+BuiltConversion build_conversion(const ConversionChoice& choice, const std::vector<std::string>& via,
+                                 const ConverterGraph& graph, InstructionSet set) {
+  BuiltConversion conversion;
+  if (!choice.is_material() || choice.source_brdf != choice.target_brdf || !via.empty()) {
+    conversion.path = graph.find_paths({choice.source_brdf, choice.target_brdf, via}).front();
+    conversion.closer =
+        closer_path(conversion.path, graph.paths_to_renderer({choice.source_brdf, choice.renderer, {}}));
+    if (conversion.path.steps.size() > 1)
+      conversion.owned_brdf = make_chained_converter(conversion.path.steps);
+    conversion.brdf = conversion.owned_brdf ? conversion.owned_brdf.get() : conversion.path.steps.front();
+  }
+  return with_material(choice, std::move(conversion), set);
+}
+
+ConversionChoice choice_of_warp(const WarpMapFit& warp, WorkflowKind source, RoughnessEncoding width) {
+  ConversionChoice choice;
+  choice.source_brdf = warp.source_model;
+  choice.target_brdf = warp.template_model;
+  if (source == WorkflowKind::kMetallic)
+    choice.source =
+        MetallicWorkflow{warp.source_model, kCommonDielectricF0, DiffuseConvention::kPlain, width};
+  else
+    choice.source = SpecularWorkflow{warp.source_model, DiffuseConvention::kPlain, width};
+  choice.target = SpecularWorkflow{warp.template_model, DiffuseConvention::kPlain, width};
+  return choice;
+}
+
+}  // namespace remap

@@ -1,0 +1,97 @@
+#include "remap/shipped_converters.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "core/read_file.hpp"
+#include "paths/converter_file.hpp"
+#include "paths/shipped_text.hpp"
+#include "remap/error.hpp"
+#include "stages/brdf_stage.hpp"
+
+namespace remap {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Fits of whole materials and warps have files of their own on the command line.
+void add_fit(FittedConverter fit, std::vector<ConverterData>* converters) {
+  if (auto* data = std::get_if<ConverterData>(&fit)) converters->push_back(std::move(*data));
+}
+
+// Files of a folder that are no fits of a folder of remapc: its manifest and its lock.
+bool may_be_fit(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return path.extension() == ".json" && name != "manifest.json" && name != "lock.json";
+}
+
+std::vector<ConverterData> read_data(const fs::path& path) {
+  std::vector<ConverterData> converters;
+  if (fs::is_directory(path)) {
+    for (const auto& entry : fs::directory_iterator(path))
+      if (may_be_fit(entry.path())) add_fit(load_fitted_converter(entry.path()), &converters);
+    return converters;
+  }
+  const std::string text = read_file(path);
+  if (text.find("\"remap-converters\"") < 64) return converters_from_json(text, path.string());
+  add_fit(fitted_converter_from_json(text, path.string()), &converters);
+  return converters;
+}
+
+ConverterList make_converters(std::vector<ConverterData> all, InstructionSet set) {
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.info.id < b.info.id; });
+  ConverterList made;
+  for (const ConverterData& data : all) made.push_back(make_converter(data, set));
+  return made;
+}
+
+ConverterList make_shipped(InstructionSet set) {
+  static const std::vector<ConverterData> data = converters_from_json(shipped_text(), "converters.json");
+  return make_converters(data, set);
+}
+
+}  // namespace
+
+ConverterList read_converters(const fs::path& path, InstructionSet set) {
+  if (!fs::exists(path))
+    throw Error(ErrorKind::kInput, path.string() +
+                                       ": does not exist (name a file of converters, a fit or a folder "
+                                       "of fits)");
+  std::vector<ConverterData> data = read_data(path);
+  if (data.empty())
+    throw Error(ErrorKind::kInput, path.string() +
+                                       ": holds no converter (name a file of `remapc emit --all`, a fit or "
+                                       "a folder of fits)");
+  return make_converters(std::move(data), set);
+}
+
+const ConverterList& shipped_converters(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::kBaseline: {
+      static const ConverterList baseline = make_shipped(InstructionSet::kBaseline);
+      return baseline;
+    }
+    case InstructionSet::kAvx2: {
+      static const ConverterList avx2 = make_shipped(InstructionSet::kAvx2);
+      return avx2;
+    }
+    case InstructionSet::kAvx512:
+      break;
+  }
+  static const ConverterList avx512 = make_shipped(InstructionSet::kAvx512);
+  return avx512;
+}
+
+const Converter& find_converter(const std::string& source_model, const std::string& target_model,
+                                InstructionSet set) {
+  for (const auto& converter : shipped_converters(set)) {
+    const ConverterInfo& info = converter->info();
+    if (info.source.model == source_model && info.target.model == target_model) return *converter;
+  }
+  throw Error(ErrorKind::kUsage,
+              source_model + " to " + target_model +
+                  ": no converter joins these two models directly (search for a path instead)");
+}
+
+}  // namespace remap

@@ -1,0 +1,21 @@
+// The commands of texremap. Each has a file of its own.
+#pragma once
+
+#include "command_line/command.hpp"
+#include "texremap/options/program.hpp"
+
+namespace remap {
+
+// The program: run_app() with all of its commands. Callable more than once in a process, and from one thread
+// at a time.
+int run_texremap(int argc, const char* const* argv) noexcept;
+
+void add_check_command(Command& app);
+void add_convert_command(Command& app);
+void add_index_command(Command& app);
+void add_list_command(Command& app);
+void add_merge_reports_command(Command& app);
+void add_path_command(Command& app);
+void add_plan_command(Command& app);
+
+}  // namespace remap

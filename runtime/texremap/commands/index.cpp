@@ -1,0 +1,112 @@
+// `texremap index`: lists the texture sets of a tree, or its assets, in a manifest, by which many processes
+// share one conversion.
+#include <iostream>
+
+#include "command_line/run_app.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+#include "core/stopwatch.hpp"
+#include "texremap/commands/commands.hpp"
+#include "texremap/plan/asset_jobs.hpp"
+#include "texremap/plan/manifest.hpp"
+#include "texremap/plan/written_names.hpp"
+#include "texture/content_hash.hpp"
+
+namespace remap {
+namespace {
+
+struct IndexOptions {
+  std::filesystem::path folder, output;
+  std::string names, format;
+  bool assets = false, force = false, json = false, quiet = false;
+};
+
+Listing listing_of_sets(const IndexOptions& options) {
+  const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
+  DiscoveryOptions discovery;
+  discovery.naming = &naming;
+  Listing listing;
+  listing.found = find_sets(options.folder, discovery);
+  // Names of results are those of sets: of two that differ in case alone, parts would write one file.
+  WrittenNames names;
+  std::erase_if(listing.found.sets, [&](const FoundSet& set) {
+    const std::filesystem::path place = options.folder / set.folder / set.name;
+    const std::string other = names.take(place, display_path(options.folder / set.maps.front().path));
+    if (!other.empty())
+      listing.found.problems.push_back(
+          {set.folder / set.name, display_path(options.folder / set.maps.front().path) +
+                                      ": its set has the same name as the set of " + other +
+                                      " (rename one of the sets; case does not count)"});
+    return !other.empty();
+  });
+  if (listing.found.sets.empty() && listing.found.problems.empty())
+    throw usage_error(options.folder.string() +
+                      ": no texture set found by file names (use --names FILE for other names, or "
+                      "--assets for glTF and MTL files)");
+  return listing;
+}
+
+void index(const IndexOptions& options) {
+  const Stopwatch stopwatch;
+  require_new(options.output, options.force);
+  Listing listing =
+      options.assets ? listing_of_assets(options.folder, options.format) : listing_of_sets(options);
+  const std::size_t unrecognised = listing.found.unrecognised.size();
+  if (!options.quiet)
+    for (const WalkProblem& problem : listing.found.problems)
+      print_message(kProgram, "failed: " + problem.message);
+  const ManifestHead head =
+      write_manifest(options.output, options.folder, options.names.empty() ? "" : hash_of_file(options.names),
+                     std::move(listing));
+  if (options.json) {
+    Json json = {{"manifest", options.output.string()},
+                 {std::string(name_of(kListedKinds, head.kind)), head.count},
+                 {"files", head.file_count},
+                 {"bytes", head.bytes},
+                 {"cost", head.cost}};
+    if (head.kind == ListedKind::kSets) json["unrecognised_images"] = unrecognised;
+    json["hash"] = head.hash;
+    json["seconds"] = stopwatch.seconds();
+    std::cout << json.dump(2) << '\n';
+  }
+  if (options.quiet) return;
+  if (unrecognised > 0)
+    print_message(kProgram, counted(unrecognised, "image") +
+                                " left out, because no habit knows the name (--names FILE teaches one)");
+  print_message(kProgram, counted(head.count, noun_of(head.kind)) + " of " +
+                              counted(head.file_count, "file") + ", " +
+                              fixed(static_cast<double>(head.bytes) * 1e-9, 2) + " GB, in " +
+                              fixed(stopwatch.seconds(), 1) + " s");
+}
+
+}  // namespace
+
+void add_index_command(Command& app) {
+  Command* command =
+      app.add_subcommand("index", "List the texture sets or assets of a tree, for conversions in parts");
+  IndexOptions& options = set_work<IndexOptions>(*command, index);
+  command->add_option("DIR", options.folder, "Folder of texture sets or assets, with its subfolders")
+      ->required();
+  command->add_option("-o,--output FILE", options.output, "The manifest: JSON, a set or an asset a line")
+      ->required();
+  Option* assets =
+      command->add_flag("--assets", options.assets,
+                        "List the assets (glTF and MTL files, with --format glb or gltf OBJ files) "
+                        "in DIR, not the texture sets");
+  command->add_option("--format EXT", options.format, "What OBJ files are to become, as for convert")
+      ->needs(assets);
+  command->add_option("--names FILE", options.names, "More file-name habits (JSON)")->excludes(assets);
+  command->add_flag("--force", options.force, "Overwrite an existing manifest");
+  command->add_flag("--json", options.json, "Print what was found as JSON");
+  command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
+  command->footer(
+      "Example:\n"
+      "  texremap index assets -o sets\n"
+      "  texremap convert --manifest sets --part 1/4 --from unity --to gltf -o out\n"
+      "  texremap merge-reports out");
+}
+
+}  // namespace remap

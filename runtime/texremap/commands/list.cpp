@@ -1,0 +1,192 @@
+// `texremap list`: the converters with the result of their self-tests, their models, or the workflows.
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command_line/command.hpp"
+#include "converter/converter_fields.hpp"
+#include "remap/error.hpp"
+#include "remap/path.hpp"
+#include "remap/workflow.hpp"
+#include "texremap/commands/commands.hpp"
+#include "texremap/options/used_converters.hpp"
+#include "texremap/plan/converter_text.hpp"
+
+namespace remap {
+namespace {
+
+struct ListOptions {
+  bool models = false;
+  bool workflows = false;
+  bool json = false;
+  UsedConverters converters;
+};
+
+// A converter as a path of one step.
+struct ListedConverter {
+  const Converter& converter;
+  ConverterPath path;
+  std::optional<ConverterPath> closer;
+};
+
+ListedConverter listed(const ConverterGraph& graph, const Converter& converter) {
+  const ConverterInfo& info = converter.info();
+  ConverterPath path{{&converter}, expected_error(info)};
+  auto closer =
+      closer_path(path, graph.paths_to_renderer({info.source.model, renderer_of(info.target.model), {}}));
+  return {converter, std::move(path), std::move(closer)};
+}
+
+Json converter_json(const ListedConverter& entry) {
+  const ConverterInfo& info = entry.converter.info();
+  Json json = {{"id", info.id},
+               {"source", side_json(info.source)},
+               {"target", side_json(info.target)},
+               {"domain", domain_json(info)},
+               {"rms_error", errors_json(info)},
+               {"ssim", ssim_json(info)},
+               {"expected_error", entry.path.expected_error},
+               {"instructions", std::string(instruction_set_name(info.instructions))},
+               {"self_test", entry.converter.self_test()}};
+  json.update(pictures_json(entry.path, entry.closer));
+  return json;
+}
+
+void print_converter(const ListedConverter& entry) {
+  const Converter& converter = entry.converter;
+  const ConverterInfo& info = converter.info();
+  std::cout << info.id << '\n'
+            << "  from   " << info.source.model << ", " << domain_text(info) << '\n'
+            << "  to     " << info.target.model << ", " << encoding_name(info.target.roughness) << " and "
+            << info.target.specular << '\n'
+            << "  test   " << (converter.self_test() ? "passed" : "FAILED") << " with "
+            << instruction_set_name(info.instructions) << " instructions\n";
+  std::cout << "  note   " << difference_text(entry.path) << '\n';
+  if (entry.closer) std::cout << "  note   " << closer_text(*entry.closer) << '\n';
+}
+
+void list_converters(const ListOptions& options) {
+  const ConverterGraph graph = options.converters.graph();
+  Json all = Json::list();
+  std::string failed;
+  for (const Converter* converter : graph.converters()) {
+    if (options.json)
+      all.push_back(converter_json(listed(graph, *converter)));
+    else
+      print_converter(listed(graph, *converter));
+    if (!converter->self_test()) failed += (failed.empty() ? "" : ", ") + converter->info().id;
+  }
+  if (options.json) std::cout << all.dump(2) << '\n';
+  if (!failed.empty())
+    throw Error(ErrorKind::kNumeric, failed + ": self-test failed (results would be wrong)");
+}
+
+Json reached_json(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  Json json = {
+      {"model", target_model(path)}, {"path", path_json(path)}, {"expected_error", path.expected_error}};
+  json.update(pictures_json(path, closer));
+  return json;
+}
+
+void print_reached(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  std::cout << "  reaches  " << target_model(path) << ", " << difference_text(path);
+  if (path.steps.size() > 1) std::cout << ", in " << path.steps.size() << " steps";
+  if (closer) std::cout << "; " << closer_text(*closer);
+  std::cout << '\n';
+}
+
+void list_models(const ListOptions& options) {
+  const ConverterGraph graph = options.converters.graph();
+  Json all = Json::list();
+  for (const std::string& model : graph.models()) {
+    const ModelSide side = graph.side_of(model);
+    Json entry = side_json(side);
+    entry["reaches"] = Json::list();
+    if (!options.json)
+      std::cout << model << '\n'
+                << "  takes    " << encoding_name(side.roughness) << " and " << side.specular << '\n';
+    std::vector<ConverterPath> paths;
+    for (const std::string& target : graph.reachable_from(model))
+      paths.push_back(graph.find_paths({model, target, {}}).front());
+    for (const ConverterPath& path : paths) {
+      const std::optional<ConverterPath> closer = closer_path(path, paths);
+      if (options.json)
+        entry["reaches"].push_back(reached_json(path, closer));
+      else
+        print_reached(path, closer);
+    }
+    all.push_back(entry);
+  }
+  if (options.json) std::cout << all.dump(2) << '\n';
+}
+
+Json workflow_json(const WorkflowModel& model) {
+  Json json = {{"model", model_of(model.end)},
+               {"workflow", kind_name(model.end)},
+               {"diffuse", diffuse_convention_name(diffuse_of(model.end))},
+               {"dielectric_f0", Json()},
+               {"width", encoding_name(width_of(model.end))},
+               {"brdf", model.brdf},
+               {"conventions_known", model.conventions_known},
+               {"reason", model.reason}};
+  if (const auto* metallic = std::get_if<MetallicWorkflow>(&model.end))
+    json["dielectric_f0"] = metallic->dielectric_f0;
+  json["aliases"] = Json::list();
+  for (const ModelAlias& alias : model_aliases())
+    if (alias.model == model_of(model.end))
+      json["aliases"].push_back({{"name", alias.name}, {"meaning", alias.meaning}});
+  return json;
+}
+
+void print_workflow(const WorkflowModel& model) {
+  const auto* metallic = std::get_if<MetallicWorkflow>(&model.end);
+  std::cout << model_of(model.end) << '\n'
+            << "  takes    " << (metallic != nullptr ? "base color, metallic and " : "diffuse, specular and ")
+            << encoding_name(width_of(model.end)) << '\n'
+            << "  diffuse  " << diffuse_convention_name(diffuse_of(model.end));
+  if (metallic != nullptr) std::cout << ", dielectric F0 " << metallic->dielectric_f0;
+  std::cout << (model.conventions_known ? "" : " (assumed)") << '\n'
+            << "  over     " << model.brdf << '\n'
+            << "  because  " << model.reason << '\n';
+  const char* title = "  also     ";
+  for (const ModelAlias& alias : model_aliases()) {
+    if (alias.model != model_of(model.end)) continue;
+    std::cout << title << alias.name << ": " << alias.meaning << '\n';
+    title = "           ";
+  }
+}
+
+void list_workflows(const ListOptions& options) {
+  Json all = Json::list();
+  for (const WorkflowModel& model : workflow_models()) {
+    if (options.json)
+      all.push_back(workflow_json(model));
+    else
+      print_workflow(model);
+  }
+  if (options.json) std::cout << all.dump(2) << '\n';
+}
+
+void list(const ListOptions& options) {
+  if (options.workflows) return list_workflows(options);
+  options.models ? list_models(options) : list_converters(options);
+}
+
+}  // namespace
+
+void add_list_command(Command& app) {
+  Command* command = app.add_subcommand("list", "List the converters, their models, or the workflows");
+  ListOptions& options = set_work<ListOptions>(*command, list);
+  command->add_flag("--models", options.models, "List the models, and the models that each one reaches");
+  command->add_flag("--workflows", options.workflows,
+                    "List the named workflows with their conventions. `convert` combines other models with a "
+                    "workflow by --from-workflow and --to-workflow");
+  options.converters.add_option(*command);
+  command->add_flag("--json", options.json, "Print JSON");
+  command->footer("Example:\n  texremap list --json\n  texremap list --workflows");
+}
+
+}  // namespace remap

@@ -1,0 +1,83 @@
+// `texremap merge-reports`: one report of the parts of a conversion, which names what is missing.
+#include <iostream>
+#include <optional>
+
+#include "command_line/run_app.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/report_text.hpp"
+#include "texremap/commands/commands.hpp"
+#include "texremap/report/part_report.hpp"
+
+namespace remap {
+namespace {
+
+struct MergeOptions {
+  std::filesystem::path folder, output;
+  bool force = false, json = false, quiet = false;
+};
+
+Json summary_json(const MergedReport& merged) {
+  Json summary = {{"parts", merged.part_count},
+                  {std::string(name_of(kListedKinds, merged.kind)), merged.entry_count},
+                  {"converted", merged.converted},
+                  {"done_before", merged.done_before},
+                  {"failed", merged.failed},
+                  {"left_out", merged.left_out},
+                  {"bytes_read", merged.bytes_read},
+                  {"bytes_written", merged.bytes_written}};
+  if (merged.kind == ListedKind::kSets) summary["texels"] = merged.texels;
+  summary["processor_seconds"] = merged.processor_seconds;
+  summary["problems"] = merged.problems;
+  return {{"summary", summary}};
+}
+
+// More failures than a person reads; the report has all.
+constexpr std::size_t kShownFailures = 20;
+
+void merge(const MergeOptions& options) {
+  if (!options.output.empty()) require_new(options.output, options.force);
+  std::optional<NewFile> file;
+  if (!options.output.empty()) file.emplace(options.output);
+  const auto take = [&](std::string_view line) {
+    if (options.json) std::cout << line << '\n';
+    if (!file) return;
+    file->add(line);
+    file->add("\n");
+  };
+  const MergedReport merged = merge_reports(options.folder, take);
+  take(summary_json(merged).dump());
+  if (file) file->commit();
+  for (const std::string& problem : merged.problems) print_message(kProgram, problem);
+  for (std::size_t i = 0; i < std::min(merged.failures.size(), kShownFailures); ++i)
+    print_message(kProgram, "failed: " + merged.failures[i]);
+  const std::string text = counted(merged.part_count, "part") + ": " +
+                           counted(merged.converted, noun_of(merged.kind)) + " converted, " +
+                           std::to_string(merged.failed) + " failed, " + std::to_string(merged.done_before) +
+                           " done before, " + std::to_string(merged.left_out) + " left out; " +
+                           fixed(merged.processor_seconds, 1) + " s of processor time";
+  if (!merged.problems.empty()) throw input_error(text + "; " + counted(merged.problems.size(), "problem"));
+  if (merged.failed > 0) throw input_error(text);
+  if (!options.quiet) print_message(kProgram, text);
+}
+
+}  // namespace
+
+void add_merge_reports_command(Command& app) {
+  Command* command = app.add_subcommand("merge-reports",
+                                        "Make one report of the parts of a conversion; name what is missing");
+  MergeOptions& options = set_work<MergeOptions>(*command, merge);
+  command->add_option("DIR", options.folder, "The output folder of the conversion")->required();
+  command->add_option("-o,--output FILE", options.output,
+                      "Write the report: JSON, a set or an asset a line, then a summary");
+  command->add_flag("--force", options.force, "Overwrite an existing report");
+  command->add_flag("--json", options.json, "Print the report to standard output");
+  command->add_flag("--quiet", options.quiet, "Print nothing but failures to standard error");
+  command->footer(
+      "The exit code is 1 if a set or an asset failed, or if the parts do not belong to one conversion, each "
+      "once.\n\n"
+      "Example:\n"
+      "  texremap merge-reports converted -o report.jsonl");
+}
+
+}  // namespace remap

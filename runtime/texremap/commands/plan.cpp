@@ -1,0 +1,248 @@
+// `texremap plan`: files that hand a conversion in parts to a scheduler. It measures a few entries to say
+// what a part needs, and submits nothing.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numeric>
+
+#include "command_line/run_app.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/report_text.hpp"
+#include "core/scratch_folder.hpp"
+#include "core/stopwatch.hpp"
+#include "core/system.hpp"
+#include "texremap/commands/commands.hpp"
+#include "texremap/commands/convert.hpp"
+#include "texremap/commands/farm_plan.hpp"
+#include "texremap/plan/convert_plan.hpp"
+#include "texremap/plan/manifest.hpp"
+
+namespace remap {
+namespace {
+
+struct PlanOptions {
+  PlanKind kind = PlanKind::kCommands;
+  std::filesystem::path manifest, folder;
+  std::vector<std::string> words;  // of convert
+  std::size_t parts = 0;           // 0: chosen
+  unsigned threads = 1;
+  int memory_megabytes = 0, minutes = 0;  // 0: measured
+  std::string program;
+  bool force = false, json = false, quiet = false;
+};
+
+// A part takes a quarter of an hour: long beside its start, short beside the time that a kill loses.
+constexpr double kUsualSeconds = 900.0;
+// More parts are refused by a cluster with the default of Slurm's MaxArraySize.
+constexpr std::size_t kMostParts = 1000;
+constexpr std::size_t kMeasuredEntries = 8;
+
+// What a conversion needs on this machine.
+struct Measured {
+  double seconds_a_cost = 0.0;  // on one thread
+  double memory_bytes = 0.0;
+};
+
+// The largest entry, and others evenly spread over the entries by their cost.
+Listing sample_of(const TreeManifest& manifest) {
+  std::vector<std::size_t> order(manifest.costs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return manifest.costs[i]; });
+  const std::size_t count = std::min(kMeasuredEntries, order.size());
+  Listing sample;
+  sample.kind = manifest.head.kind;
+  for (std::size_t i = 1; i <= count; ++i) {
+    const std::size_t at = order[i * order.size() / count - 1];
+    if (sample.kind == ListedKind::kSets)
+      sample.found.sets.push_back(manifest.listing.found.sets[at]);
+    else
+      sample.assets.push_back(manifest.listing.assets[at]);
+  }
+  return sample;
+}
+
+Measured measured(const TreeManifest& manifest, ConvertOptions options) {
+  const ScratchFolder scratch("texremap-plan");
+  options.manifest = scratch.file("sets.jsonl");
+  options.output = scratch.file("out");
+  if (!options.diagnose.empty()) options.diagnose = scratch.file("diagnose");
+  options.quiet = true;
+  options.thread_count = 1;
+  const ManifestHead head = write_manifest(options.manifest, options.folder, "", sample_of(manifest));
+  const Stopwatch stopwatch;
+  try {
+    convert(options);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    print_message(kProgram, std::string("note: while measuring: ") + error.what());
+  }
+  return {stopwatch.seconds() / static_cast<double>(std::max<std::uint64_t>(head.cost, 1)),
+          static_cast<double>(resource_use().peak_memory_bytes)};
+}
+
+std::uint64_t highest_cost_of_part(const TreeManifest& manifest, std::size_t count) {
+  std::vector<std::uint64_t> parts(count, 0);
+  std::uint64_t before = 0;
+  for (const std::uint64_t cost : manifest.costs) {
+    parts[part_of_entry(before, cost, manifest.head, count) - 1] += cost;
+    before += cost;
+  }
+  return *std::ranges::max_element(parts);
+}
+
+std::filesystem::path whole(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal();
+}
+
+// The options of convert that the words of a plan give. Throws kUsage for those that the plan writes itself.
+ConvertOptions options_of(const std::vector<std::string>& words) {
+  Command command("The options of texremap convert", "texremap convert");
+  ConvertOptions options;
+  add_convert_options(command, options);
+  const std::string reason = ": is written by texremap plan itself (remove it after --)";
+  for (const std::string& word : words)
+    if (const std::string name = word.substr(0, word.find('=')); (command.tags_of(name) & kOfPlan) != 0)
+      throw usage_error(name + reason);
+  run_words(command, words);
+  note_given(command, options);
+  refuse(options, kOfPlan, reason);
+  if (options.output.empty()) throw usage_error("--output is required after -- (the folder of the results)");
+  return options;
+}
+
+// The same options without the output folder, with the paths of files absolute: jobs run in other folders.
+std::vector<std::string> words_of_jobs(const ConvertOptions& options) {
+  std::vector<std::string> words;
+  for (const GivenOption& option : options.given) {
+    if (option.name == "--output") continue;
+    const bool is_path = (option.tags & kIsPath) != 0;
+    if (option.words.empty()) words.push_back(option.name);
+    for (const std::string& word : option.words) {
+      words.push_back(option.name);
+      words.push_back(is_path ? whole(word).string() : word);
+    }
+  }
+  if (!options.quiet) words.emplace_back("--quiet");
+  return words;
+}
+
+std::string own_program() {
+  const std::filesystem::path path = program_file();
+  return path.empty() ? "texremap" : path.string();
+}
+
+int rounded_up(double value, int step) { return static_cast<int>(std::ceil(value / step)) * step; }
+
+void plan(const PlanOptions& options) {
+  const ConvertOptions asked = options_of(options.words);
+  const TreeManifest manifest = read_manifest(options.manifest, Part());
+  if (manifest.costs.empty())
+    throw input_error(options.manifest.string() + ": lists no " + std::string(noun_of(manifest.head.kind)));
+  ConvertOptions conversion = asked;
+  conversion.manifest = options.manifest;
+  conversion.folder = manifest.head.root;
+  conversion.quiet = options.quiet;
+  for (const std::string& message : resolve(conversion).messages)
+    if (!options.quiet) print_message(kProgram, message);
+
+  PlannedFarm farm{options.program.empty() ? own_program() : options.program,
+                   whole(options.manifest),
+                   manifest.head.root,
+                   whole(asked.output),
+                   whole(options.folder),
+                   words_of_jobs(asked)};
+  require_writable(options.kind, farm);
+  const bool is_given = options.parts > 0 && options.minutes > 0 && options.memory_megabytes > 0;
+  const Measured one = is_given ? Measured() : measured(manifest, conversion);
+  const double threads = std::max(options.threads, 1u);
+  const double seconds = one.seconds_a_cost * static_cast<double>(manifest.head.cost);
+  farm.threads = options.threads;
+  farm.parts = options.parts > 0
+                   ? options.parts
+                   : std::clamp(static_cast<std::size_t>(std::ceil(seconds / threads / kUsualSeconds)),
+                                std::size_t{1}, std::min(kMostParts, manifest.costs.size()));
+  const double longest =
+      one.seconds_a_cost * static_cast<double>(highest_cost_of_part(manifest, farm.parts)) / threads;
+  // Other machines are slower, and storage that many read at once is.
+  farm.minutes = options.minutes > 0 ? options.minutes : rounded_up(5.0 + 3.0 * longest / 60.0, 5);
+  farm.memory_megabytes = options.memory_megabytes > 0 ? options.memory_megabytes
+                                                       : rounded_up(1.5e-6 * one.memory_bytes * threads, 100);
+
+  const PlanFiles files = plan_files(options.kind, farm);
+  for (const auto& [name, text] : files.files) require_new(options.folder / name, options.force);
+  Json names = Json::list();
+  for (const auto& [name, text] : files.files) {
+    write_file(options.folder / name, text);
+    names.push_back((options.folder / name).string());
+  }
+  if (options.json) {
+    std::cout << Json({{"files", names},
+                       {"submit", files.submit},
+                       {std::string(name_of(kListedKinds, manifest.head.kind)), manifest.head.count},
+                       {"parts", farm.parts},
+                       {"threads", farm.threads},
+                       {"minutes", farm.minutes},
+                       {"memory_megabytes", farm.memory_megabytes},
+                       {"expected_seconds", is_given ? Json() : Json(seconds)},
+                       {"expected_seconds_of_longest_part", is_given ? Json() : Json(longest)}})
+                     .dump(2)
+              << '\n';
+    return;
+  }
+  if (!options.quiet) {
+    std::string text =
+        counted(manifest.head.count, noun_of(manifest.head.kind)) + " in " + counted(farm.parts, "part");
+    if (!is_given)
+      text += ": about " + fixed(seconds / 60.0, 1) + " processor minutes by this machine, " +
+              fixed(longest / 60.0, 1) + " the longest part";
+    print_message(kProgram, text + "; " + std::to_string(farm.memory_megabytes) + " MB and " +
+                                std::to_string(farm.minutes) + " minutes at most a part");
+    if (farm.parts > kMostParts && options.kind == PlanKind::kSlurm)
+      print_message(kProgram, "note: clusters with the default MaxArraySize refuse more than " +
+                                  std::to_string(kMostParts) + " parts");
+  }
+  std::cout << files.submit << '\n';
+}
+
+}  // namespace
+
+void add_plan_command(Command& app) {
+  Command* command =
+      app.add_subcommand("plan", "Write what hands a conversion in parts to a scheduler; submit nothing");
+  PlanOptions& options = set_work<PlanOptions>(*command, plan);
+  command
+      ->add_option(
+          "KIND", options.kind, one_of(kPlanKinds, "kind of plan"),
+          "slurm (batch scripts), openjd (a job template of render farms) or commands (one a line, for "
+          "GNU parallel and others)")
+      ->required();
+  command->add_option("--manifest FILE", options.manifest, "The sets or assets, as texremap index lists them")
+      ->required();
+  command->add_option("-o,--output FOLDER", options.folder, "Where the plan is written")->required();
+  command->add_option("OPTIONS", options.words,
+                      "After --: options of texremap convert, with -o for the results");
+  command
+      ->add_option("--parts N", options.parts,
+                   "Number of parts (default: a quarter of an hour each, 1000 at most)")
+      ->range(std::size_t{1}, std::size_t{1'000'000});
+  command->add_option("--threads N", options.threads, "Threads of a part; 0 for all of its machine");
+  command->add_option("--memory MB", options.memory_megabytes, "Memory of a part (default: measured)")
+      ->positive();
+  command->add_option("--time MINUTES", options.minutes, "Time limit of a part (default: measured)")
+      ->positive();
+  command->add_option("--program FILE", options.program, "texremap as the jobs call it (default: this one)");
+  command->add_flag("--force", options.force, "Overwrite an existing plan");
+  command->add_flag("--json", options.json, "Print what was planned as JSON");
+  command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
+  command->footer(
+      "A few of them are converted to a temporary folder, which tells time and memory. Standard output has "
+      "the "
+      "line that submits the plan.\n\n"
+      "Example:\n"
+      "  texremap plan slurm --manifest sets -o plan -- --from unity --to gltf -o out\n"
+      "  sh plan/submit.sh");
+}
+
+}  // namespace remap

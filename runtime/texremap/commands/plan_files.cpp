@@ -1,0 +1,198 @@
+// The texts of plans. Slurm: sbatch(1), job arrays and dependencies. Open Job Description: template schema
+// 2023-09 (OpenJobDescription/openjd-specifications).
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "core/json.hpp"
+#include "core/plain_text.hpp"
+#include "texremap/commands/farm_plan.hpp"
+
+namespace remap {
+namespace {
+
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_word(word);
+  return text;
+}
+
+// A folder and a file name in a line #SBATCH. sbatch(1) replaces %, and takes words as a shell does.
+std::string log_line(const std::filesystem::path& folder, const std::string& name) {
+  std::string text;
+  for (const char c : folder.string()) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+    if (c == '%') text += '%';
+  }
+  return "#SBATCH --output=\"" + text + "/" + name + "\"\n";
+}
+
+// As a plan writes them: themselves, or parameters of a template.
+struct PlannedPaths {
+  std::string program, manifest, tree, output, report;
+};
+
+PlannedPaths paths_of(const PlannedFarm& farm) {
+  return {farm.program, farm.manifest.string(), farm.tree.string(), farm.output.string(),
+          (farm.folder / "report.jsonl").string()};
+}
+
+// `part`: the value of --part.
+std::vector<std::string> convert_words(const PlannedFarm& farm, const PlannedPaths& paths,
+                                       const std::string& part) {
+  std::vector<std::string> words = {paths.program,  "convert", paths.tree, "--manifest",
+                                    paths.manifest, "--part",  part};
+  words.insert(words.end(), farm.options.begin(), farm.options.end());
+  for (const std::string& word : {std::string("--threads"), std::to_string(farm.threads),
+                                  std::string("--resume"), std::string("-o"), paths.output})
+    words.push_back(word);
+  return words;
+}
+
+std::vector<std::string> merge_words(const PlannedPaths& paths) {
+  return {paths.program, "merge-reports", paths.output, "-o", paths.report, "--force"};
+}
+
+PlanFiles slurm_files(const PlannedFarm& farm) {
+  const PlannedPaths paths = paths_of(farm);
+  const std::filesystem::path log = farm.folder / "log";
+  const std::string threads = std::to_string(farm.threads);
+  std::string convert = "#!/bin/sh\n#SBATCH --job-name=texremap\n#SBATCH --array=1-" +
+                        std::to_string(farm.parts) + "\n#SBATCH --ntasks=1\n";
+  convert += farm.threads == 0 ? "#SBATCH --exclusive\n" : "#SBATCH --cpus-per-task=" + threads + "\n";
+  convert +=
+      "#SBATCH --mem=" + std::to_string(farm.memory_megabytes) +
+      "M\n#SBATCH --time=" + std::to_string(farm.minutes) +
+      "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n" + log_line(log, "%a.txt") + "\n" +
+      shell_line(convert_words(farm, paths, "auto/" + std::to_string(farm.parts))) +
+      "\ncode=$?\n"
+      "# 75: a full disk, or storage that did not answer. The part goes on where it ended.\n"
+      "if [ \"$code\" = 75 ] && [ \"${SLURM_RESTART_COUNT:-0}\" -lt 3 ]; then\n"
+      "  scontrol requeue \"${SLURM_ARRAY_JOB_ID}_${SLURM_ARRAY_TASK_ID}\" && sleep 60  # ended by it\n"
+      "fi\n"
+      "exit \"$code\"\n";
+  const std::string merge = "#!/bin/sh\n#SBATCH --job-name=texremap-merge\n#SBATCH --ntasks=1\n" +
+                            log_line(log, "merge.txt") + "\n" + shell_line(merge_words(paths)) + "\n";
+  // Parts may be given, as in `submit.sh 3,17`: those to do again.
+  const std::string submit =
+      "#!/bin/sh\n# Submits all parts, or the parts of its argument (3,17-19), and after them the merge.\n"
+      "set -e\nhere=" +
+      shell_word(farm.folder.string()) +
+      "\nmkdir -p \"$here/log\"\n"
+      "array=$(sbatch --parsable ${1:+--array=\"$1\"} \"$here/convert.sbatch\")\n"
+      "merge=$(sbatch --parsable --dependency=afterany:\"${array%%;*}\" \"$here/merge.sbatch\")\n"
+      "echo \"parts: job ${array%%;*}, merge: job ${merge%%;*}\"\n";
+  return {{{"convert.sbatch", convert}, {"merge.sbatch", merge}, {"submit.sh", submit}},
+          "sh " + shell_word((farm.folder / "submit.sh").string())};
+}
+
+PlanFiles commands_files(const PlannedFarm& farm) {
+  const PlannedPaths paths = paths_of(farm);
+  std::string lines;
+  for (std::size_t i = 1; i <= farm.parts; ++i)
+    lines +=
+        shell_line(convert_words(farm, paths, std::to_string(i) + "/" + std::to_string(farm.parts))) + "\n";
+  return {{{"commands.txt", lines}, {"merge.sh", "#!/bin/sh\n" + shell_line(merge_words(paths)) + "\n"}},
+          "parallel --retries 3 < " + shell_word((farm.folder / "commands.txt").string()) + "; sh " +
+              shell_word((farm.folder / "merge.sh").string())};
+}
+
+// A parameter of a template that is a path, which farms translate to where a worker sees it. Its value stands
+// in a file beside the template: a default must not be absolute.
+Json path_parameter(const std::string& name, const std::string& object, const std::string& flow) {
+  return {{"name", name}, {"type", "PATH"}, {"objectType", object}, {"dataFlow", flow}};
+}
+
+std::string file_uri(const std::filesystem::path& path) {
+  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  std::string uri = "file://";
+  for (const char c : path.string())
+    if (kPlain.find(c) != std::string_view::npos)
+      uri += c;
+    else
+      uri += percent_code(c);
+  return uri;
+}
+
+// A command without a shell: each word is an argument. A stopped one has time to leave nothing half done.
+Json script_json(const std::vector<std::string>& words) {
+  const std::vector<std::string> arguments(words.begin() + 1, words.end());
+  return {{"actions",
+           {{"onRun",
+             {{"command", words.front()},
+              {"args", arguments},
+              {"cancelation", {{"mode", "NOTIFY_THEN_TERMINATE"}, {"notifyPeriodInSeconds", 30}}}}}}}};
+}
+
+PlanFiles openjd_files(const PlannedFarm& farm) {
+  const PlannedPaths paths = {"{{Param.Program}}", "{{Param.Manifest}}", "{{Param.Tree}}", "{{Param.Output}}",
+                              "{{Param.Report}}"};
+  Json needs = {{"amounts", Json::list()}};
+  if (farm.threads > 0) needs["amounts"].push_back({{"name", "amount.worker.vcpu"}, {"min", farm.threads}});
+  needs["amounts"].push_back({{"name", "amount.worker.memory"}, {"min", farm.memory_megabytes}});
+  const Json convert = {
+      {"name", "Convert"},
+      {"hostRequirements", needs},
+      {"parameterSpace",
+       {{"taskParameterDefinitions",
+         Json::list({{{"name", "Part"}, {"type", "INT"}, {"range", "1-" + std::to_string(farm.parts)}}})}}},
+      {"script",
+       script_json(convert_words(farm, paths, "{{Task.Param.Part}}/" + std::to_string(farm.parts)))}};
+  const Json merge = {{"name", "Merge"},
+                      {"dependencies", Json::list({{{"dependsOn", "Convert"}}})},
+                      {"script", script_json(merge_words(paths))}};
+  const Json json = {{"specificationVersion", "jobtemplate-2023-09"},
+                     {"name", "texremap"},
+                     {"parameterDefinitions",
+                      Json::list({{{"name", "Program"}, {"type", "STRING"}, {"default", farm.program}},
+                                  path_parameter("Manifest", "FILE", "IN"),
+                                  path_parameter("Tree", "DIRECTORY", "IN"),
+                                  path_parameter("Output", "DIRECTORY", "INOUT"),
+                                  path_parameter("Report", "FILE", "OUT")})},
+                     {"steps", Json::list({convert, merge})}};
+  const PlannedPaths own = paths_of(farm);
+  const Json values = {
+      {"Manifest", own.manifest}, {"Tree", own.tree}, {"Output", own.output}, {"Report", own.report}};
+  return {{{"template.json", json.dump(2) + "\n"}, {"parameters.json", values.dump(2) + "\n"}},
+          "openjd run " + shell_word((farm.folder / "template.json").string()) + " --job-param " +
+              shell_word(file_uri(farm.folder / "parameters.json"))};
+}
+
+}  // namespace
+
+void require_writable(PlanKind kind, const PlannedFarm& farm) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\x7f'; };
+  const auto refuse = [](const std::string& word, const std::string& what) {
+    throw usage_error(plain(word) + ": " + what + " (rename the file or folder)");
+  };
+  std::vector<std::string> words = farm.options;
+  for (const auto& path : {farm.manifest, farm.tree, farm.output, farm.folder})
+    words.push_back(path.string());
+  words.push_back(farm.program);
+  for (const std::string& word : words) {
+    if (std::ranges::any_of(word, is_control))
+      refuse(word, "a plan cannot hold line breaks and other control characters");
+    if (kind == PlanKind::kOpenJd && !is_utf8(word)) refuse(word, "a template of OpenJD must be UTF-8");
+  }
+  for (const std::string& option : farm.options)
+    if (kind == PlanKind::kOpenJd &&
+        (option.find("{{") != std::string::npos || option.find("}}") != std::string::npos))
+      refuse(option, "a template of OpenJD cannot hold {{ or }}");
+  // sbatch would take the rest of the name as it is written, also what stands for the number of a part.
+  if (kind == PlanKind::kSlurm && farm.folder.string().find('\\') != std::string::npos)
+    refuse(farm.folder.string(), "sbatch cannot write logs to a folder with a backslash in its name");
+}
+
+PlanFiles plan_files(PlanKind kind, const PlannedFarm& farm) {
+  switch (kind) {
+    case PlanKind::kSlurm:
+      return slurm_files(farm);
+    case PlanKind::kOpenJd:
+      return openjd_files(farm);
+    case PlanKind::kCommands:
+      return commands_files(farm);
+  }
+  return {};
+}
+
+}  // namespace remap

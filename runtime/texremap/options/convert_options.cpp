@@ -1,0 +1,524 @@
+#include "texremap/options/convert_options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <thread>
+
+#include "core/errors.hpp"
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
+#include "core/system.hpp"
+#include "remap/error.hpp"
+#include "sets/name_pieces.hpp"
+
+namespace remap {
+namespace {
+
+constexpr NamedValues<PixelType, 4> kWrittenTypes = {{{PixelType::kUint8, "uint8"},
+                                                      {PixelType::kUint16, "uint16"},
+                                                      {PixelType::kHalf, "half"},
+                                                      {PixelType::kFloat, "float"}}};
+constexpr NamedValues<Parameter, 2> kOnly = {
+    {{Parameter::kRoughness, "roughness"}, {Parameter::kSpecular, "specular"}}};
+
+Reader<MapSource> map_source() {
+  return {[](const std::string& option, const std::string& word) { return parameter_source(option, word); },
+          {}};
+}
+
+Reader<std::vector<float>> factors() {
+  return {[](const std::string& option, const std::string& word) { return parse_factors(option, word); }, {}};
+}
+
+Reader<int> compression_level() {
+  return {[](const std::string& option, const std::string& word) {
+            if (word.size() != 1 || word[0] < '1' || word[0] > '9')
+              throw usage_error(option + ": invalid compression level '" + word + "' (use 1 to 9)");
+            return word[0] - '0';
+          },
+          {}};
+}
+
+Reader<int> jpeg_quality() {
+  return {[](const std::string& option, const std::string& word) {
+            const auto quality = parse_number(word);
+            if (!quality || *quality != std::floor(*quality) || *quality < 1.0 || *quality > 100.0)
+              throw usage_error(option + ": invalid JPEG quality '" + word + "' (use 1 to 100)");
+            return static_cast<int>(*quality);
+          },
+          {}};
+}
+
+Reader<double> positive_number() {
+  return {[](const std::string& option, const std::string& word) {
+            const auto number = parse_number(word);
+            if (!number || !(*number > 0.0))
+              throw usage_error(option + ": invalid value '" + word + "' (use a number above 0)");
+            return *number;
+          },
+          {}};
+}
+
+Reader<Layout> layout() {
+  std::vector<std::string> known;
+  for (const Preset& preset : presets()) known.emplace_back(preset.name);
+  return {[](const std::string& option, const std::string& word) { return layout_from(option, word); },
+          known};
+}
+
+Reader<InstructionSet> instructions() {
+  return {[](const std::string& option, const std::string& word) {
+            return instruction_set_from_name(option, word);
+          },
+          {}};
+}
+
+// The number from 0 to `highest` in `text`; `allowed` tells the user what the option takes.
+double number_of(const std::string& option, const std::string& text, double highest,
+                 const std::string& allowed) {
+  const auto number = parse_number(text);
+  if (!number || !(*number >= 0.0 && *number <= highest))
+    throw Error(ErrorKind::kUsage, option + ": invalid value '" + text + "' (use " + allowed + ")");
+  return *number;
+}
+
+Reader<F0Choice> f0_choice() {
+  return {[](const std::string& option, const std::string& word) -> F0Choice {
+            if (word == "estimate") return FromMaps{};
+            return number_of(option, word, 0.9, "0 to 0.9, or estimate");
+          },
+          {}};
+}
+
+Reader<double> prior() {
+  return {[](const std::string& option, const std::string& word) {
+            if (word == "clean") return kCleanPrior;
+            if (word == "noisy") return kNoisyPrior;
+            return number_of(option, word, kLargestPrior, "clean, noisy, or a number from 0 to 1");
+          },
+          {}};
+}
+
+ColorSpaceWord color_space_word(const std::string& option, const std::string& word) {
+  const std::size_t sign = word.find('=');
+  // Without a sign, npos + 1 is 0: the whole word.
+  const Transfer transfer = one_of(kTransfers, "color space").read(option, word.substr(sign + 1));
+  if (sign == std::string::npos) return {std::nullopt, transfer};
+  const std::string name = word.substr(0, sign);
+  std::vector<std::string> known;
+  for (const Parameter color : {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor}) {
+    known.emplace_back(parameter_name(color));
+    if (known.back() == name) return {color, transfer};
+  }
+  fail_unknown(option, "color", name, known);
+}
+
+// A list such as `srgb` or `specular=linear,diffuse=srgb`.
+Reader<std::vector<ColorSpaceWord>> color_spaces() {
+  return list_of(Reader<ColorSpaceWord>{color_space_word, {}});
+}
+
+}  // namespace
+
+Reader<ModelName> model_name() {
+  return {[](const std::string&, const std::string& word) { return model_named(word); }, {}};
+}
+
+namespace {
+
+Reader<GivenPart> given_part() {
+  return {[](const std::string&, const std::string& word) {
+            return part_of(word, [](const char* name) { return std::getenv(name); });
+          },
+          {}};
+}
+
+void add_source_options(Command& command, ConvertOptions& options) {
+  command.option_group("Rare: source and target");
+  command.add_option("DIR", options.folder, "Folder of texture sets; or an asset: a glTF, MTL or OBJ file")
+      ->tag(kOfPlan | kForAssets);
+  command.add_option("ASSET", options.more_assets, "More assets")->tag(kNeedsAsset);
+  command
+      .add_option("--from MODEL", options.from, model_name(),
+                  "Model of the maps: unity, blender, gltf-specgloss, mitsuba/ward, ... (default: detected "
+                  "from the maps)")
+      ->common()
+      ->tag(kForAssets);
+  command
+      .add_option("--to MODEL", options.to, model_name(),
+                  "Model of the results: gltf, unity, cycles-5, mitsuba/as, ...; see texremap list --models")
+      ->common()
+      ->tag(kForAssets);
+  command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter")
+      ->tag(kIsPath);
+  command
+      .add_flag("-r,--recursive", options.recursive,
+                "Convert the subfolders of DIR, too; results mirror the tree")
+      ->common()
+      ->tag(kNeedsTree | kForAssets | kNeedsFolder);
+  command
+      .add_flag("--assets", options.assets,
+                "Convert the assets (glTF and MTL files, with --format glb OBJ files) in DIR, not the "
+                "texture sets that "
+                "the names of images tell")
+      ->tag(kNeedsAsset);
+  command
+      .add_option(
+          "--root FOLDER", options.asset_root,
+          "Assets may name files below this folder, whose tree the results mirror (default: the folder "
+          "of the asset; with --assets DIR)")
+      ->tag(kNeedsAsset);
+  command
+      .add_flag("--follow-links", options.follow_links,
+                "Read files that links in DIR, or in the folder of an asset, lead to elsewhere")
+      ->tag(kForAssets | kNeedsFiles);
+  Option* manifest =
+      command
+          .add_option(
+              "--manifest FILE", options.manifest,
+              "Convert the sets or assets that texremap index has listed; DIR is where the tree lies now")
+          ->tag(kOfPlan | kForAssets);
+  manifest->excludes(command.option("--recursive"));
+  manifest->excludes(command.option("--assets"));
+  command
+      .add_option("--part I/N", options.part, given_part(),
+                  "Convert part I of N of the manifest; auto takes both from the array of jobs that this "
+                  "process belongs to, auto/N takes I from it")
+      ->needs(manifest)
+      ->tag(kOfPlan | kForAssets);
+  command
+      .add_option("--via MODEL", options.via, "Model that the path must pass through; repeatable, in order")
+      ->allow_extra_args(false)
+      ->excludes(command.option("--fit"));
+  options.converters.add_option(command)->tag(kIsPath)->excludes(command.option("--fit"));
+  command
+      .add_option("--profile NAME", options.profile, one_of(kMaterialProfiles, "profile"),
+                  "Materials of assets: core metallic-roughness, or nearer for viewers that read "
+                  "KHR_materials_specular and KHR_materials_ior")
+      ->default_text("core")
+      ->tag(kChangesResults | kNeedsAsset);
+  command
+      .add_option(
+          "--mtl-from MAKER", options.mtl_maker, one_of(kMtlMakers, "maker"),
+          "Read MTL files as this program writes them, instead of as their first lines say; text: as the "
+          "text of the format says")
+      ->tag(kChangesResults | kNeedsAsset);
+  const auto add_asset_flag = [&](const char* name, bool& flag, const char* description) {
+    command.add_flag(name, flag, description)->tag(kChangesResults | kNeedsAsset | kNeedsGltf);
+  };
+  add_asset_flag(
+      "--fold-specular", options.fold_specular,
+      "Fold KHR_materials_specular and KHR_materials_ior into core, for viewers that do not read them");
+  add_asset_flag("--keep-unused", options.keep_unused,
+                 "Keep images and textures of a glTF file that only its converted materials used");
+  add_asset_flag("--bake", options.bake,
+                 "Bring maps of a material whose KHR_texture_transform differ onto the grid of the first");
+  command
+      .add_option("--jpeg QUALITY", options.jpeg, jpeg_quality(),
+                  "Write new maps of color as JPEG, 1 to 100, where the old ones are JPEG and have no alpha")
+      ->tag(kNeedsGltf | kChangesResults | kNeedsAsset);
+}
+
+// The footer of the command explains the value MAP.
+void add_map_options(Command& command, ConvertOptions& options) {
+  using P = Parameter;
+  command.option_group("Rare: maps");
+  const auto add_map = [&](const std::string& name, P parameter, const std::string& description) {
+    return command.add_option(name + " MAP", options.maps[parameter], map_source(), description)
+        ->tag(kChangesResults);
+  };
+  add_map("--roughness", P::kRoughness, "Roughness of the source model")->tag(kNotWithDiffuseWarp);
+  command
+      .add_option("--glossiness MAP", options.glossiness, map_source(),
+                  "Glossiness, 1 - sqrt(alpha), instead of the roughness")
+      ->tag(kChangesResults | kNotWithDiffuseWarp)
+      ->excludes(command.option("--roughness"));
+  add_map("--specular", P::kSpecular, "Specular color")->tag(kNotWithDiffuseWarp);
+  add_map("--diffuse", P::kDiffuse, "Diffuse color of a specular workflow; else the file is copied");
+  add_map("--base-color", P::kBaseColor, "Base color of a metallic workflow; else the file is copied");
+  add_map("--metallic", P::kMetallic, "Metallic of a metallic workflow; else --layout places it unconverted");
+  command
+      .add_option("--occlusion MAP", options.occlusion, map_source(),
+                  "Ambient occlusion; --layout places it unconverted")
+      ->tag(kChangesResults);
+  command
+      .add_option("--roughness-encoding NAME", options.roughness_encoding,
+                  one_of(kRoughnessEncodings, "encoding"),
+                  "What roughness maps hold; roughness is the square root of alpha (default: what the source "
+                  "model takes); maps named glossiness or smoothness hold that")
+      ->tag(kChangesResults | kNotWithDiffuseWarp)
+      ->excludes(command.option("--glossiness"));
+  command
+      .add_option(
+          "--color-space NAME", options.color_spaces, color_spaces(),
+          "How color maps are read: srgb or linear, or per map: specular=linear,diffuse=srgb (default: "
+          "as the file says; otherwise srgb for integers and linear for half and float)")
+      ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_flag("--resample", options.resample,
+                "Enlarge smaller maps of a set to the largest size, bilinearly")
+      ->common()
+      ->tag(kForAssets | kChangesResults | kNeedsFiles);
+  command
+      .add_option(
+          "--prefer WORDS", options.prefer,
+          "Of several maps of one parameter, take the map of this role or with this word in its name: gloss, "
+          "arm, 4k, png; commas between, the first that applies counts")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->tag(kChangesResults | kNeedsFolder);
+  command.add_option("--names FILE", options.names, "More file-name habits for the maps in DIR (JSON)")
+      ->tag(kChangesResults | kNeedsFolder);
+}
+
+void add_output_options(Command& command, ConvertOptions& options) {
+  command.option_group("Rare: output");
+  command
+      .add_option("-o,--output DIR", options.output,
+                  "Folder for the results, which keep the names of the inputs; of one asset also a file")
+      ->common()
+      ->tag(kForAssets | kNeedsFiles);
+  command
+      .add_option("--layout NAME", options.layout, layout(),
+                  "Files to write, by name or in words, as 'Mask=metallic,occlusion,0,smoothness; "
+                  "Albedo=base_color' (default: as-inputs; separate between workflows)")
+      ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_option("--preset NAME", options.preset, one_of(engine_presets(), "preset"),
+                  "Write what a tool takes: --to, --layout, --format and --type at once, where these are not "
+                  "given")
+      ->tag(kChangesResults | kNeedsFiles);
+  command.add_option("--format EXT", options.format, "File extension of the results: exr, tif, png, ...")
+      ->tag(kForAssets | kChangesResults | kNeedsFiles);
+  command
+      .add_option("--type NAME", options.type, one_of(kWrittenTypes, "pixel type"),
+                  "Pixel type of the results")
+      ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_option(
+          "--compression LEVEL", options.compression, compression_level(),
+          "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
+          "PNG files, 3 in assets)")
+      ->tag(kForAssets | kChangesResults | kNeedsFiles);
+  command
+      .add_option(
+          "--output-color-space NAME", options.output_color_spaces, color_spaces(),
+          "How colors are written: srgb or linear, or per map (default: whole numbers as the map that "
+          "they follow, otherwise srgb; half and float linear)")
+      ->tag(kChangesResults | kNeedsFiles);
+  command.add_option("--only NAME", options.only, one_of(kOnly, "parameter"), "Write only this parameter")
+      ->tag(kChangesResults | kNeedsFiles | kNotWithWorkflow);
+  command
+      .add_flag("--only-converted", options.only_converted,
+                "Write only converted maps, not normal, height, opacity and others")
+      ->common()
+      ->tag(kChangesResults | kNeedsFolder);
+  command.retire(
+      "--compact",
+      "unused images are dropped now (remove this option; --compression 9 makes new images smallest)");
+  command.retire("--allow-skips",
+                 "sets without anything to convert no longer make a run fail (remove this option)");
+  command.retire("--bad-texels", "is called --nan");
+  command.retire("--output-roughness-factor", "is called --exponent-of-white");
+  command.retire("--prior", "is called --metallic-bias");
+  command.retire("--copy-others",
+                 "all maps of a set come along now (remove this option; --only-converted leaves them out)");
+  command
+      .add_flag("--force", options.force, "Overwrite results; convert maps again that were converted before")
+      ->common()
+      ->tag(kForAssets | kNeedsFiles);
+  command
+      .add_flag(
+          "--resume", options.resume,
+          "Skip sets that are done; convert sets again whose inputs, options, converter or results changed")
+      ->tag(kOfPlan | kNeedsTree | kForAssets | kNeedsFiles);
+  command.add_flag("--dry-run", options.dry_run, "Show what would happen to each map; write nothing")
+      ->common()
+      ->tag(kOfPlan | kForAssets | kNeedsFiles);
+  Option* json = command
+                     .add_flag("--json", options.json,
+                               "Print a report as JSON; of several sets or assets a line for each")
+                     ->common()
+                     ->tag(kOfPlan | kForAssets);
+  command.add_flag("--histograms", options.histograms, "With --json, also histograms of the values")
+      ->tag(kNeedsFiles)
+      ->needs(json);
+  Option* quiet = command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error")
+                      ->tag(kForAssets);
+  command
+      .add_flag("--verbose", options.verbose,
+                "Print every warning, and measures of each set that pictures do not show")
+      ->tag(kForAssets | kNeedsFiles)
+      ->excludes(quiet);
+}
+
+void add_workflow_options(Command& command, ConvertOptions& options) {
+  command.option_group("Rare: whole materials (metallic and specular workflows)");
+  command
+      .add_option("--from-workflow NAME", options.from_workflow, one_of(kWorkflowKinds, "workflow"),
+                  "Workflow around the source model: specular (diffuse, specular) or metallic (base color, "
+                  "metallic)")
+      ->tag(kChangesResults | kNotWithDiffuseWarp);
+  command
+      .add_option("--to-workflow NAME", options.to_workflow, one_of(kWorkflowKinds, "workflow"),
+                  "Workflow around the target model")
+      ->tag(kChangesResults | kNotWithWarp);
+  command
+      .add_option("--dielectric-f0 VALUE", options.dielectric_f0, f0_choice(),
+                  "F0 of dielectrics: a number, or estimate to derive it from the maps (default: that of the "
+                  "metallic model, 0.04)")
+      ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
+  command
+      .add_option(
+          "--diffuse-convention NAME", options.diffuse_convention, one_of(kDiffuseConventions, "convention"),
+          "Meaning of the source's diffuse: plain (reflectance) or scaled (times 1 - max(specular), as "
+          "in glTF; default: as in the source model)")
+      ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
+  command.option_group("Rare: how metallic is found");
+  command
+      .add_option("--metallic-bias VALUE", options.prior, prior(),
+                  "How strongly 0 and 1 are preferred: clean (default), noisy (scans, JPEG) or a number "
+                  "from 0 to 1")
+      ->tag(kForAssets | kChangesResults | kNeedsMetallic);
+  command
+      .add_option("--metal-mask MAP", options.maps[Parameter::kMetalMask], map_source(),
+                  "Map of the metals, which decides between metallic values that look alike")
+      ->tag(kChangesResults | kNeedsMetallic);
+}
+
+void add_rare_options(Command& command, ConvertOptions& options) {
+  command.option_group("Rare: encodings and factors");
+  command
+      .add_option(
+          "--output-encoding NAME", options.output_encoding, one_of(kRoughnessEncodings, "encoding"),
+          "What the roughness results hold (default: as the inputs where that is known, else what the "
+          "target model takes; a file named glossiness holds glossiness)")
+      ->tag(kChangesResults);
+  command
+      .add_option(
+          "--exponent-of-white NUMBER", options.output_roughness_factor, positive_number(),
+          "Exponent that 1, or white, stands for in the result: 1000 as in MTL files, 128 as in OpenGL, "
+          "100 for percent")
+      ->tag(kChangesResults);
+  const auto add_factor = [&](const std::string& names, Parameter parameter, const std::string& description) {
+    command.add_option(names, options.factors[parameter], factors(), description)
+        ->tag(kChangesResults | kNotWithDiffuseWarp);
+  };
+  add_factor("--roughness-factor,--glossiness-factor NUMBER", Parameter::kRoughness,
+             "Multiply the roughness or glossiness map before it is decoded");
+  add_factor("--specular-factor NUMBERS", Parameter::kSpecular,
+             "Multiply linear specular by one number, or by three");
+  add_factor("--diffuse-factor NUMBERS", Parameter::kDiffuse, "The same for diffuse");
+  add_factor("--base-color-factor NUMBERS", Parameter::kBaseColor, "The same for base color");
+  add_factor("--metallic-factor NUMBER", Parameter::kMetallic, "Multiply metallic");
+  command.add_flag("--dither", options.dither, "Add repeatable noise of half a step to 8-bit results")
+      ->tag(kChangesResults | kNeedsFiles);
+
+  command.option_group("Rare: checks");
+  command
+      .add_option("--diagnose FOLDER", options.diagnose,
+                  "Also write maps that check the result: mask, 1 outside the domain; of a metallic result, "
+                  "residual, what metal-rough cannot represent (rendered pictures differ by 0.42 of it), "
+                  "metallic_uncertainty, the share of [0, 1] in which metallic may lie (above 0.2 it is "
+                  "undetermined), and issues, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
+      ->tag(kIsPath | kNeedsFiles);
+  command
+      .add_option("--nan NAME", options.bad_texels, one_of(kBadTexels, "treatment"),
+                  "NaN, infinite and negative values; clamp moves all values into the domain")
+      ->default_text("keep")
+      ->tag(kChangesResults);
+  command.option_group("Rare: speed");
+  command
+      .add_option("--instructions NAME", options.instructions, instructions(),
+                  "baseline, avx2 or avx512; results are identical (default: the widest of this processor)")
+      ->tag(kForAssets);
+  command.add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core")
+      ->range(0, 1024)
+      ->tag(kOfPlan | kForAssets);
+  add_memory_option(command, options.memory_megabytes)->tag(kForAssets);
+}
+
+}  // namespace
+
+std::uint64_t memory_limit(int megabytes) {
+  constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20, kUnknown = std::uint64_t{8} << 30;
+  if (megabytes > 0) return static_cast<std::uint64_t>(megabytes) * kMegabyte;
+  const std::uint64_t machine = memory_size();
+  return (machine > 0 ? machine : kUnknown) / 4;
+}
+
+Option* add_memory_option(Command& command, int& megabytes) {
+  return command
+      .add_option("--memory-limit MB", megabytes,
+                  "Memory that images may take at once in all threads (default: a quarter of this machine's)")
+      ->positive();
+}
+
+void apply_preset(ConvertOptions& options) {
+  const auto is_map = [](const auto& entry) {
+    return entry.second && std::holds_alternative<MapName>(*entry.second);
+  };
+  const bool has_files = !options.folder.empty() || std::ranges::any_of(options.maps, is_map);
+  if (options.preset == nullptr && has_files) options.preset = preset_of(options.to.word());
+  if (options.preset == nullptr) return;
+  const Preset& preset = *options.preset;
+  if (options.to.empty()) options.to = model_name().read("--preset", std::string(preset.model));
+  if (!options.layout) options.layout = layout_from("--preset", std::string(preset.name));
+  if (options.format.empty()) options.format = preset.format;
+  if (!options.type) options.type = preset.type;
+}
+
+std::optional<NormalGreen> normals_of(const ModelName& model) {
+  constexpr std::array<std::string_view, 3> kOfNoTool = {"spec-gloss", "specgloss", "specular-glossiness"};
+  constexpr std::array<std::string_view, 2> kUpwards = {"filament", "playcanvas"};
+  constexpr std::array<std::string_view, 6> kUpwardModels = {"gltf",
+                                                             "gltf-specgloss",
+                                                             "cycles-5/principled",
+                                                             "threejs/standard",
+                                                             "usd-preview-surface",
+                                                             "usd-preview-surface-specular"};
+  const auto holds = [](const auto& names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  if (const Preset* preset = preset_of(model.word())) return preset->normals;
+  if (holds(kUpwards, model.word()) || (holds(kUpwardModels, model.name) && !holds(kOfNoTool, model.word())))
+    return NormalGreen::kUp;
+  return std::nullopt;
+}
+
+int ConvertOptions::threads() const {
+  return thread_count > 0 ? thread_count
+                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+void note_given(const Command& command, ConvertOptions& options) {
+  options.given = command.given();
+  if (options.glossiness) options.maps[Parameter::kRoughness] = options.glossiness;
+}
+
+void add_convert_options(Command& command, ConvertOptions& options) {
+  add_source_options(command, options);
+  add_map_options(command, options);
+  add_output_options(command, options);
+  add_workflow_options(command, options);
+  add_rare_options(command, options);
+}
+
+void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason) {
+  for (const GivenOption& option : options.given)
+    if ((option.tags & tag) != 0) throw Error(ErrorKind::kUsage, option.name + reason);
+}
+
+std::string result_options_text(const ConvertOptions& options) {
+  std::string text;
+  const auto add = [&](const std::string& option) { text += (text.empty() ? "" : " ") + option; };
+  for (const GivenOption& option : options.given)
+    if ((option.tags & kChangesResults) != 0)
+      add(option.name + (option.words.empty() ? "" : " " + joined(option.words, " ")));
+  if (options.preset != nullptr) add("--preset " + std::string(options.preset->name));
+  if (!options.only_converted && normals_of(options.from)) add("--from " + std::string(options.from.word()));
+  return text;
+}
+
+}  // namespace remap

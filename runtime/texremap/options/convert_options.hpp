@@ -1,0 +1,146 @@
+// The options of `texremap convert`, as values.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "assets/document/asset.hpp"
+#include "command_line/command.hpp"
+#include "remap/conversion.hpp"
+#include "remap/converter.hpp"
+#include "remap/model.hpp"
+#include "remap/workflow.hpp"
+#include "texremap/options/part.hpp"
+#include "texremap/options/used_converters.hpp"
+#include "texture/target_plan.hpp"
+#include "texture/texture_set.hpp"
+
+namespace remap {
+
+// What an option needs, or what its use has for a consequence.
+enum : OptionTags {
+  kChangesResults = 1u << 0u,
+  kNeedsFiles = 1u << 1u,   // applies to nothing where all maps are numbers
+  kNeedsFolder = 1u << 2u,  // of texture sets
+  kNeedsWorkflow = 1u << 3u,
+  kNeedsMetallic = 1u << 4u,  // as a result
+  kNotWithWorkflow = 1u << 5u,
+  kNotWithWarp = 1u << 6u,
+  kNotWithDiffuseWarp = 1u << 7u,  // a warp whose source is a diffuse map alone
+  kNeedsAsset = 1u << 8u,          // assets instead of texture sets
+  kNeedsGltf = 1u << 9u,           // among the assets
+  kForAssets = 1u << 10u,          // assets as well as texture sets
+  kNeedsTree = 1u << 11u,          // where assets are converted, a folder of them
+  kIsPath = 1u << 12u,             // of a file or folder, seen from where the program runs
+  kOfPlan = 1u << 13u,             // which texremap plan writes itself
+};
+
+using MapSource = std::variant<MapName, ConstantValues>;
+
+// The color space of one color, or without a parameter of all.
+struct ColorSpaceWord {
+  std::optional<Parameter> parameter;
+  Transfer transfer;
+};
+
+// Where the F0 of dielectrics comes from.
+struct FromMaps {};
+using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
+
+// A model as `--from` and `--to` name it.
+Reader<ModelName> model_name();
+
+// The bytes of `megabytes`, or a quarter of the machine's memory for 0.
+std::uint64_t memory_limit(int megabytes);
+Option* add_memory_option(Command& command, int& megabytes);
+
+struct ConvertOptions {
+  std::vector<GivenOption> given;  // all options of the command line
+
+  std::filesystem::path folder;  // of texture sets, or a glTF file; empty where the options name one set
+  std::vector<std::filesystem::path> more_assets;
+  bool assets = false;                     // the folder is of assets, not of texture sets
+  std::filesystem::path asset_root;        // below which assets may name files
+  std::optional<MaterialProfile> profile;  // of assets; none: core
+  std::optional<MtlMaker> mtl_maker;       // of MTL files; none: as they say
+  bool fold_specular = false, keep_unused = false, bake = false;
+  std::optional<int> jpeg;  // quality
+  ModelName from, to;
+  std::vector<std::string> via;
+  std::string fit;
+  UsedConverters converters;
+  bool recursive = false;
+  bool follow_links = false;       // out of the folder of the inputs
+  std::filesystem::path manifest;  // that lists the sets or assets, in place of a search in the folder
+  std::optional<GivenPart> part;   // of the manifest
+
+  std::map<Parameter, std::optional<MapSource>> maps;
+  std::optional<MapSource> glossiness;  // read into `maps` as roughness, too
+  std::optional<MapSource> occlusion;
+  std::optional<RoughnessEncoding> roughness_encoding;  // of roughness maps
+  std::map<Parameter, std::vector<float>> factors;
+  std::vector<std::string> prefer;  // among several maps of one parameter
+  std::vector<ColorSpaceWord> color_spaces;
+  std::filesystem::path names;
+  bool resample = false;
+
+  std::optional<WorkflowKind> from_workflow, to_workflow;
+  F0Choice dielectric_f0;
+  std::optional<DiffuseConvention> diffuse_convention;
+  double prior = kCleanPrior;
+
+  std::filesystem::path output;
+  std::optional<Layout> layout;
+  const Preset* preset = nullptr;
+  std::string format;
+  std::optional<PixelType> type;
+  std::optional<int> compression;  // level
+  std::optional<RoughnessEncoding> output_encoding;
+  std::optional<double>
+      output_roughness_factor;  // the exponent that a stored 1 stands for, where it is known
+  std::vector<ColorSpaceWord> output_color_spaces;
+  std::optional<Parameter> only;
+  std::filesystem::path diagnose;  // folder for the maps of diagnoses; empty for none
+  BadTexels bad_texels = BadTexels::kKeep;
+  bool dither = false;
+  bool only_converted = false, force = false, resume = false, dry_run = false;
+  bool json = false, histograms = false, quiet = false, verbose = false;
+  InstructionSet instructions = best_instruction_set();
+  int thread_count = 0;  // 0 for one per core
+  int threads() const;
+  int memory_megabytes = 0;  // 0 for a quarter of the machine's
+  std::uint64_t memory_bytes() const { return memory_limit(memory_megabytes); }
+
+  // Null where the option of the parameter was not given.
+  const MapSource* map_of(Parameter parameter) const {
+    const auto found = maps.find(parameter);
+    return found == maps.end() || !found->second ? nullptr : &*found->second;
+  }
+  // Whether the roughness map was given as glossiness.
+  bool reads_glossiness() const { return glossiness.has_value(); }
+};
+
+void add_convert_options(Command& command, ConvertOptions& options);
+
+// What `--preset` stands for, in place of the options that were not given. The name of an engine as `--to` is
+// its preset.
+void apply_preset(ConvertOptions& options);
+
+// Where green of normal maps points in materials of a source or target; none where it is not documented.
+std::optional<NormalGreen> normals_of(const ModelName& model);
+
+// Throws kUsage if an option with `tag` was given: `--only` and the reason.
+void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);
+
+// Of the command line that `command` has read: the options that were given, and what follows from them.
+void note_given(const Command& command, ConvertOptions& options);
+
+// All options that the results depend on, as on a command line.
+std::string result_options_text(const ConvertOptions& options);
+
+}  // namespace remap

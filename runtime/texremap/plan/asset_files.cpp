@@ -1,0 +1,124 @@
+#include "texremap/plan/asset_files.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/safe_relative.hpp"
+#include "sets/folder_walk.hpp"
+#include "texture/enlarged_pixels.hpp"
+#include "texture/image_library.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint64_t kCopiedAtOnce = std::uint64_t{1} << 20;
+
+// The path below a root that `path` means, seen from a folder below it.
+fs::path below(const fs::path& folder, const fs::path& root, const std::string& path) {
+  std::string slashes = path;
+  std::ranges::replace(slashes, '\\', '/');
+  const fs::path inner = folder.lexically_normal().lexically_relative(root.lexically_normal());
+  for (const fs::path& place : {(inner / path).lexically_normal(), (inner / slashes).lexically_normal()})
+    if (place.empty() || place.is_absolute() || *place.begin() == "..")
+      throw input_error(display_path(path) + ": leads out of " + display_path(root) +
+                        " (copy it into this folder, or name one above that holds both by --root)");
+  fs::path place = (inner / path).lexically_normal();
+  if (std::ranges::any_of(place, is_own_name))
+    throw input_error(display_path(path) + ": has a name of texremap's own files (rename it)");
+  return place;
+}
+
+}  // namespace
+
+std::string FileSource::read(std::uint64_t begin, std::size_t count) const {
+  std::string bytes(count, '\0');
+  if (file_.read(begin, bytes.data(), count) < count)
+    throw input_error(file_.path().string() + ": became shorter while it was read (try again)");
+  return bytes;
+}
+
+std::unique_ptr<ByteSource> FolderResources::open(const std::string& path) const {
+  return std::make_unique<FileSource>(input(path));
+}
+
+const ImageCodec& FolderResources::codec() const { return image_library().codec(); }
+
+ImagePixels FolderResources::enlarged(const ImagePixels& pixels, std::size_t width,
+                                      std::size_t height) const {
+  return enlarged_pixels(pixels, width, height);
+}
+
+fs::path FolderResources::input(const std::string& path) const {
+  return job_.input_root / below(folder_of_asset(job_.input), job_.input_root, path);
+}
+
+fs::path FolderResources::output(const std::string& path) const {
+  return job_.output_root / below(folder_of_asset(job_.output), job_.output_root, path);
+}
+
+bool are_same_files(const fs::path& a, const fs::path& b) {
+  const FileSource first(a), second(b);
+  if (first.size() != second.size()) return false;
+  for (std::uint64_t at = 0; at < first.size(); at += kCopiedAtOnce) {
+    const std::uint64_t count = std::min(kCopiedAtOnce, first.size() - at);
+    if (first.read(at, count) != second.read(at, count)) return false;
+  }
+  return true;
+}
+
+bool have_same_bytes(const fs::path& file, std::string_view bytes) {
+  const FileSource source(file);
+  if (source.size() != bytes.size()) return false;
+  for (std::uint64_t at = 0; at < source.size(); at += kCopiedAtOnce) {
+    const std::uint64_t count = std::min(kCopiedAtOnce, source.size() - at);
+    if (source.read(at, count) != bytes.substr(at, count)) return false;
+  }
+  return true;
+}
+
+void add_pieces(NewFile& file, const std::vector<AssetPiece>& pieces, const ByteSource& source) {
+  for (const AssetPiece& piece : pieces) {
+    file.add(piece.bytes);
+    for (std::uint64_t at = piece.begin; at < piece.end; at += kCopiedAtOnce)
+      file.add(source.read(at, std::min(kCopiedAtOnce, piece.end - at)));
+  }
+}
+
+ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResource>& resources,
+                            const std::function<void(const fs::path&)>& require_free) {
+  ResourcePlan plan;
+  const FolderResources files(job);
+  for (const AssetResource& resource : resources) {
+    if (resource.kind == UriKind::kRemote) continue;
+    const std::string place =
+        display_path(job.input) + ": " + (resource.where.empty() ? "" : resource.where + ": ");
+    if (resource.kind == UriKind::kAbsolute)
+      throw input_error(place + display_path(resource.path) +
+                        " is an absolute path (name the file relative to the asset)");
+    fs::path source, target;
+    try {
+      source = files.input(resource.path);
+      target = files.output(resource.path);
+    } catch (const Error& error) {
+      throw input_error(place + error.what());
+    }
+    std::error_code ignored;
+    if (same_file(source, job.input))
+      throw input_error(place + display_path(resource.path) + " names the asset itself as its part");
+    if (!fs::is_regular_file(source, ignored)) {
+      plan.warnings.push_back("names " + display_path(resource.path) + ", which is not there");
+      continue;
+    }
+    if (same_file(source, target)) continue;
+    if (fs::is_regular_file(target, ignored)) {
+      if (are_same_files(source, target)) continue;
+      require_free(target);
+    }
+    plan.copies.push_back({source, target});
+  }
+  return plan;
+}
+
+}  // namespace remap

@@ -1,0 +1,74 @@
+// Assets and what lies beside them, as files.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets/document/asset.hpp"
+#include "core/files.hpp"
+#include "core/input_file.hpp"
+#include "texremap/plan/job.hpp"
+
+namespace remap {
+
+// The bytes of a file that stays open: it is read to its end even where its name is given to another.
+class FileSource final : public ByteSource {
+ public:
+  // Throws kInput unless `path` leads to a regular file that can be read.
+  explicit FileSource(const std::filesystem::path& path) : file_(path) {}
+
+  std::uint64_t size() const override { return file_.size(); }
+  std::string read(std::uint64_t begin, std::size_t count) const override;
+  const InputFile& file() const { return file_; }
+
+ private:
+  InputFile file_;
+};
+
+// The files that the asset of a job may read, and the image library of the program.
+class FolderResources final : public AssetResources {
+ public:
+  // `job` must outlive it.
+  explicit FolderResources(const AssetWork& job) : job_(job) {}
+  std::unique_ptr<ByteSource> open(const std::string& path) const override;
+  const ImageCodec& codec() const override;
+  ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override;
+  std::string image_prefix() const override { return job_.image_prefix; }
+
+  // Where a file that the asset names is, and where the result finds it. Throws kInput for a name that leads
+  // out of the root.
+  std::filesystem::path input(const std::string& path) const;
+  std::filesystem::path output(const std::string& path) const;
+
+ private:
+  const AssetWork& job_;
+};
+
+// A file that the asset names, and its copy.
+struct ResourceCopy {
+  std::filesystem::path from, to;
+};
+
+struct ResourcePlan {
+  std::vector<ResourceCopy> copies;   // that are missing beside the result
+  std::vector<std::string> warnings;  // files that the asset names and that are not there
+};
+
+// What must be copied so that the result finds the files that the asset names; nothing in one folder. Throws
+// kInput for a name that leads out of the root or to the asset itself, or that is one of texremap's own
+// files. `require_free` is called for each file that a copy would replace, and throws where it must not.
+ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResource>& resources,
+                            const std::function<void(const std::filesystem::path&)>& require_free);
+
+// Whether the file holds these bytes. Throws kInput.
+bool have_same_bytes(const std::filesystem::path& file, std::string_view bytes);
+bool are_same_files(const std::filesystem::path& a, const std::filesystem::path& b);
+
+// Adds the bytes of the pieces, a megabyte at a time.
+void add_pieces(NewFile& file, const std::vector<AssetPiece>& pieces, const ByteSource& source);
+
+}  // namespace remap

@@ -1,0 +1,108 @@
+#include "texremap/plan/asset_formats.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "assets/gltf/gltf_asset.hpp"
+#include "assets/mtl/mtl_asset.hpp"
+#include "assets/obj/obj_gltf.hpp"
+#include "core/errors.hpp"
+#include "sets/folder_walk.hpp"
+#include "sets/name_pieces.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+enum class AssetKind { kGltf, kMtl, kObj };
+
+struct AssetFormat {
+  std::string_view extension;
+  AssetKind kind;
+};
+constexpr std::array<AssetFormat, 4> kAssetFormats = {{{".gltf", AssetKind::kGltf},
+                                                       {".glb", AssetKind::kGltf},
+                                                       {".mtl", AssetKind::kMtl},
+                                                       {".obj", AssetKind::kObj}}};
+
+std::string extension_of(const fs::path& path) { return lower(path.extension().string()); }
+
+const AssetFormat* format_of(const fs::path& path) {
+  const auto* found = std::ranges::find(kAssetFormats, extension_of(path), &AssetFormat::extension);
+  return found == kAssetFormats.end() ? nullptr : found;
+}
+
+AssetKind kind_of_asset(const fs::path& path) { return format_of(path)->kind; }
+
+constexpr const char* kObjRemedy =
+    " becomes a glTF file (name the output *.glb or *.gltf, or give --format glb; its MTL file is an asset "
+    "of "
+    "its own)";
+
+}  // namespace
+
+bool is_asset_name(const fs::path& path) { return format_of(path) != nullptr; }
+
+bool is_gltf_name(const fs::path& path) {
+  const AssetFormat* format = format_of(path);
+  return format != nullptr && format->kind == AssetKind::kGltf;
+}
+
+std::vector<std::string> asset_extensions(const std::string& format) {
+  std::vector<std::string> extensions;
+  for (const AssetFormat& known : kAssetFormats)
+    if ((known.kind == AssetKind::kObj) != format.empty()) extensions.emplace_back(known.extension.substr(1));
+  return extensions;
+}
+
+std::string asset_words(const std::string& format) {
+  return format.empty() ? "glTF or MTL file" : "OBJ file";
+}
+
+std::string result_extension(const fs::path& input, const std::string& format) {
+  if (!format.empty() && format != "glb" && format != "gltf")
+    throw usage_error("--format " + format + ": OBJ files become glb or gltf");
+  const bool is_obj = kind_of_asset(input) == AssetKind::kObj;
+  if (is_obj && format.empty()) throw usage_error(display_path(input) + kObjRemedy);
+  if (!is_obj && !format.empty())
+    throw usage_error("--format " + format + ": " + display_path(input) +
+                      " stays a file of its kind (OBJ files become glTF)");
+  return format.empty() ? "" : "." + format;
+}
+
+void require_format(const fs::path& input, const fs::path& output) {
+  if (kind_of_asset(input) == AssetKind::kObj) {
+    if (!is_gltf_name(output))
+      throw usage_error("--output " + output.string() + ": " + display_path(input) + kObjRemedy);
+  } else if (extension_of(input) != extension_of(output)) {
+    throw usage_error("--output " + output.string() + ": " + display_path(input) +
+                      " stays a file of its kind (name it *" + extension_of(input) + ")");
+  }
+}
+
+std::vector<AssetResource> resources_of_asset(const ByteSource& source, const fs::path& input,
+                                              const AssetResources& resources) {
+  switch (kind_of_asset(input)) {
+    case AssetKind::kMtl:
+      return mtl_resources(source, display_path(input), &resources);
+    case AssetKind::kObj:
+      return obj_resources(source, display_path(input), resources);
+    default:
+      return gltf_resources(source, display_path(input));
+  }
+}
+
+AssetConversion convert_asset(const ByteSource& source, const fs::path& input, const fs::path& output,
+                              const AssetOptions& options, const AssetResources& resources) {
+  switch (kind_of_asset(input)) {
+    case AssetKind::kMtl:
+      return convert_mtl(source, display_path(input), options, &resources);
+    case AssetKind::kObj:
+      return gltf_of_obj(source, display_path(input), options, resources,
+                         {extension_of(output) == ".glb", output.stem().string()});
+    default:
+      return convert_gltf(source, display_path(input), options, &resources);
+  }
+}
+
+}  // namespace remap

@@ -1,0 +1,21 @@
+// The converter of a run over texture sets, and the workflows around it.
+#pragma once
+
+#include <string>
+
+#include "remap/conversion.hpp"
+#include "texremap/plan/workflow_choice.hpp"
+
+namespace remap {
+
+struct ChosenConverter : BuiltConversion {
+  WorkflowChoice workflow;
+};
+
+// `diffuse plain, dielectric F0 0.04`.
+std::string conventions_text(const WorkflowEnd& end);
+
+// The text that results carry as `remap:converter`: the ids of the steps, and the formula of a workflow.
+std::string converter_ids(const ChosenConverter& chosen);
+
+}  // namespace remap

@@ -1,0 +1,332 @@
+#include "texremap/plan/conversion_request.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <thread>
+
+#include "core/errors.hpp"
+#include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
+#include "remap/error.hpp"
+#include "sets/folder_walk.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::array kColors = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor};
+
+// The color space of each of `colors`, as far as `words` say one. Throws kUsage for a word that applies to
+// none of them; `reason`, as "is a result", is what no other color does.
+std::map<Parameter, Transfer> color_spaces(const std::string& option,
+                                           const std::vector<ColorSpaceWord>& words,
+                                           const std::vector<Parameter>& colors, const std::string& reason) {
+  std::map<Parameter, Transfer> chosen;
+  for (const ColorSpaceWord& word : words) {
+    bool applies = false;
+    for (const Parameter color : colors) {
+      if (word.parameter.value_or(color) != color) continue;
+      chosen[color] = word.transfer;
+      applies = true;
+    }
+    if (!applies)
+      throw Error(ErrorKind::kUsage,
+                  option + ": applies to nothing, because no " +
+                      (word.parameter ? std::string(parameter_name(*word.parameter)) : "color") + " " +
+                      reason);
+  }
+  return chosen;
+}
+
+// The colors that may be read from maps: with a folder all of the source.
+std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
+                                                const WorkflowChoice& workflow) {
+  std::vector<Parameter> colors;
+  for (const Parameter color : kColors) {
+    const MapSource* source = options.map_of(color);
+    const bool is_map = source != nullptr && std::holds_alternative<MapName>(*source);
+    if (workflow.has_source(color) && (is_map || !options.folder.empty())) colors.push_back(color);
+  }
+  return color_spaces("--color-space", options.color_spaces, colors,
+                      "is read from a map (--output-color-space is for results)");
+}
+
+std::vector<Parameter> written_colors(const std::vector<Parameter>& written) {
+  std::vector<Parameter> colors;
+  for (const Parameter parameter : written)
+    if (is_color(parameter)) colors.push_back(parameter);
+  return colors;
+}
+
+// Throws for the first source parameter without an option.
+void require_parameters(const ConvertOptions& options, const WorkflowChoice& workflow) {
+  for (const Parameter parameter : workflow.sources()) {
+    if (options.map_of(parameter) != nullptr || workflow.constants.contains(parameter)) continue;
+    static const std::map<Parameter, std::string> kRemedies = {
+        {Parameter::kRoughness, "a map or a number; or use --glossiness"},
+        {Parameter::kSpecular, "a map or a number; 0.04 for most dielectrics"},
+        {Parameter::kDiffuse, "a map or a number; 0 for bare metal"},
+        {Parameter::kBaseColor, "a map or numbers"},
+        {Parameter::kMetallic, "a map or a number; 0 for dielectrics"}};
+    throw Error(ErrorKind::kUsage,
+                parameter_option(parameter) + " is required (" + kRemedies.at(parameter) + ")");
+  }
+}
+
+// Refuses maps and numbers that the conversion does not read.
+void require_read(const ConvertOptions& options, const WorkflowChoice& workflow) {
+  const auto refuse_map = [](const std::string& option, bool is_result) {
+    throw Error(ErrorKind::kUsage,
+                option + ": applies to nothing, because the source material has no " +
+                    option.substr(2, option.find("-factor") - 2) +
+                    (is_result ? " (it is a result of this conversion)" : " (remove this option)"));
+  };
+  const std::vector<Parameter> targets = workflow.targets();
+  for (const Parameter parameter :
+       {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kMetallic}) {
+    const bool is_result = std::find(targets.begin(), targets.end(), parameter) != targets.end();
+    // Without a workflow, colors are copied and metallic has a place in some layouts.
+    const bool has_place = !workflow.is_material() || (parameter == Parameter::kMetallic && !is_result);
+    if (!workflow.has_source(parameter) && !has_place && options.map_of(parameter) != nullptr)
+      refuse_map(parameter_option(parameter), is_result);
+  }
+  for (const auto& [parameter, factors] : options.factors)
+    if (!workflow.has_source(parameter) && !factors.empty())
+      refuse_map(parameter_option(parameter) + "-factor", false);
+}
+
+// Refuses options of a folder with a single set, and maps that a folder does not take.
+void require_one_way(const ConvertOptions& options, const WorkflowChoice& workflow) {
+  const bool is_tree = !options.folder.empty();
+  if (!is_tree) refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");
+  for (const Parameter parameter : {Parameter::kBaseColor, Parameter::kDiffuse})
+    if (is_tree && !workflow.has_source(parameter) && options.map_of(parameter) != nullptr)
+      throw Error(ErrorKind::kUsage,
+                  parameter_option(parameter) +
+                      " cannot be used with a folder, whose maps come along (remove this option)");
+  require_read(options, workflow);
+  if (!is_tree) require_parameters(options, workflow);
+}
+
+// With a folder, each set finds its own file.
+void keep_numbers(const ConvertOptions& options, ParameterRequest& parameter) {
+  if (!options.folder.empty() && std::holds_alternative<MapName>(parameter.source))
+    parameter.source = MapName{};
+}
+
+}  // namespace
+
+std::string one_channel(const std::string& option, const std::filesystem::path& file) {
+  return file.empty() ? "" : option + " " + shell_word(file.string() + ":G");
+}
+
+namespace {
+
+// The encoding of the roughness maps. `--roughness` means roughness even for a model that takes glossiness.
+std::optional<RoughnessEncoding> given_convention(const ConvertOptions& options,
+                                                  const WorkflowChoice& workflow) {
+  if (options.reads_glossiness()) return RoughnessEncoding::kGlossiness;
+  if (options.roughness_encoding) return options.roughness_encoding;
+  if (!workflow.is_material()) return std::nullopt;
+  const RoughnessEncoding own = width_of(*workflow.source);
+  return own == RoughnessEncoding::kGlossiness ? RoughnessEncoding::kRoughness : own;
+}
+
+}  // namespace
+
+TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow) {
+  require_one_way(options, workflow);
+  const std::map<Parameter, Transfer> transfers = color_spaces_read(options, workflow);
+  TextureSetRequest request;
+  std::vector<Parameter> parameters = workflow.sources();
+  if (options.map_of(Parameter::kMetalMask) != nullptr) parameters.push_back(Parameter::kMetalMask);
+  for (const Parameter parameter : parameters) {
+    const bool is_width = parameter == Parameter::kRoughness;
+    ParameterRequest asked;
+    if (const MapSource* source = options.map_of(parameter)) asked.source = *source;
+    if (const auto constant = workflow.constants.find(parameter); constant != workflow.constants.end())
+      asked.source = constant->second;
+    keep_numbers(options, asked);
+    if (const auto* map = std::get_if<MapName>(&asked.source))
+      asked.one_channel = one_channel(
+          is_width && options.reads_glossiness() ? "--glossiness" : parameter_option(parameter), map->file);
+    if (const auto found = options.factors.find(parameter); found != options.factors.end())
+      asked.factors = found->second;
+    if (const auto found = transfers.find(parameter); found != transfers.end())
+      asked.transfer = found->second;
+    request.parameters[parameter] = std::move(asked);
+  }
+  const auto carry = [&](const std::string& name, const MapSource* source) {
+    if (source == nullptr) return;
+    ParameterRequest asked{*source, {}, Transfer::kLinear};
+    keep_numbers(options, asked);
+    if (const auto* map = std::get_if<MapName>(&asked.source); map != nullptr && map->file.empty()) return;
+    request.carried.push_back({name, std::move(asked)});
+  };
+  carry("occlusion", options.occlusion ? &*options.occlusion : nullptr);
+  if (!workflow.has_source(Parameter::kMetallic) && !workflow.is_to_metallic())
+    carry("metallic", options.map_of(Parameter::kMetallic));
+  request.resample = options.resample;
+  request.convention = given_convention(options, workflow);
+  return request;
+}
+
+std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow) {
+  std::vector<CopiedFile> files;
+  if (workflow.is_material()) return files;
+  for (const Parameter parameter : {Parameter::kDiffuse, Parameter::kBaseColor}) {
+    const MapSource* source = options.map_of(parameter);
+    if (source == nullptr) continue;
+    const auto* map = std::get_if<MapName>(source);
+    if (map == nullptr || !map->channels.empty())
+      throw Error(ErrorKind::kUsage,
+                  parameter_option(parameter) +
+                      ": cannot be converted without a workflow (give a file to copy it, or "
+                      "set --from-workflow)");
+    files.push_back({map->file, std::string(parameter_name(parameter)), ""});
+  }
+  return files;
+}
+
+CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source) {
+  const auto text = [](NormalGreen green) {
+    return std::string(green == NormalGreen::kUp ? "OpenGL (green up)" : "DirectX (green down)");
+  };
+  const std::string target(options.preset != nullptr ? options.preset->name : options.to.word());
+  const auto wanted = options.preset != nullptr ? options.preset->normals : normals_of(options.to);
+  const auto of_source = normals_of(options.from);
+  const std::string from = "--from " + std::string(options.from.word());
+  const std::optional<StatedGreen> stated = stated_green(source.filename().string());
+  CopiedNormals normals{{source, "", ""}, ""};
+  if (!wanted) {
+    if (options.preset != nullptr) normals.reason = target + " reads both directions";
+    return normals;
+  }
+  if (!stated && !of_source) {
+    normals.reason = "neither the name nor --from says whether it is OpenGL or DirectX, and " + target +
+                     " reads " + text(*wanted) + " (write GL or DX into the name, as wood_NormalGL.png)";
+    return normals;
+  }
+  const NormalGreen green = stated ? stated->green : *of_source;
+  if (green == *wanted) {
+    if (of_source && *of_source != green)
+      normals.reason = "the name says " + text(green) + ", which " + target + " reads (maps of " + from +
+                       " are " + text(*of_source) + ")";
+    return normals;
+  }
+  std::filesystem::path turned = stated ? stated->turned_name : source.filename().string();
+  std::error_code ignored;
+  if (stated && std::filesystem::exists(source.parent_path() / turned, ignored)) return normals;
+  normals.copy.turned_name = turned.replace_extension(written_extension(turned)).string();
+  normals.reason =
+      (stated ? "the name" : from) + " says " + text(green) + ", and " + target + " reads " + text(*wanted);
+  return normals;
+}
+
+namespace {
+
+// Refuses an encoding of the results that their names contradict or that nothing is written in.
+void require_encoding(const ConvertOptions& options, const TargetChoice& choice) {
+  const auto& asked = options.output_encoding;
+  if (!asked) return;
+  const std::optional<RoughnessEncoding> held = choice.layout.width();
+  constexpr auto kGlossiness = RoughnessEncoding::kGlossiness;
+  if (held && (*asked == kGlossiness) != (*held == kGlossiness))
+    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
+                                       " cannot be used with --layout " + choice.layout.name +
+                                       ", which holds " + std::string(encoding_name(*held)));
+  if (options.only == Parameter::kSpecular)
+    throw Error(ErrorKind::kUsage,
+                "--output-encoding: applies to nothing, because --only specular writes no roughness");
+}
+
+}  // namespace
+
+RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
+                                const WidthSource& source, RoughnessEncoding usual) {
+  constexpr auto kGlossiness = RoughnessEncoding::kGlossiness, kRoughness = RoughnessEncoding::kRoughness;
+  const RoughnessEncoding wanted = asked.value_or(usual);
+  if (const auto held = choice.layout.width()) {
+    if (*held == kGlossiness) return kGlossiness;
+    return wanted == kGlossiness ? kRoughness : wanted;
+  }
+  if (!choice.layout.keeps_names || source.file.empty()) return wanted;
+  const bool is_glossy = source.convention == kGlossiness;
+  if (asked && is_glossy != (*asked == kGlossiness))
+    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
+                                       ": the result keeps the name " + source.file.filename().string() +
+                                       ", which holds " + (is_glossy ? "glossiness" : "roughness") +
+                                       " (use --layout separate)");
+  if (is_glossy) return kGlossiness;
+  return wanted == kGlossiness ? kRoughness : wanted;
+}
+
+std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
+                                                const std::filesystem::path& given) {
+  std::error_code ignored;
+  for (const std::filesystem::path& file : {given, options.folder / given})
+    if (std::filesystem::is_regular_file(file, ignored)) return file;
+  return std::nullopt;
+}
+
+std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options) {
+  std::vector<std::filesystem::path> shared;
+  const auto add = [&](const std::optional<MapSource>& source) {
+    const auto* map = source ? std::get_if<MapName>(&*source) : nullptr;
+    if (const auto file = map != nullptr ? shared_map(options, map->file) : std::nullopt)
+      shared.push_back(*file);
+  };
+  if (options.folder.empty()) return shared;
+  for (const auto& [parameter, source] : options.maps) add(source);
+  add(options.occlusion);
+  return shared;
+}
+
+TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow) {
+  TargetChoice choice;
+  choice.folder = options.output;
+  const bool is_other_kind = workflow.is_material() && kind_of(*workflow.source) != kind_of(*workflow.target);
+  choice.layout = options.layout ? *options.layout
+                  : is_other_kind || !workflow.constants.empty() || !shared_maps(options).empty()
+                      ? separate()
+                      : as_inputs();
+  choice.extension = options.format;
+  choice.type = options.type;
+  choice.compression_level = options.compression;
+  choice.diagnosis_folder = options.diagnose;
+  if (!options.diagnose.empty()) {
+    choice.diagnoses = {MaskChannel{}};
+    if (workflow.finds_metallic())
+      for (const Parameter measure :
+           {Parameter::kResidual, Parameter::kMetallicUncertainty, Parameter::kMetallicIssues})
+        choice.diagnoses.push_back(ConvertedChannel{measure});
+  }
+  choice.parameters = workflow.targets();
+  choice.colors_stay_grey = !workflow.is_material();
+  if (options.only) choice.parameters = {*options.only};
+  if (workflow.changes_nothing && options.bad_texels == BadTexels::kKeep)
+    choice.unchanged = choice.parameters;
+  choice.color_transfers = color_spaces("--output-color-space", options.output_color_spaces,
+                                        written_colors(choice.parameters), "is a result");
+  require_encoding(options, choice);
+  return choice;
+}
+
+void require_factor_of_exponent(bool is_given, RoughnessEncoding width) {
+  if (is_given && width != RoughnessEncoding::kExponent)
+    throw usage_error("--exponent-of-white: applies to exponents only, and the results hold " +
+                      std::string(encoding_name(width)) + " (remove this option)");
+}
+
+PassOptions pass_options(const ConvertOptions& options) {
+  PassOptions pass;
+  pass.target_convention = options.output_encoding;
+  pass.target_roughness_factor = static_cast<float>(options.output_roughness_factor.value_or(1.0));
+  pass.bad_texels = options.bad_texels;
+  pass.dither = options.dither;
+  pass.value_statistics = options.json;
+  pass.metallic_statistics = options.json || !options.quiet;
+  return pass;
+}
+
+}  // namespace remap

@@ -1,0 +1,332 @@
+#include "texremap/plan/convert_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "assets/maps/specgloss_factors.hpp"
+#include "command_line/run_app.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/number_text.hpp"
+#include "paths/converter_file.hpp"
+#include "remap/path.hpp"
+#include "remap/warp.hpp"
+#include "sets/folder_walk.hpp"
+#include "stages/brdf_stage.hpp"
+#include "texremap/plan/asset_formats.hpp"
+#include "texremap/plan/asset_jobs.hpp"
+#include "texremap/plan/conversion_request.hpp"
+#include "texremap/plan/converter_text.hpp"
+#include "texremap/plan/named_paths.hpp"
+#include "texremap/plan/set_choice.hpp"
+#include "texremap/plan/set_jobs.hpp"
+
+namespace remap {
+namespace {
+
+std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
+                                            const FittedConverter& fit, InstructionSet set) {
+  const auto* data = std::get_if<ConverterData>(&fit);
+  if (data == nullptr)
+    throw Error(ErrorKind::kInput, options.fit +
+                                       ": converts whole materials between workflows, which --from and --to "
+                                       "name without a fit (remove --fit)");
+  require_models_of_fit(options.fit, {workflow.source_brdf, workflow.target_brdf},
+                        {data->info.source.model, data->info.target.model});
+  return make_converter(*data, set);
+}
+
+// The fit that --fit names; none without that option.
+using GivenFit = std::optional<FittedConverter>;
+
+const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
+
+BuiltConversion conversion_of(const ConvertOptions& options, const GivenFit& fit,
+                              const WorkflowChoice& workflow) {
+  if (const WarpMapFit* warp = warp_in(fit)) {
+    BuiltConversion conversion;
+    conversion.material = make_warp_converter(*warp, *workflow.source, options.instructions);
+    return conversion;
+  }
+  if (fit) return build_conversion(workflow, converter_of_fit(options, workflow, *fit, options.instructions));
+  if (options.from.empty() || options.to.empty())
+    throw usage_error(std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
+  return build_conversion(workflow, options.via, options.converters.graph(options.instructions),
+                          options.instructions);
+}
+
+bool are_constants(const TextureSetRequest& request) {
+  return std::all_of(request.parameters.begin(), request.parameters.end(), [](const auto& entry) {
+    return std::holds_alternative<ConstantValues>(entry.second.source);
+  });
+}
+
+// Refuses results inside of the tree that a manifest lists: the next index would list them.
+void require_outside(const std::filesystem::path& output, const std::filesystem::path& tree) {
+  std::error_code failure;
+  const std::filesystem::path below =
+      std::filesystem::weakly_canonical(output, failure)
+          .lexically_relative(std::filesystem::weakly_canonical(tree, failure));
+  if (!output.empty() && !below.empty() && *below.begin() != "..")
+    throw usage_error("--output " + output.string() + ": lies in " + tree.string() +
+                      ", the tree of the manifest (choose a folder outside of it)");
+}
+
+// A warning where roughness maps of a folder are read in another encoding than most tools write; else empty.
+std::string encoding_warning(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
+  if (options.folder.empty() || options.roughness_encoding ||
+      source.roughness == RoughnessEncoding::kRoughness)
+    return "";
+  const bool matters = std::ranges::any_of(
+      list.jobs, [](const Job& job) { return !std::get<SetWork>(job.work).request.convention; });
+  if (!matters) return "";
+  return "warning: roughness maps are read as " + std::string(encoding_name(source.roughness)) +
+         ", the parameter of " + source.model +
+         " (use --roughness-encoding roughness if they hold its square root)";
+}
+
+// What the manifest lists for this run; none without one. DIR becomes the root of the tree.
+std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
+  if (options.manifest.empty()) return std::nullopt;
+  if (!options.names.empty())
+    throw usage_error("--names cannot be used with --manifest (give it to texremap index)");
+  const Part all;
+  TreeManifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
+  if (options.folder.empty()) options.folder = manifest.head.root;
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(options.folder, ignored))
+    throw input_error(options.folder.string() + ": no such folder, which " + options.manifest.string() +
+                      " is of (give DIR, where the tree lies now)");
+  require_outside(options.output, options.folder);
+  return manifest;
+}
+
+// Per cent of one value, 0 to 255 of a color: the number from 0 to 1 that is meant.
+std::string fractions_text(const std::vector<float>& values) {
+  const bool is_percent = values.size() == 1 && values.front() <= 100.0f;
+  std::string text;
+  for (const float value : values)
+    text += (text.empty() ? "" : ",") +
+            number_text(std::round(static_cast<double>(value) / (is_percent ? 1.0 : 2.55)) / 100.0);
+  return text;
+}
+
+// Refuses numbers that can only be per cent or 0 to 255, except exponents.
+void require_fractions(const TextureSetRequest& request, const ConverterInfo& info) {
+  const auto require = [](const std::string& option, const ParameterRequest& asked) {
+    const auto* values = std::get_if<ConstantValues>(&asked.source);
+    if (values == nullptr || std::ranges::none_of(*values, [](float value) { return value >= 2.0f; })) return;
+    std::string typed;
+    for (const float value : *values)
+      typed += (typed.empty() ? "" : ",") + number_text(static_cast<double>(value));
+    const bool has_meaning = std::ranges::all_of(*values, [](float value) { return value <= 255.0f; });
+    throw usage_error(option + " " + typed + ": values lie between 0 and 1" +
+                      (has_meaning ? " (write " + option + " " + fractions_text(*values) + ")" : ""));
+  };
+  const RoughnessEncoding width = request.convention.value_or(info.source.roughness);
+  for (const auto& [parameter, asked] : request.parameters) {
+    const bool is_exponent = parameter == Parameter::kRoughness && width == RoughnessEncoding::kExponent;
+    const bool is_wide = parameter == Parameter::kSpecular && info.specular.max > 1.0;
+    if (!is_exponent && !is_wide)
+      require(parameter == Parameter::kRoughness && width == RoughnessEncoding::kGlossiness
+                  ? "--glossiness"
+                  : parameter_option(parameter),
+              asked);
+  }
+  for (const CarriedRequest& carried : request.carried) require("--" + carried.name, carried.parameter);
+}
+
+// The sets that the manifest, or the folder, holds; none without either.
+void find_sets_of(const ConvertOptions& options, std::optional<Discovery>& sets) {
+  if (!sets) sets = discovered_sets(options);
+}
+
+// Converts numbers, or texture sets.
+void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, ConvertPlan& plan) {
+  std::optional<Discovery> found;
+  apply_preset(options);
+  if (manifest) found = std::move(manifest->listing.found);
+  std::string inferred;
+  if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
+    if (options.part)
+      throw usage_error("--from is required (a part does not know the maps of the other parts)");
+    find_sets_of(options, found);
+    const InferredSource source = inferred_source(options, found);
+    options.from = model_name().read("--from", source.model);
+    inferred = source.note;
+  }
+  const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_fitted_converter(options.fit));
+  const WarpMapFit* warp = warp_in(fit);
+  WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
+  if (!inferred.empty()) workflow.notes.insert(workflow.notes.begin(), inferred);
+  TargetChoice targets = target_choice(options, workflow);
+  TextureSetRequest request = set_request(options, workflow);
+  BuiltConversion built = conversion_of(options, fit, workflow);
+  SetPlan& sets = plan.work.emplace<SetPlan>(SetPlan{options.converters,
+                                                     {std::move(built), std::move(workflow)},
+                                                     std::move(request),
+                                                     std::move(targets),
+                                                     pass_options(options),
+                                                     options.output_roughness_factor.has_value()});
+  const ChosenConverter& chosen = sets.chosen;
+  require_fractions(sets.request, chosen.info());
+  for (const std::string& text : chosen.workflow.assumptions) plan.messages.push_back("warning: " + text);
+  for (const std::string& text : chosen.workflow.notes) plan.messages.push_back("note: " + text);
+  if (chosen.workflow.is_closest)
+    plan.messages.push_back("note: " + closest_text(chosen.workflow.target_brdf));
+  if (options.folder.empty() && are_constants(sets.request))
+    return refuse(options, kNeedsFiles,
+                  ": applies to nothing, because all maps are numbers (give a file, or remove this option)");
+  find_sets_of(options, found);
+  if (options.output.empty()) throw usage_error("--output is required");
+  plan.list = set_jobs(options, chosen.workflow, sets.request, std::move(found));
+  if (const std::string text = encoding_warning(options, plan.list, chosen.info().source); !text.empty())
+    plan.messages.push_back(text);
+  for (const std::string& text : plan.list.notes) plan.messages.push_back("note: " + text);
+  plan.conversion = conversion_note(chosen.info().source.model, chosen.info().target.model,
+                                    converter_ids(chosen), chosen.converter(), result_options_text(options));
+}
+
+// Textures stay in their asset: what an engine reads of a folder of maps cannot be made of it.
+void refuse_engine(const ConvertOptions& options) {
+  const Preset* preset = options.preset != nullptr ? options.preset : preset_of(options.to.word());
+  if (preset == nullptr) return;
+  throw usage_error(
+      (options.preset != nullptr ? "--preset " + std::string(preset->name)
+                                 : "--to " + std::string(options.to.word())) +
+      ": textures are not taken out of assets such as " + display_path(options.folder) +
+      " (convert it by --to gltf, which engines import; or export its textures, as with Blender, "
+      "and convert their folder by --preset " +
+      std::string(preset->name) + ")");
+}
+
+// Without --to, assets become gltf; of two paths without --output, the second is the result.
+void complete_asset_options(ConvertOptions& options) {
+  const bool is_gltf = options.to.empty() || options.to.name == "metallic";
+  if (options.preset == nullptr && preset_of(options.to.word()) == nullptr && is_gltf)
+    options.to = model_name().read("--to", "gltf");
+  const bool is_tree = options.assets || !options.manifest.empty();
+  if (!is_tree && options.output.empty() && options.more_assets.size() == 1)
+    options.output = std::exchange(options.more_assets, {}).front();
+}
+
+void require_asset_options(const ConvertOptions& options) {
+  refuse_engine(options);
+  const bool is_tree = options.assets || !options.manifest.empty();
+  for (const GivenOption& option : options.given)
+    if ((option.tags & (kNeedsAsset | kForAssets)) == 0)
+      throw usage_error(option.name + ": applies to nothing, because " + display_path(options.folder) +
+                        (is_tree ? " is converted as a folder of assets" : " is an asset") +
+                        " (remove this option)");
+  if (!is_tree)
+    refuse(options, kNeedsTree,
+           ": applies to folders of assets only (remove this option, or name a folder and --assets)");
+  if (is_tree && (!options.more_assets.empty() || !options.asset_root.empty()))
+    throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
+                      (options.more_assets.empty()
+                           ? std::string("--root, which is DIR")
+                           : display_path(options.more_assets.front()) + " (name one folder)"));
+  const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
+  if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
+    throw usage_error("--from " + options.from.name +
+                      ": the file tells what its materials are (remove this option)");
+  if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
+    throw usage_error("--to " + options.to.name +
+                      ": materials of assets become gltf or gltf-specgloss (use --to gltf)");
+  if (options.output.empty()) throw usage_error("--output is required");
+  const bool is_core = options.to.name == "gltf" && options.profile != MaterialProfile::kExtensions;
+  if (options.fold_specular && !is_core)
+    throw usage_error("--fold-specular: applies to --to gltf with --profile core only (remove one)");
+  if (options.to.name != "gltf" && options.profile)
+    throw usage_error("--profile: applies to --to gltf only (remove this option)");
+}
+
+// Refuses options of which no asset of the run makes use.
+void require_gltf(const ConvertOptions& options, const JobList& list) {
+  if (std::ranges::any_of(list.jobs,
+                          [](const Job& job) { return is_gltf_name(std::get<AssetWork>(job.work).input); }))
+    return;
+  refuse(options, kNeedsGltf, ": applies to glTF files only (remove this option)");
+  if (options.to.name != "gltf")
+    throw usage_error("--to " + options.to.name + ": materials of MTL and OBJ files become gltf");
+}
+
+AssetOptions asset_options(const ConvertOptions& options) {
+  AssetOptions asset{options.profile.value_or(MaterialProfile::kCore), options.prior, options.instructions,
+                     options.resample};
+  asset.target = options.to.name == "gltf-specgloss" ? AssetTarget::kSpecGloss : AssetTarget::kMetalRough;
+  asset.folds_specular = options.fold_specular;
+  asset.mtl_maker = options.mtl_maker;
+  asset.compacts = !options.keep_unused;
+  asset.bakes = options.bake;
+  asset.jpeg_quality = options.jpeg;
+  asset.png_level = options.compression;
+  return asset;
+}
+
+void plan_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest,
+                 ConvertPlan& plan) {
+  require_asset_options(options);
+  plan.list = asset_jobs(options, manifest ? &manifest->listing : nullptr);
+  require_gltf(options, plan.list);
+  plan.work = asset_options(options);
+  plan.conversion = conversion_note("assets", options.to.name, "",
+                                    *specgloss_projection(options.prior, options.instructions),
+                                    result_options_text(options));
+}
+
+// Whether the run converts assets; refuses options of assets where it does not.
+bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
+  if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
+    return true;
+  refuse(options, kNeedsAsset,
+         ": applies to assets only (remove it, name a glTF, MTL or OBJ file, or --assets)");
+  return false;
+}
+
+// Below what folders others may have put what the run reads.
+void confine(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
+  std::vector<std::filesystem::path> folders;
+  if (options.folder.empty() || options.follow_links) return confine_inputs({});
+  if (manifest || !is_asset(options.folder))
+    folders.push_back(options.folder);
+  else if (!options.asset_root.empty())
+    folders.push_back(options.asset_root);
+  else
+    for (const std::filesystem::path& asset : named_assets(options))
+      folders.push_back(folder_of_asset(asset));
+  confine_inputs(folders);
+}
+
+}  // namespace
+
+ConvertPlan resolve(ConvertOptions options) {
+  if (!options.assets) require_one_kind(options.folder, options.more_assets);
+  std::optional<TreeManifest> manifest = listed_entries(options);
+  const bool has_assets = are_assets(options, manifest);
+  ConvertPlan plan;
+  plan.part = options.part;
+  if (plan.part && !plan.part->note.empty()) plan.messages.push_back("note: " + plan.part->note);
+  if (manifest) plan.manifest = manifest->head;
+  if (has_assets) complete_asset_options(options);
+  confine(options, manifest);
+  if (has_assets)
+    plan_assets(options, manifest, plan);
+  else
+    plan_sets(options, std::move(manifest), plan);
+  plan.output = options.output;
+  plan.force = options.force;
+  plan.resume = options.resume;
+  plan.dry_run = options.dry_run;
+  plan.threads = options.threads();
+  plan.memory_bytes = options.memory_bytes();
+  plan.json = options.json;
+  plan.histograms = options.histograms;
+  plan.quiet = options.quiet;
+  plan.verbose = options.verbose;
+  return plan;
+}
+
+}  // namespace remap

@@ -1,0 +1,56 @@
+// What a run of `texremap convert` does: its options, resolved once. What runs and reports knows no options.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "assets/document/asset.hpp"
+#include "texremap/options/convert_options.hpp"
+#include "texremap/plan/chosen_converter.hpp"
+#include "texremap/plan/conversion_note.hpp"
+#include "texremap/plan/job.hpp"
+#include "texremap/plan/manifest.hpp"
+#include "texture/target_plan.hpp"
+#include "texture/texture_pass.hpp"
+
+namespace remap {
+
+// What is done with texture sets, or with numbers.
+struct SetPlan {
+  UsedConverters converters;  // of which `chosen` is made
+  ChosenConverter chosen;
+  TextureSetRequest request;      // what the options say about one set, or about all sets of a folder
+  TargetChoice targets;           // without the members that differ between sets
+  PassOptions pass;               // target_convention: what --output-encoding says
+  bool scales_exponents = false;  // whether it is known which exponent a stored 1 stands for in the results
+};
+
+struct ConvertPlan {
+  std::variant<SetPlan, AssetOptions> work;
+  JobList list;  // no jobs where all maps are numbers
+  ConversionNote conversion;
+
+  std::filesystem::path output;
+  bool force = false, resume = false, dry_run = false;
+  int threads = 1;
+  std::uint64_t memory_bytes = 0;  // of images, in all threads
+  std::optional<GivenPart> part;   // of the manifest
+  ManifestHead manifest;
+
+  std::vector<std::string> messages;  // `warning: ...` and `note: ...`, what was assumed
+  bool json = false, histograms = false, quiet = false, verbose = false;
+
+  // Null for assets.
+  const SetPlan* sets() const { return std::get_if<SetPlan>(&work); }
+  bool is_of_numbers() const { return list.jobs.empty() && list.skipped.empty() && !list.is_of_folder; }
+};
+
+// Checks everything that can be checked before the first image is opened: options, converter, and of folders
+// the names of all files. Throws kUsage, naming the option; kInput for what cannot be read.
+ConvertPlan resolve(ConvertOptions options);
+
+}  // namespace remap

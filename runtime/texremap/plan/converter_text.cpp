@@ -1,0 +1,83 @@
+#include "texremap/plan/converter_text.hpp"
+
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+
+namespace remap {
+
+std::string range_text(std::string_view name, const Range& range) {
+  return std::string(name) + " " + number_text(range.min) + " to " + number_text(range.max);
+}
+
+std::string domain_text(const ConverterInfo& info) {
+  return range_text(encoding_name(info.source.roughness), info.roughness) + ", " +
+         range_text(info.source.specular, info.specular);
+}
+
+namespace {
+
+std::string percent_text(double percent) {
+  return percent < 0.05 ? "less than 0.1 %" : fixed(percent, 1) + " %";
+}
+
+}  // namespace
+
+std::string difference_text(const ConverterPath& path) {
+  if (is_copy(path)) {
+    const bool is_equal =
+        path.steps.front()->info().source.roughness == path.steps.back()->info().target.roughness;
+    return std::string("both models have the same lobe, so that ") +
+           (is_equal ? "numbers are copied" : "only the encoding of roughness changes");
+  }
+  const std::optional<PathDifference> difference = picture_difference(path);
+  if (!difference) return "nobody has compared pictures";
+  return std::string("pictures differ by ") + (difference->is_estimate ? "about " : "") +
+         percent_text(difference->converted) +
+         (difference->copied ? ", with copied numbers by " + percent_text(*difference->copied) : "");
+}
+
+std::string models_text(const ConverterPath& path) {
+  std::string text;
+  for (const std::string& model : path_models(path)) text += (text.empty() ? "" : " -> ") + model;
+  return text;
+}
+
+std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  if (path.steps.empty()) return "";
+  const std::optional<PathDifference> difference = picture_difference(path);
+  const bool is_told = is_copy(path) || (difference && difference->converted >= 100.0 * kVisible);
+  if (!is_told && !closer) return "";
+  std::string text = path.steps.front()->info().source.model + " to " + target_model(path) + ": ";
+  if (is_told) text += difference_text(path);
+  if (closer) text += (is_told ? "; " : "") + closer_text(*closer);
+  return text;
+}
+
+std::string closer_text(const ConverterPath& closer) {
+  return target_model(closer) + " matches the highlight more closely";
+}
+
+std::string closest_text(const std::string& model) {
+  return model + " is the closest model of " + renderer_of(model);
+}
+
+Json path_json(const ConverterPath& path) {
+  Json ids = Json::list();
+  for (const Converter* step : path.steps) ids.push_back(step->info().id);
+  return ids;
+}
+
+Json pictures_json(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  Json pictures, model;
+  if (const auto difference = picture_difference(path))
+    pictures = {{"converted", rounded(difference->converted, 3)},
+                {"copied", difference->copied ? Json(*difference->copied) : Json()},
+                {"is_estimate", difference->is_estimate}};
+  if (closer)
+    model = {{"model", target_model(*closer)},
+             {"path", path_json(*closer)},
+             {"expected_error", closer->expected_error}};
+  return {{"pictures", pictures}, {"same_lobe", is_copy(path)}, {"closer_model", model}};
+}
+
+}  // namespace remap

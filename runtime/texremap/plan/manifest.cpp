@@ -1,0 +1,382 @@
+#include "texremap/plan/manifest.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <set>
+
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/json_field.hpp"
+#include "core/safe_relative.hpp"
+#include "core/system.hpp"
+#include "remap/version.hpp"
+#include "texture/content_hash.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::int64_t kFormat = 1;
+constexpr std::string_view kCostFirst = "{\"cost\":";
+constexpr std::size_t kLongestHead = 1 << 16;
+constexpr std::int64_t kMostTile = 999'999'999;
+constexpr const char* kChanged = "is incomplete, or was changed since it was written (texremap index again)";
+
+// Whether a conversion may read the channels: of a map of normals or heights none does.
+bool is_read(const FoundMap& map) {
+  constexpr Role kCopied[] = {Role::kNormal, Role::kHeight,     Role::kCavity, Role::kTransmission,
+                              Role::kIor,    Role::kSubsurface, Role::kOther};
+  return std::ranges::any_of(map.meaning, [&](const ChannelMeaning& entry) {
+    return std::ranges::find(kCopied, entry.role) == std::end(kCopied);
+  });
+}
+
+// A set or an asset, and what stands in its line.
+template <class Entry>
+struct Listed {
+  const Entry& entry;
+  std::vector<std::uintmax_t> sizes;  // of its files, in order
+  std::uintmax_t bytes = 0;
+  std::uint64_t cost = 0;
+
+  void add_file(const fs::path& root, const fs::path& file, bool is_read) {
+    std::error_code failure;
+    const std::uintmax_t size = fs::file_size(root / file, failure);
+    if (failure)
+      throw system_error(ErrorKind::kInput, display_path(file) + ": cannot be read", errno_of(failure));
+    sizes.push_back(size);
+    bytes += size;
+    if (is_read) cost += size + kCostOfFile;
+  }
+};
+
+// Refuses what JSON cannot hold, and what a reader of the manifest refuses.
+void require_listable(const fs::path& path) {
+  if (!is_utf8(path.string()))
+    throw input_error(display_path(path) +
+                      ": the name is not UTF-8, which a manifest cannot hold (rename it)");
+  if (const std::string fault = fault_of_relative(path.string()); !fault.empty())
+    throw input_error(display_path(path) + ": the name " + fault + ", which a manifest refuses (rename it)");
+}
+
+fs::path place_of(const FoundSet& set) { return set.folder / set.name; }
+const fs::path& place_of(const ListedAsset& asset) { return asset.path; }
+
+Listed<FoundSet> listed(const fs::path& root, const FoundSet& set) {
+  Listed<FoundSet> all{set, {}};
+  require_listable(place_of(set));
+  for (const FoundMap& map : set.maps) {
+    require_listable(map.path);
+    if (map.tiles.empty()) all.add_file(root, map.path, is_read(map));
+    for (const Tile& tile : map.tiles) all.add_file(root, tile.path, is_read(map));
+  }
+  return all;
+}
+
+Listed<ListedAsset> listed(const fs::path& root, const ListedAsset& asset) {
+  Listed<ListedAsset> all{asset, {}};
+  require_listable(asset.path);
+  all.add_file(root, asset.path, true);
+  for (const fs::path& file : asset.files) {
+    require_listable(file);
+    all.add_file(root, file, true);
+  }
+  return all;
+}
+
+std::string line_of(const Listed<FoundSet>& listed) {
+  const FoundSet& set = listed.entry;
+  Json maps = Json::list();
+  auto size = listed.sizes.begin();
+  for (const FoundMap& map : set.maps) {
+    Json roles = Json::object();
+    for (const ChannelMeaning& entry : map.meaning)
+      roles[std::string(name_of(kChannels, entry.channels))] = role_name(entry.role);
+    Json json = {{"file", map.path.filename().string()}, {"habit", map.habit}, {"roles", roles}};
+    if (map.tiles.empty()) json["bytes"] = *size++;
+    for (const Tile& tile : map.tiles) json["tiles"].push_back(Json::list({tile.number, *size++}));
+    maps.push_back(json);
+  }
+  const Json json = {{"cost", listed.cost}, {"id", place_of(set).string()}, {"folder", set.folder.string()},
+                     {"name", set.name},    {"bytes", listed.bytes},        {"maps", maps}};
+  return json.dump() + '\n';
+}
+
+std::string line_of(const Listed<ListedAsset>& listed) {
+  const ListedAsset& asset = listed.entry;
+  Json files = Json::list();
+  auto size = listed.sizes.begin();
+  files.push_back(Json::list({asset.path.string(), *size++}));
+  for (const fs::path& file : asset.files) files.push_back(Json::list({file.string(), *size++}));
+  const Json json = {{"cost", listed.cost},
+                     {"asset", asset.path.string()},
+                     {"prefix", asset.image_prefix},
+                     {"bytes", listed.bytes},
+                     {"files", files}};
+  return json.dump() + '\n';
+}
+
+Json head_json(const ManifestHead& head) {
+  return {{"remap_manifest", kFormat},
+          {"version", head.version},
+          {"root", head.root.string()},
+          {"names", head.names},
+          {std::string(name_of(kListedKinds, head.kind)), head.count},
+          {"files", head.file_count},
+          {"bytes", head.bytes},
+          {"cost", head.cost},
+          {"hash", head.hash}};
+}
+
+// Of what the first line says, but for the hash itself; the other lines are added.
+ContentHash hash_of_head(ManifestHead head) {
+  head.hash.clear();
+  ContentHash hash;
+  hash.add(head_json(head).dump());
+  return hash;
+}
+
+// A name that somebody wrote into the manifest to lead elsewhere.
+struct UnsafeName {
+  std::string message;
+};
+
+class ManifestReader {
+ public:
+  explicit ManifestReader(const fs::path& path) : path_(path), file_(path), lines_(file_) {}
+  TreeManifest read(const Part& part);
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const { throw input_error(path_.string() + ": " + what); }
+  ManifestHead read_head();
+  void read_lines(const Part& part, TreeManifest& manifest, ContentHash& hash);
+  void add_set(const Field& field, Listing& listing) const;
+  void add_asset(const Field& field, Listing& listing) const;
+  void add_rest(const Field& field, Listing& listing) const;
+  std::uint64_t cost_in(std::string_view line) const;
+  // `checked` is safe_relative or safe_name.
+  fs::path safe(const Field& field, fs::path (*checked)(const std::string&, const std::string&)) const {
+    const std::string& text = field.any_text();
+    try {
+      return checked(text, path_.string() + ": line " + std::to_string(lines_.number()));
+    } catch (const Error& error) {
+      throw UnsafeName{std::string(error.what()) + " (texremap index again)"};
+    }
+  }
+
+  const fs::path& path_;
+  const InputFile file_;
+  InputLines lines_;
+};
+
+ManifestHead ManifestReader::read_head() {
+  const std::string_view line = lines_.next().value_or("");
+  if (!line.starts_with("{\"remap_manifest\":") || line.size() > kLongestHead)
+    refuse("is no manifest (texremap index DIR -o FILE writes one)");
+  const Json json = parse_json(line, path_.string());
+  const Field field(json, path_.string());
+  ManifestHead head;
+  head.version = field["version"].text();
+  if (const std::int64_t format = field["remap_manifest"].count(); format != kFormat)
+    refuse("is of format " + std::to_string(format) + ", this texremap reads format " +
+           std::to_string(kFormat) + " (texremap index again)");
+  if (head.version != kVersion)
+    refuse("is of version " + head.version + " of texremap, this is " + kVersion + " (texremap index again)");
+  head.root = field["root"].any_text();
+  head.names = field["names"].text();
+  head.kind = field.contains("assets") ? ListedKind::kAssets : ListedKind::kSets;
+  head.count = static_cast<std::size_t>(field[std::string(name_of(kListedKinds, head.kind))].count());
+  head.file_count = static_cast<std::size_t>(field["files"].count());
+  head.bytes = static_cast<std::uintmax_t>(field["bytes"].count());
+  head.cost = static_cast<std::uint64_t>(field["cost"].count());
+  head.hash = field["hash"].text();
+  return head;
+}
+
+std::uint64_t ManifestReader::cost_in(std::string_view line) const {
+  std::uint64_t cost = 0;
+  const char* const begin = line.data() + kCostFirst.size();
+  if (std::from_chars(begin, line.data() + line.size(), cost).ec != std::errc()) refuse(kChanged);
+  return cost;
+}
+
+void ManifestReader::add_asset(const Field& field, Listing& listing) const {
+  ListedAsset asset;
+  asset.path = safe(field["asset"], safe_relative);
+  asset.image_prefix = safe(field["prefix"], safe_name).string();
+  field["files"].list(1, [&](const Field& file) {
+    const fs::path path = safe(file.at(0, 2), safe_relative);
+    listing.found.sizes[path] = static_cast<std::uintmax_t>(file.at(1, 2).count());
+    if (path != asset.path) asset.files.push_back(path);
+    return true;
+  });
+  if (!listing.found.sizes.contains(asset.path)) refuse(kChanged);
+  listing.assets.push_back(std::move(asset));
+}
+
+void ManifestReader::add_set(const Field& field, Listing& listing) const {
+  FoundSet set;
+  set.name = safe(field["name"], safe_name).string();
+  set.folder = safe(field["folder"], safe_relative);
+  const auto note_size = [&](const fs::path& file, const Field& bytes) {
+    listing.found.sizes[file] = static_cast<std::uintmax_t>(bytes.count());
+  };
+  field["maps"].list(1, [&](const Field& entry) {
+    FoundMap& map = set.maps.emplace_back();
+    const std::string name = safe(entry["file"], safe_name).string();
+    map.path = set.folder / name;
+    map.habit = entry["habit"].any_text();
+    const Field roles = entry["roles"];
+    roles.require(roles.json().fields() != nullptr, "an object");
+    for (const auto& [channels, role] : *roles.json().fields())
+      map.meaning.push_back({value_named(kChannels, channels).value_or(Channels::kWhole),
+                             Field(role, path_.string()).named(kRoles, "a role")});
+    map.is_converted = has_roughness_or_specular(map.meaning);
+    if (!entry.contains("tiles")) {
+      note_size(map.path, entry["bytes"]);
+      return true;
+    }
+    map.pattern = tile_pattern(name);
+    if (!map.pattern) refuse(kChanged);
+    entry["tiles"].list(1, [&](const Field& tile) {
+      const std::int64_t number = tile.at(0, 2).count();
+      if (number > kMostTile) refuse(kChanged);
+      map.tiles.push_back(
+          {static_cast<int>(number), set.folder / tile_name(*map.pattern, static_cast<int>(number))});
+      note_size(map.tiles.back().path, tile.at(1, 2));
+      return true;
+    });
+    return true;
+  });
+  judge(set);
+  listing.found.sets.push_back(std::move(set));
+}
+
+void ManifestReader::add_rest(const Field& field, Listing& listing) const {
+  if (field.contains("problem"))
+    listing.found.problems.push_back({{}, field["problem"].any_text()});
+  else
+    listing.found.unrecognised.push_back(safe(field["unrecognised"], safe_relative));
+}
+
+TreeManifest ManifestReader::read(const Part& part) {
+  TreeManifest manifest{read_head(), {}, {}};
+  manifest.listing.kind = manifest.head.kind;
+  ContentHash hash = hash_of_head(manifest.head);
+  try {
+    read_lines(part, manifest, hash);
+  } catch (const UnsafeName& name) {
+    throw input_error(name.message);
+  } catch (const Error&) {
+    refuse(kChanged);  // a line that makes no sense is not one that was written
+  }
+  if (hash.hex() != manifest.head.hash) refuse(kChanged);
+  return manifest;
+}
+
+void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, ContentHash& hash) {
+  const auto add = [&](std::string_view line, auto adder) {
+    const std::string place = path_.string();
+    const Json json = parse_json(line, place);
+    (this->*adder)(Field(json, place), manifest.listing);
+  };
+  const auto add_entry =
+      manifest.head.kind == ListedKind::kSets ? &ManifestReader::add_set : &ManifestReader::add_asset;
+  std::uint64_t before = 0;
+  while (const std::optional<std::string_view> line = lines_.next()) {
+    hash.add(*line);
+    if (!line->starts_with(kCostFirst)) {
+      if (part.index == 1) add(*line, &ManifestReader::add_rest);
+      continue;
+    }
+    const std::uint64_t cost = cost_in(*line);
+    if (part_of_entry(before, cost, manifest.head, part.count) == part.index) {
+      add(*line, add_entry);
+      manifest.costs.push_back(cost);
+    }
+    before += cost;
+  }
+  if (!lines_.rest().empty()) refuse(kChanged);
+}
+
+// Those that can be listed; the others become problems.
+template <class Entry>
+std::vector<Listed<Entry>> listed_all(const fs::path& root, const std::vector<Entry>& entries,
+                                      ManifestHead& head, std::vector<WalkProblem>& problems) {
+  std::vector<Listed<Entry>> all;
+  for (const Entry& entry : entries) {
+    try {
+      all.push_back(listed(root, entry));
+    } catch (const Error& error) {
+      problems.push_back({place_of(entry), display_path(root) + "/" + error.what()});
+      continue;
+    }
+    head.file_count += all.back().sizes.size();
+    head.bytes += all.back().bytes;
+    head.cost += all.back().cost;
+  }
+  head.count += all.size();
+  return all;
+}
+
+}  // namespace
+
+ManifestHead write_manifest(const fs::path& file, const fs::path& root, const std::string& names,
+                            Listing listing) {
+  Discovery& found = listing.found;
+  ManifestHead head;
+  head.kind = listing.kind;
+  head.version = kVersion;
+  head.root = fs::absolute(root).lexically_normal();
+  head.names = names;
+  if (!is_utf8(head.root.string()))
+    throw input_error(display_path(head.root) +
+                      ": the name is not UTF-8, which a manifest cannot hold (rename it)");
+  const std::vector<Listed<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
+  const std::vector<Listed<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
+  // The hash stands before the lines, which are made twice rather than kept: a manifest may have gigabytes.
+  const auto make_lines = [&](const auto& take) {
+    for (const Listed<FoundSet>& set : sets) take(line_of(set));
+    for (const Listed<ListedAsset>& asset : assets) take(line_of(asset));
+    for (const fs::path& image : found.unrecognised)
+      take(Json({{"unrecognised", image.string()}}).dump() + '\n');
+    for (const WalkProblem& problem : found.problems)
+      take(Json({{"problem", problem.message}}).dump() + '\n');
+  };
+  ContentHash hash = hash_of_head(head);
+  make_lines([&](const std::string& line) { hash.add(std::string_view(line).substr(0, line.size() - 1)); });
+  head.hash = hash.hex();
+  NewFile manifest(file);
+  manifest.add(head_json(head).dump() + '\n');
+  make_lines([&](const std::string& line) { manifest.add(line); });
+  manifest.commit();
+  return head;
+}
+
+std::size_t part_of_entry(std::uint64_t cost_before, std::uint64_t cost, const ManifestHead& head,
+                          std::size_t count) {
+  if (head.cost == 0) return 1;
+  const double middle = static_cast<double>(cost_before) + 0.5 * static_cast<double>(cost);
+  const double place = middle / static_cast<double>(head.cost) * static_cast<double>(count);
+  return std::min(static_cast<std::size_t>(place), count - 1) + 1;
+}
+
+TreeManifest read_manifest(const fs::path& file, const Part& part) { return ManifestReader(file).read(part); }
+
+void require_as_listed(const ListedSizes& files) {
+  for (const auto& [file, bytes] : files) {
+    std::error_code failure;
+    const std::uintmax_t size = fs::file_size(file, failure);
+    if (failure)
+      throw system_error(
+          ErrorKind::kInput,
+          file.string() + ": the manifest lists it (texremap index again), but it cannot be read",
+          errno_of(failure));
+    if (size != bytes)
+      throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, the manifest says " +
+                        std::to_string(bytes) + " (texremap index again)");
+  }
+}
+
+}  // namespace remap

@@ -1,0 +1,163 @@
+#include "texremap/plan/set_choice.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "sets/name_pieces.hpp"
+
+namespace remap {
+namespace {
+
+std::string use_text(const FoundSet& set, const MapUse& use) {
+  std::string text = display_path(set.maps[use.map].path.filename());
+  if (use.channels != Channels::kWhole) text += ":" + std::string(name_of(kChannels, use.channels));
+  return text;
+}
+
+// Whether a word names a role, or a part of the name of a file between separators.
+bool names(const std::string& word, const FoundSet& set, const MapUse& use) {
+  const std::string wanted = lower(word);
+  if (wanted == role_name(use.role) || (wanted == "gloss" && use.role == Role::kGlossiness)) return true;
+  const std::string file = lower(set.maps[use.map].path.filename().string());
+  return std::ranges::any_of(name_pieces(file),
+                             [&](const NamePiece& piece) { return piece.in(file) == wanted; });
+}
+
+template <typename Wanted>
+std::vector<MapUse> those(const std::vector<MapUse>& found, Wanted wanted) {
+  std::vector<MapUse> kept;
+  std::ranges::copy_if(found, std::back_inserter(kept), wanted);
+  return kept;
+}
+
+// The one use that is kept, with the reason for it; an empty reason where somebody asked for it.
+struct Kept {
+  MapUse use;
+  std::string reason;
+};
+std::optional<Kept> kept_of(const FoundSet& set, std::vector<MapUse> found,
+                            const std::vector<std::string>& prefer, std::optional<RoughnessEncoding> own) {
+  for (const std::string& word : prefer)
+    if (const auto named = those(found, [&](const MapUse& use) { return names(word, set, use); });
+        !named.empty())
+      found = named;
+  if (found.size() == 1) return Kept{found.front(), ""};
+  const auto is_own = [&](const MapUse& use) {
+    return encoding_of(use.role).value_or(RoughnessEncoding::kRoughness) == *own;
+  };
+  if (own && is_roughness(found.front().role))
+    if (const auto same = those(found, is_own); !same.empty()) found = same;
+  if (found.size() == 1) return Kept{found.front(), "the parameter of the model"};
+  const auto whole = those(found, [](const MapUse& use) {
+    return use.channels == Channels::kWhole || use.channels == Channels::kRgb;
+  });
+  if (whole.size() == 1) return Kept{whole.front(), "a map of its own"};
+  const auto role_count = [&](const MapUse& use) { return set.maps[use.map].meaning.size(); };
+  std::size_t most = 0;
+  for (const MapUse& use : found) most = std::max(most, role_count(use));
+  const auto fullest = those(found, [&](const MapUse& use) { return role_count(use) == most; });
+  if (fullest.size() == 1) return Kept{fullest.front(), "which holds more of the material"};
+  return std::nullopt;
+}
+
+void drop(FoundSet& set, const MapUse& use) {
+  FoundMap& map = set.maps[use.map];
+  std::erase(map.meaning, ChannelMeaning{use.channels, use.role});
+  map.is_repeated = true;
+  map.is_converted = std::ranges::any_of(map.meaning, [](const ChannelMeaning& entry) {
+    return is_roughness(entry.role) || entry.role == Role::kSpecular;
+  });
+}
+
+// The source that roles tell; empty for none.
+std::string model_of_maps(bool metallic, bool base_color, bool specular, bool glossiness, bool diffuse) {
+  if (metallic || (base_color && !specular)) return "metallic";
+  if (specular && glossiness) return "gltf-specgloss";
+  if (specular && (diffuse || base_color)) return "specular";
+  return "";
+}
+
+std::string model_of_set(const FoundSet& set) {
+  return model_of_maps(!uses(set, is<Role::kMetallic>).empty(), !uses(set, is<Role::kBaseColor>).empty(),
+                       !uses(set, is<Role::kSpecular>).empty(), !uses(set, is<Role::kGlossiness>).empty(),
+                       !uses(set, is<Role::kDiffuse>).empty());
+}
+
+}  // namespace
+
+std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
+  const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
+    return best.empty() ? other : best;
+  };
+  switch (parameter) {
+    case Parameter::kRoughness:
+      return uses(set, is_roughness);
+    case Parameter::kSpecular:
+      return uses(set, is<Role::kSpecular>);
+    case Parameter::kDiffuse:
+      return either(uses(set, is<Role::kDiffuse>), uses(set, is<Role::kBaseColor>));
+    case Parameter::kBaseColor:
+      return either(uses(set, is<Role::kBaseColor>), uses(set, is<Role::kDiffuse>));
+    case Parameter::kMetallic:
+      return uses(set, is<Role::kMetallic>);
+    default:
+      return {};
+  }
+}
+
+std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>& parameters,
+                                     const std::vector<std::string>& prefer,
+                                     std::optional<RoughnessEncoding> own) {
+  std::vector<std::string> notes;
+  for (const Parameter parameter : parameters) {
+    const std::vector<MapUse> found = uses_of(set, parameter);
+    if (found.size() < 2) continue;
+    const std::optional<Kept> kept = kept_of(set, found, prefer, own);
+    if (!kept) continue;
+    std::string others;
+    for (const MapUse& use : found) {
+      if (use.map == kept->use.map && use.channels == kept->use.channels) continue;
+      others += (others.empty() ? "" : ", ") + use_text(set, use);
+      drop(set, use);
+    }
+    if (!kept->reason.empty())
+      notes.push_back(plain_name(parameter) + " is read from " + use_text(set, kept->use) + ", " +
+                      kept->reason + ", not from " + others + " (--prefer changes that)");
+  }
+  judge(set);
+  return notes;
+}
+
+InferredSource inferred_source(const ConvertOptions& options, const std::optional<Discovery>& sets) {
+  const auto has = [&](Parameter parameter) { return options.map_of(parameter) != nullptr; };
+  std::string model =
+      model_of_maps(has(Parameter::kMetallic), has(Parameter::kBaseColor), has(Parameter::kSpecular),
+                    options.reads_glossiness(), has(Parameter::kDiffuse));
+  if (!sets) {
+    if (model.empty())
+      throw usage_error(
+          "--from is required (the maps do not tell it; texremap list --workflows and --models)");
+    return {model, "--from is taken as " + model + ", which has these maps"};
+  }
+  std::string first;
+  std::size_t count = 0;
+  for (const FoundSet& set : sets->sets) {
+    const std::string inferred = model_of_set(set);
+    if (inferred.empty()) continue;
+    const std::string place = display_path(set.folder / set.name);
+    if (!first.empty() && inferred != model)
+      throw usage_error("--from is required, because the sets differ: " + first + " is of the model " +
+                        model + ", " + place + " of " + inferred + " (convert them apart)");
+    if (first.empty()) first = place;
+    model = inferred;
+    ++count;
+  }
+  if (first.empty())
+    throw usage_error(
+        "--from is required (the names of the maps do not tell it; texremap list --workflows and "
+        "--models)");
+  return {model, "--from is taken as " + model + ", by the maps of " +
+                     (count == 1 ? first : std::to_string(count) + " sets")};
+}
+
+}  // namespace remap

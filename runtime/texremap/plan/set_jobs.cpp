@@ -1,0 +1,530 @@
+#include "texremap/plan/set_jobs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/report_text.hpp"
+#include "remap/error.hpp"
+#include "sets/discovery.hpp"
+#include "sets/folder_walk.hpp"
+#include "sets/name_pieces.hpp"
+#include "texremap/plan/asset_formats.hpp"
+#include "texremap/plan/conversion_request.hpp"
+#include "texremap/plan/set_choice.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// The file of `map` for a tile; none where the tile is missing. A map without tiles serves every tile.
+std::optional<fs::path> file_of(const FoundMap& map, int tile) {
+  if (map.tiles.empty()) return map.path;
+  for (const Tile& candidate : map.tiles)
+    if (candidate.number == tile) return candidate.path;
+  return std::nullopt;
+}
+
+std::vector<fs::path> files_of(const FoundMap& map) {
+  std::vector<fs::path> files;
+  for (const Tile& tile : map.tiles) files.push_back(tile.path);
+  if (files.empty()) files.push_back(map.path);
+  return files;
+}
+
+std::vector<int> tiles_of(const FoundSet& set) {
+  std::set<int> numbers;
+  for (const FoundMap& map : set.maps)
+    if (map.is_converted)
+      for (const Tile& tile : map.tiles) numbers.insert(tile.number);
+  if (numbers.empty()) return {0};
+  return {numbers.begin(), numbers.end()};
+}
+
+// The files of a set, always in the same order.
+std::vector<fs::path*> files_of(SetWork& set) {
+  std::vector<fs::path*> files;
+  const auto add = [&](ParameterRequest& parameter) {
+    if (auto* map = std::get_if<MapName>(&parameter.source)) files.push_back(&map->file);
+  };
+  for (auto& [parameter, asked] : set.request.parameters) add(asked);
+  for (CarriedRequest& carried : set.request.carried) add(carried.parameter);
+  for (CopiedFile& copy : set.copies) files.push_back(&copy.source);
+  return files;
+}
+
+// Whether a request names a map or numbers.
+bool is_given(const ParameterRequest& request) {
+  const auto* map = std::get_if<MapName>(&request.source);
+  return map == nullptr || !map->file.empty();
+}
+
+// The set with its diffuse map as the first, for a warp that converts diffuse alone.
+FoundSet of_diffuse_alone(FoundSet set) {
+  const std::vector<MapUse> found = uses_of(set, Parameter::kDiffuse);
+  if (found.empty() || set.maps[found.front().map].is_converted) return set;
+  const auto map = set.maps.begin() + static_cast<std::ptrdiff_t>(found.front().map);
+  map->is_converted = true;
+  std::rotate(set.maps.begin(), map, map + 1);
+  set.state = SetState::kReady;
+  set.remarks.clear();
+  return set;
+}
+
+// Turns a folder of sets into jobs.
+class SetJobs {
+ public:
+  SetJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& defaults,
+          Discovery found)
+      : options_(options),
+        workflow_(workflow),
+        choice_(target_choice(options, workflow)),
+        defaults_(defaults),
+        root_(options.folder),
+        found_(std::move(found)) {}
+
+  JobList list();
+
+ private:
+  void add(FoundSet set);
+  void add_tile(const FoundSet& set, int tile, const std::vector<std::string>& notes);
+  bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
+                   SetWork& work);
+  void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
+  void place_others(const FoundSet& set, int tile, SetWork& work);
+  bool comes_along(const FoundMap& map) const;
+  bool is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const;
+  void note_normals();
+  std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
+  bool takes_names(const FoundSet& set);
+  void note_sizes(Job& job) const;
+  void require_encoding_used() const;
+  // The map that an option gives for a parameter: one for all sets, or a pattern; null for none.
+  const MapName* given_map(Parameter parameter) const {
+    const MapSource* source = options_.map_of(parameter);
+    return source != nullptr ? std::get_if<MapName>(source) : nullptr;
+  }
+  fs::path file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const;
+  void leave_out_shared();
+  // The width that the source model takes, where one is known.
+  std::optional<RoughnessEncoding> own_width() const {
+    if (workflow_.is_material()) return width_of(*workflow_.source);
+    return std::nullopt;
+  }
+  // Whether a set without a map of width has one by an option, and other maps of the material.
+  bool has_given_width(const FoundSet& set) const;
+  void fail(const std::string& message) { jobs_.skipped.push_back({message, true}); }
+  std::string place(const FoundSet& set) const { return display_path(root_ / set.folder / set.name); }
+  std::string owner(const FoundSet& set) const { return display_path(root_ / set.maps.front().path); }
+
+  const ConvertOptions& options_;
+  const WorkflowChoice& workflow_;
+  TargetChoice choice_;
+  const TextureSetRequest& defaults_;  // values for missing maps, and factors for all sets
+  fs::path root_;
+  Discovery found_;
+  std::vector<FoundSet> converted_;
+  bool is_in_place_ = same_file(options_.output, root_);    // results lie beside the maps
+  std::map<std::string, std::vector<CopiedFile>> normals_;  // by the reason for what is done with green
+  JobList jobs_;
+};
+
+JobList SetJobs::list() {
+  jobs_.is_of_folder = jobs_.has_several = true;
+  leave_out_shared();
+  for (const fs::path& image : found_.unrecognised) jobs_.unrecognised.push_back(root_ / image);
+  jobs_.asset_count = found_.others.size();
+  for (const WalkProblem& problem : found_.problems) fail(problem.message);
+  for (const FoundSet& set : found_.sets)
+    for (const FoundMap& map : set.maps)
+      for (const fs::path& file : files_of(map)) (void)jobs_.names->take(root_ / file, owner(set));
+  for (FoundSet& set : found_.sets) add(std::move(set));
+  note_normals();
+  if (!found_.sizes.empty())
+    for (Job& job : jobs_.jobs) note_sizes(job);
+  if (options_.part) return std::move(jobs_);  // what concerns all sets, no part can tell
+  require_encoding_used();
+  if (jobs_.jobs.empty() && jobs_.skipped.empty())
+    throw Error(ErrorKind::kUsage, root_.string() + ": no texture set found by file names (use " +
+                                       (options_.recursive ? "" : "--recursive for subfolders, or ") +
+                                       "--names FILE for other names)");
+  return std::move(jobs_);
+}
+
+// A file of a set by a pattern: `*` is the name of the set, `<UDIM>` the number of the tile.
+fs::path named_after(const fs::path& pattern, const FoundSet& set, const std::string& number) {
+  std::string name = pattern.string();
+  const auto put = [&name](std::string_view token, const std::string& text) {
+    if (const std::size_t at = name.find(token); at != std::string::npos)
+      name.replace(at, token.size(), text);
+  };
+  put("*", set.name);
+  put("<UDIM>", number);
+  return name;
+}
+
+// The name of a map as a pattern for all sets: `*_rough.jpg` of set sand.
+std::string pattern_of(std::string name, const std::string& set) {
+  if (const std::size_t at = name.find(set); at != std::string::npos && !set.empty())
+    name.replace(at, set.size(), "*");
+  return name;
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+// The file that an option gives for a set: one for all sets, or one in the folder of the set.
+fs::path SetJobs::file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const {
+  return shared_map(options_, given).value_or(root_ / set.folder / named_after(given, set, number));
+}
+
+// A map that an option gives for all sets is not a set of its own.
+void SetJobs::leave_out_shared() {
+  const std::vector<fs::path> shared = shared_maps(options_);
+  if (shared.empty()) return;
+  const auto is_shared = [&](const fs::path& file) {
+    return std::ranges::any_of(shared, [&](const fs::path& map) { return same_file(map, root_ / file); });
+  };
+  for (const fs::path& map : shared) jobs_.notes.push_back(display_path(map) + " is used for every set");
+  std::erase_if(found_.sets, [&](const FoundSet& set) {
+    return std::ranges::all_of(set.maps, [&](const FoundMap& map) { return is_shared(map.path); });
+  });
+  std::erase_if(found_.unrecognised, is_shared);
+}
+
+bool SetJobs::has_given_width(const FoundSet& set) const {
+  if (given_map(Parameter::kRoughness) == nullptr &&
+      !is_given(defaults_.parameters.at(Parameter::kRoughness)))
+    return false;
+  return std::ranges::any_of(workflow_.sources(), [&](Parameter parameter) {
+    return given_map(parameter) != nullptr || !uses_of(set, parameter).empty();
+  });
+}
+
+void SetJobs::add(FoundSet set) {
+  std::vector<std::string> notes = choose_maps(set, workflow_.sources(), options_.prefer, own_width());
+  const bool is_metallic =
+      !uses(set, is<Role::kMetallic>).empty() && !uses(set, is<Role::kBaseColor>).empty();
+  if (is_metallic && !workflow_.is_material())
+    notes.push_back(place(set) + ": has base color and metallic, which " + workflow_.source_brdf +
+                    " does not take: its specular is not the specular of the material (--from metallic "
+                    "converts it whole)");
+  if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
+    set = of_diffuse_alone(std::move(set));
+  if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
+  if (set.state != SetState::kReady) {
+    for (const std::string& remark : set.remarks)
+      jobs_.skipped.push_back({display_path(root_) + "/" + remark, set.state == SetState::kFaulty});
+    return;
+  }
+  for (const Parameter parameter : workflow_.sources()) {
+    const std::vector<MapUse> found = uses_of(set, parameter);
+    const std::string name = plain_name(parameter);
+    if (!found.empty() && workflow_.constants.contains(parameter))
+      return fail(place(set) + ": has a " + std::string(role_name(found.front().role)) +
+                  " map, but the warp converts only a diffuse map (use a warp of all its maps, or "
+                  "--diffuse MAP instead of the folder)");
+    if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
+    if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))
+      return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
+                  " VALUE for such sets)");
+  }
+  if (!takes_names(set)) return;
+  converted_.push_back(set);
+  for (const int tile : tiles_of(set)) add_tile(set, tile, notes);
+}
+
+// Puts the map of a parameter into the request. Notes a message and returns false where the set lacks the
+// tile.
+bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
+                          SetWork& work) {
+  const bool is_glossiness = parameter == Parameter::kRoughness && options_.reads_glossiness();
+  const std::string option = is_glossiness ? "--glossiness" : parameter_option(parameter);
+  ParameterRequest& asked = work.request.parameters[parameter];
+  if (const MapName* given = given_map(parameter)) {
+    const fs::path file = file_of_set(given->file, set, number);
+    if (!is_file(file)) {
+      fail(place(set) + ": no " + display_path(file.filename()) + ", which " + option + " names");
+      return false;
+    }
+    asked.source = MapName{file, given->channels};
+    asked.one_channel = one_channel(option, given->file);
+    return true;
+  }
+  const std::vector<MapUse> found = uses_of(set, parameter);
+  if (found.empty()) return true;
+  const MapUse& use = found.front();
+  const FoundMap& map = set.maps[use.map];
+  const std::optional<fs::path> file = file_of(map, tile);
+  if (!file) {
+    fail(place(set) + (number.empty() ? "" : ", tile " + number) + ": no " +
+         std::string(role_name(use.role)) + " map found (" + display_path(map.path.filename()) +
+         " lacks this tile)");
+    return false;
+  }
+  asked.source = MapName{root_ / *file, channel_names(use.channels)};
+  asked.one_channel = one_channel(use.role == Role::kGlossiness ? "--glossiness" : option,
+                                  pattern_of(map.path.filename().string(), set.name));
+  // --roughness-encoding speaks of maps that are found as roughness.
+  if (parameter == Parameter::kRoughness && encoding_of(use.role))
+    work.request.convention = encoding_of(use.role);
+  return true;
+}
+
+void SetJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::string>& notes) {
+  const std::string number = tile == 0 ? "" : std::to_string(tile);
+  SetWork work{defaults_,
+               options_.output / set.folder,
+               options_.diagnose / set.folder,
+               {set.name, tile == 0 ? "" : "." + number},
+               {},
+               {},
+               notes};
+  for (const Parameter parameter : workflow_.sources())
+    if (!find_source(set, parameter, number, tile, work)) return;
+  if (!choice_.layout.keeps_names) carry(set, tile, work.request);
+  place_others(set, tile, work);
+  Job job{(root_ / set.folder / set.name).string(), number, owner(set)};
+  job.work = std::move(work);
+  jobs_.jobs.push_back(std::move(job));
+}
+
+// Whether a channel of a packed map that is converted holds something else of the material (ORDp: height).
+bool SetJobs::is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const {
+  constexpr std::array kRest = {Role::kCavity,       Role::kHeight,     Role::kOpacity, Role::kEmissive,
+                                Role::kTransmission, Role::kSubsurface, Role::kIor};
+  const bool has_color = std::ranges::any_of(
+      map.meaning, [](const ChannelMeaning& other) { return other.channels == Channels::kRgb; });
+  return map.is_converted && !options_.only_converted && !has_color && entry.channels != Channels::kWhole &&
+         std::ranges::find(kRest, entry.role) != kRest.end();
+}
+
+// Adds the maps that are not converted but have a place in the layout.
+void SetJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
+  const std::string number = tile == 0 ? "" : std::to_string(tile);
+  const auto add_given = [&](const std::string& name, const MapSource* source) {
+    const auto* given = source != nullptr ? std::get_if<MapName>(source) : nullptr;
+    if (given == nullptr) return;
+    const MapName map{file_of_set(given->file, set, number), given->channels};
+    request.carried.push_back({name, {map, {}, Transfer::kLinear}});
+  };
+  add_given("occlusion", options_.occlusion ? &*options_.occlusion : nullptr);
+  if (!workflow_.is_material()) add_given("metallic", options_.map_of(Parameter::kMetallic));
+  for (const FoundMap& map : set.maps)
+    for (const ChannelMeaning& entry : map.meaning) {
+      const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
+      if (entry.role != Role::kOcclusion && !carries_metallic && !is_rest_of_packed(map, entry)) continue;
+      const std::string name(role_name(entry.role));
+      const std::optional<fs::path> file = file_of(map, tile);
+      const bool is_named = std::any_of(request.carried.begin(), request.carried.end(),
+                                        [&](const CarriedRequest& carried) { return carried.name == name; });
+      if (file && !is_named)
+        request.carried.push_back(
+            {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
+    }
+}
+
+bool is_normal(const FoundMap& map) {
+  const std::string name = lower(map.path.filename().string());
+  return std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() ||
+         name.find("normal") != std::string::npos;  // of a coat
+}
+
+// One line for all maps with one reason.
+void SetJobs::note_normals() {
+  for (const auto& [reason, maps] : normals_) {
+    const CopiedFile& first = maps.front();
+    const std::string done =
+        first.turned_name.empty() ? "kept" : "inverted in the copy " + display_path(first.turned_name);
+    const std::string more =
+        maps.size() == 1 ? "" : " (the same for " + counted(maps.size() - 1, "more normal map") + ")";
+    jobs_.notes.push_back(display_path(first.source) + ": green is " + done + ", because " + reason + more);
+  }
+}
+
+// Copies the files that the conversion does not read, or notes them. A map without tiles goes with the first
+// tile of the set.
+void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
+  const std::vector<fs::path*> read = files_of(work);
+  const bool is_first = tile == tiles_of(set).front();
+  for (const FoundMap& map : set.maps) {
+    const std::optional<fs::path> file = file_of(map, tile);
+    if (!file || (map.tiles.empty() && !is_first)) continue;
+    const fs::path source = root_ / *file;
+    if (std::any_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
+      continue;
+    if (!comes_along(map)) {
+      work.left_behind.push_back(source);
+      continue;
+    }
+    if (is_in_place_) continue;
+    if (!is_normal(map)) {
+      work.copies.push_back({source, "", ""});
+      continue;
+    }
+    CopiedNormals normals = copied_normals(options_, source);
+    if (!normals.reason.empty()) normals_[normals.reason].push_back(normals.copy);
+    work.copies.push_back(std::move(normals.copy));
+  }
+}
+
+// Whether a map that the conversion does not read is copied. Another map than the chosen one for a parameter
+// would be a second, unconverted form of it.
+bool SetJobs::comes_along(const FoundMap& map) const {
+  constexpr std::array kConverted = {Role::kRoughness,  Role::kGlossiness, Role::kGlossinessSquared,
+                                     Role::kAlphaWidth, Role::kSpecular,   Role::kSpecularLevel,
+                                     Role::kDiffuse,    Role::kBaseColor,  Role::kMetallic};
+  if (options_.only_converted || map.is_repeated) return false;
+  return !workflow_.is_material() || std::ranges::none_of(map.meaning, [&](const ChannelMeaning& entry) {
+    return std::ranges::find(kConverted, entry.role) != kConverted.end();
+  });
+}
+
+// The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
+std::map<fs::path, fs::path> SetJobs::outputs(const FoundSet& set) const {
+  const FoundMap& first = set.width ? set.maps[set.width->map] : set.maps.front();
+  const std::string end =
+      (tiles_of(set).front() == 0 ? "" : ".<UDIM>") +
+      (choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension);
+  const ResultNames names{set.name, end};
+  std::map<fs::path, fs::path> sources;
+  for (const Parameter parameter : choice_.parameters) {
+    const std::vector<MapUse> found = uses_of(set, parameter);
+    const fs::path& source = (found.empty() ? first : set.maps[found.front().map]).path;
+    fs::path path = set.folder / file_name(parameter, choice_, names);
+    if (choice_.layout.keeps_names && !found.empty()) {
+      path = source;
+      if (!choice_.extension.empty()) path.replace_extension(choice_.extension);
+    }
+    sources.emplace(options_.output / path, source);
+  }
+  for (const TargetChannel& diagnosis : choice_.diagnoses)
+    sources.emplace(options_.diagnose / set.folder / diagnosis_name(diagnosis, names), first.path);
+  return sources;
+}
+
+void SetJobs::note_sizes(Job& job) const {
+  for (const fs::path* file : files_of(std::get<SetWork>(job.work)))
+    if (const auto found = found_.sizes.find(file->lexically_relative(root_)); found != found_.sizes.end())
+      job.listed[*file] = found->second;
+}
+
+// --roughness-encoding speaks of maps that are found as roughness.
+void SetJobs::require_encoding_used() const {
+  if (!options_.roughness_encoding || converted_.empty()) return;
+  const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
+  if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
+    throw Error(ErrorKind::kUsage,
+                "--roughness-encoding: applies to nothing, because the names of all maps say what "
+                "they hold (remove this option)");
+}
+
+// Takes the names of what a set writes, and of copies of its maps. Notes a message and returns false where
+// another set has one of them.
+bool SetJobs::takes_names(const FoundSet& set) {
+  const auto take = [&](const fs::path& path, const fs::path& source) {
+    const std::string other = jobs_.names->take(path, owner(set));
+    if (!other.empty()) fail(written_twice_text(path, other, display_path(root_ / source)));
+    return other.empty();
+  };
+  for (const auto& [path, source] : outputs(set))
+    if (!take(path, source)) return false;
+  for (const FoundMap& map : set.maps)
+    if (comes_along(map))
+      for (const fs::path& file : files_of(map))
+        if (!take(options_.output / file, file)) return false;
+  return true;
+}
+
+// A file name with a placeholder for the tile.
+struct TiledFile {
+  std::size_t index = 0;  // among the files of the job
+  fs::path file;
+  TilePattern pattern;
+
+  fs::path tile(int number) const { return file.parent_path() / tile_name(pattern, number); }
+  // The number as file names write it: 0012 for a frame.
+  std::string number_text(int number) const {
+    const std::string name = tile_name(pattern, number);
+    return name.substr(pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
+  }
+};
+
+std::vector<TiledFile> tiled_files(SetWork& set) {
+  std::vector<TiledFile> tiled;
+  const std::vector<fs::path*> files = files_of(set);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::error_code ignored;
+    if (fs::exists(*files[i], ignored)) continue;
+    if (const auto pattern = tile_pattern(files[i]->filename().string()))
+      tiled.push_back({i, *files[i], *pattern});
+  }
+  return tiled;
+}
+
+// One job for each tile that all maps have. A tile that some map lacks is left out, with a message.
+JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled) {
+  JobList list;
+  list.has_several = true;
+  if (tiled.front().pattern.style == TileStyle::kFrame) list.tile_noun = "frame";
+  std::map<int, std::set<std::size_t>> tiles;  // indices into `tiled` of the maps with that tile
+  for (std::size_t i = 0; i < tiled.size(); ++i) {
+    const std::vector<Tile> own = existing_tiles(tiled[i].file);
+    if (own.empty())
+      throw Error(ErrorKind::kInput, tiled[i].file.string() + ": no " + list.tile_noun + " found");
+    for (const Tile& tile : own) tiles[tile.number].insert(i);
+  }
+  for (const auto& [number, present] : tiles) {
+    SetWork set = whole_set;
+    set.names.after = "." + tiled.front().number_text(number);
+    const std::vector<fs::path*> files = files_of(set);
+    for (std::size_t i = 0; i < tiled.size(); ++i) {
+      *files[tiled[i].index] = tiled[i].tile(number);
+      if (!present.contains(i))
+        list.skipped.push_back({tiled[i].tile(number).string() +
+                                    ": not found, but other maps of the set have this " + list.tile_noun,
+                                true});
+    }
+    if (present.size() < tiled.size()) continue;
+    Job& job = list.jobs.emplace_back(Job{tiled.front().file.string(), std::to_string(number)});
+    job.work = std::move(set);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
+  if (options.folder.empty()) return std::nullopt;
+  const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
+  DiscoveryOptions discovery;
+  discovery.recursive = options.recursive;
+  discovery.naming = &naming;
+  discovery.excluded = {options.output};
+  if (!options.diagnose.empty()) discovery.excluded.push_back(options.diagnose);
+  discovery.also = asset_extensions("");
+  Discovery found = find_sets(options.folder, discovery);
+  if (found.sets.empty() && found.problems.empty() && !found.others.empty())
+    throw usage_error(display_path(options.folder) + ": no texture set found by file names, but " +
+                      counted(found.others.size(), "asset") + ", such as " +
+                      display_path(found.others.front()) + " (--assets converts them)");
+  return found;
+}
+
+JobList set_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
+                 const TextureSetRequest& request, std::optional<Discovery> sets) {
+  if (sets) return SetJobs(options, workflow, request, *std::move(sets)).list();
+  SetWork set{request, options.output, options.diagnose, {}, copied_files(options, workflow), {}, {}};
+  if (const std::vector<TiledFile> tiled = tiled_files(set); !tiled.empty()) return tile_jobs(set, tiled);
+  JobList list;
+  list.jobs.push_back({""});
+  list.jobs.back().work = std::move(set);
+  return list;
+}
+
+}  // namespace remap

@@ -1,0 +1,106 @@
+#include "texremap/plan/workflow_choice.hpp"
+
+#include "remap/error.hpp"
+
+namespace remap {
+namespace {
+
+// The words of the command line.
+ConversionWords option_words() {
+  return {"--from",
+          "--to",
+          "--from-workflow",
+          "--to-workflow",
+          "--dielectric-f0",
+          "--diffuse-convention",
+          "texremap list --models and --workflows"};
+}
+
+void require_estimable(const WorkflowChoice& choice) {
+  if (kind_of(*choice.source) == WorkflowKind::kSpecular && choice.is_to_metallic()) return;
+  throw Error(ErrorKind::kUsage,
+              "--dielectric-f0: estimate requires maps of the specular workflow and a metallic target "
+              "(give a number)");
+}
+
+// Refuses options that require a workflow, or a target with metallic.
+void require_workflow(const ConvertOptions& options, const WorkflowChoice& choice) {
+  if (choice.is_material())
+    refuse(options, kNotWithWorkflow, " cannot be used with a workflow (remove this option)");
+  else
+    refuse(options, kNeedsWorkflow | kNeedsMetallic,
+           " requires a workflow (set --from-workflow or --to-workflow, or choose a model of texremap list "
+           "--workflows)");
+  if (choice.changes_nothing)
+    refuse(options, kNeedsMetallic,
+           ": applies to nothing, because both ends are one material (remove this option)");
+  if (!choice.is_to_metallic())
+    refuse(options, kNeedsMetallic, " requires a metallic target (set --to or --to-workflow)");
+}
+
+}  // namespace
+
+WorkflowChoice workflow_choice(const ConvertOptions& options) {
+  const auto* const f0 = std::get_if<double>(&options.dielectric_f0);
+  ConversionRequest request;
+  request.source = options.from;
+  request.target = options.to;
+  request.source_workflow = options.from_workflow;
+  request.target_workflow = options.to_workflow;
+  request.via = options.via;
+  request.diffuse_convention = options.diffuse_convention;
+  request.prior = options.prior;
+  request.uses_fit_file = !options.fit.empty();
+  request.words = option_words();
+  if (f0 != nullptr) request.dielectric_f0 = *f0;
+  WorkflowChoice choice{choose_conversion(request, options.converters.graph()), {}};
+  choice.f0_given = f0 != nullptr && choice.is_material();
+  choice.estimates_f0 = std::holds_alternative<FromMaps>(options.dielectric_f0) && choice.is_material();
+  if (choice.estimates_f0) require_estimable(choice);
+  require_workflow(options, choice);
+  return choice;
+}
+
+namespace {
+
+void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::string& warp) {
+  refuse(options, tag, " cannot be used with the warp " + warp + " (remove this option)");
+}
+
+// The source of the warp is a diffuse map alone, so the conversion has neither specular nor roughness maps.
+void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
+  refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts only a diffuse map");
+  std::get<SpecularWorkflow>(*choice.source).width = RoughnessEncoding::kAlpha;
+  choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kRoughness, {1.0f}}};
+}
+
+}  // namespace
+
+void require_models_of_fit(const std::string& file, const ModelPair& asked, const ModelPair& own) {
+  const auto require = [&](const std::string& role, const std::string& option, const std::string& wanted,
+                           const std::string& found) {
+    if (!wanted.empty() && wanted != found)
+      throw Error(ErrorKind::kUsage, file + ": " + role + " model is " + found + ", but " + option +
+                                         " asks for " + wanted + " (remove " + option + ")");
+  };
+  require("source", "--from", asked.source, own.source);
+  require("target", "--to", asked.target, own.target);
+}
+
+WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
+  refuse_with_warp(options, kNotWithWarp, options.fit);
+  require_models_of_fit(options.fit, {options.from.name, options.to.name},
+                        {fit.source_model, fit.template_model});
+  // The warp was made from maps of roughness.
+  const RoughnessEncoding width = options.reads_glossiness()
+                                      ? RoughnessEncoding::kGlossiness
+                                      : options.roughness_encoding.value_or(RoughnessEncoding::kRoughness);
+  // `remapc warp` reads metallic sets in the same way.
+  WorkflowChoice choice{choice_of_warp(fit, options.from_workflow.value_or(WorkflowKind::kSpecular), width),
+                        {}};
+  if (is_of_diffuse_alone(fit)) choose_diffuse_alone(options, choice);
+  require_workflow(options, choice);
+  return choice;
+}
+
+}  // namespace remap

@@ -1,0 +1,39 @@
+// The meaning of `--from`, `--to` and the workflow options: the material at each end, and the conventions
+// that had to be assumed.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "remap/conversion.hpp"
+#include "remap/warp.hpp"
+#include "texremap/options/convert_options.hpp"
+#include "texture/texture_set.hpp"
+
+namespace remap {
+
+struct WorkflowChoice : ConversionChoice {
+  std::map<Parameter, ConstantValues> constants;  // source values in place of missing maps
+  bool estimates_f0 = false;                      // use the F0 estimated from the maps
+  bool f0_given = false;
+};
+
+// `--from` and `--to` are optional with `--fit`. A renderer as `--to` stands for the closest of its models,
+// by paths through `--via`. Throws kUsage for an unknown name, for a workflow that contradicts the named
+// model, and for options that require a workflow where neither end has one.
+WorkflowChoice workflow_choice(const ConvertOptions& options);
+
+// The choice for a warp: both ends have diffuse, specular and roughness, in the encoding that the options
+// name. Throws kUsage for options that cannot be used with a warp, and for models other than the warp's.
+WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit);
+
+struct ModelPair {
+  std::string source, target;
+};
+// Throws kUsage if the models of the fit in `file` are not the `asked` ones; an empty name asks for any
+// model.
+void require_models_of_fit(const std::string& file, const ModelPair& asked, const ModelPair& own);
+
+}  // namespace remap

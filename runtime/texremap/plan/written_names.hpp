@@ -1,0 +1,32 @@
+// Every file that a run writes, by its final name, with what it is of. Planned before work starts, so that
+// two sets or assets never write one file.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+namespace remap {
+
+// The name as macOS and Windows compare it: absolute, without `.` and `..`, and without case. Links are not
+// looked at.
+std::string name_key(const std::filesystem::path& path);
+
+class WrittenNames {
+ public:
+  // Takes the name of a file for `owner`: an asset, a set, or the file that is copied. Returns who has it
+  // already; empty where it was free, or is the owner's. The program's own names are never free. Callable
+  // from many threads.
+  std::string take(const std::filesystem::path& path, const std::string& owner);
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::string> owners_;  // by name_key()
+};
+
+// That two owners would write one file, and what to do.
+std::string written_twice_text(const std::filesystem::path& path, const std::string& first,
+                               const std::string& second);
+
+}  // namespace remap

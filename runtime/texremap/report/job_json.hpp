@@ -1,0 +1,36 @@
+// What became of a run, as JSON.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/json.hpp"
+#include "core/system.hpp"
+#include "texremap/plan/convert_plan.hpp"
+#include "texremap/run/job_report.hpp"
+
+namespace remap {
+
+// The outcome of the whole run.
+struct Outcome {
+  const ConvertPlan& plan;
+  std::vector<JobReport> reports;
+  double seconds = 0.0;
+  ResourceUse used;
+
+  ColorNotes colors() const;         // of all sets
+  std::size_t failed_count() const;  // failed entries, and the failures among those that were skipped
+};
+
+// `converted`, `planned`, `done before` or `failed`.
+std::string_view state_text(const ConvertPlan& plan, const JobReport& report);
+
+// Converter and path of texture sets; the target of assets.
+Json conversion_json(const ConvertPlan& plan);
+// A set or an asset.
+Json job_json(const ConvertPlan& plan, const JobReport& report);
+Json summary_json(const Outcome& outcome);
+// Colors, instruction set, time and memory.
+Json run_json(const Outcome& outcome);
+
+}  // namespace remap

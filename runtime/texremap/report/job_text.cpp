@@ -1,0 +1,244 @@
+#include "texremap/report/job_text.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "command_line/run_app.hpp"
+#include "core/number_text.hpp"
+#include "core/report_text.hpp"
+#include "sets/folder_walk.hpp"
+#include "texremap/options/program.hpp"
+#include "texremap/plan/converter_text.hpp"
+#include "texremap/run/planned_roles.hpp"
+
+namespace remap {
+namespace {
+
+// Both ends of a workflow conversion, and the steps between them.
+std::string material_text(const ChosenConverter& chosen) {
+  const WorkflowChoice& workflow = chosen.workflow;
+  const auto end_text = [](const WorkflowEnd& end) {
+    return model_of(end) + " (" + std::string(kind_name(end)) + ": " + conventions_text(end) + ")";
+  };
+  std::string text = end_text(*workflow.source) + " to " + end_text(*workflow.target);
+  if (workflow.finds_metallic()) text += " by projection";
+  if (workflow.changes_nothing)
+    text += ", unchanged";
+  else if (chosen.brdf == nullptr)
+    for (const std::string& step : chosen.info().steps) text += " by " + step;  // a warp
+  else
+    text += ", " + models_text(chosen.path);
+  return text;
+}
+
+// The domain that texels were outside of.
+std::string outside_text(const ChosenConverter& chosen) {
+  const std::string domain = domain_text(chosen.domain());
+  return chosen.path.steps.size() <= 1 ? "the domain (" + domain + ")"
+                                       : "the domain of a step (path: " + domain + ")";
+}
+
+std::string first_text(const MapStatistics& counts) {
+  if (!counts.first_bad) return "";
+  return "; first bad texel: (" + std::to_string(counts.first_bad->x) + ", " +
+         std::to_string(counts.first_bad->y) + ")";
+}
+
+std::string files_text(const JobReport& report) {
+  constexpr std::size_t kShown = 3;
+  const std::vector<JobReport::Result>& results = report.results;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(results.size(), kShown); ++i)
+    text += (i == 0 ? "" : ", ") + results[i].path.string();
+  if (results.size() > kShown) text += " and " + std::to_string(results.size() - kShown) + " more";
+  if (!report.copies.empty()) text += ", plus " + counted(report.copies.size(), "copied file");
+  return text;
+}
+
+std::string left_behind_text(const JobReport& report) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : report.left_behind) names.push_back(file.filename().string());
+  return "left out: " + joined(names, ", ");
+}
+
+double f0_of(const ChosenConverter& chosen, const DielectricF0& estimated) {
+  if (chosen.workflow.estimates_f0 && estimated.is_certain) return rounded(estimated.f0, 4);
+  return std::get<MetallicWorkflow>(*chosen.workflow.target).dielectric_f0;
+}
+
+// Prints what metal-rough cannot express where it is visible, with `verbose` also how reliable metallic is.
+void print_confidence(const std::string& place, const ChosenConverter& chosen, const JobReport& report,
+                      bool verbose) {
+  const MapStatistics& counts = report.statistics;
+  const MetallicStatistics& metallic = counts.metallic;
+  if (const auto& f0 = report.estimated_f0;
+      f0 && (verbose || chosen.workflow.estimates_f0 || report.name.empty()))
+    print_message(kProgram, place +
+                                "dielectric F0 estimated from the maps: " + number_text(rounded(f0->f0, 4)) +
+                                (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
+                                number_text(f0_of(chosen, *f0)) + " is used");
+  if (metallic.texel_count == 0) return;
+  const double difference = kPictureOfResidual * metallic.rms_residual();
+  const auto percent = [](double share, int decimals) { return fixed(100.0 * share, decimals) + " %"; };
+  if (difference >= kVisible)
+    print_message(kProgram,
+                  place + "metal-rough cannot express these maps exactly; the visible difference is about " +
+                      percent(difference, 0) + " (--diagnose DIR shows where)");
+  if (!verbose) return;
+  const auto share = [&](std::size_t count) {
+    return percent(static_cast<double>(count) / static_cast<double>(metallic.texel_count), 2);
+  };
+  print_message(kProgram, place + "residual of metal-rough: " + fixed(metallic.rms_residual(), 4) + " rms, " +
+                              fixed(static_cast<double>(metallic.largest_residual), 3) + " at most");
+  print_message(kProgram,
+                place + "metallic undetermined, no visible effect: " + share(metallic.undetermined.count) +
+                    " (too dark: " + share(metallic.dark.count) + "); ambiguous: " +
+                    share(metallic.ambiguous.count) + "; clamped: " + share(metallic.clamped.count));
+}
+
+void print_set(const ConvertPlan& plan, const std::string& place, const JobReport& report) {
+  const ChosenConverter& chosen = plan.sets()->chosen;
+  if (plan.dry_run) {
+    print_message(kProgram, place + "would write " + files_text(report) + " from " +
+                                counted(report.inputs.size(), "file") +
+                                " (first: " + report.inputs.front().string() + ")");
+    if (!plan.json) std::cout << plan_table(report.plan);
+    return;
+  }
+  const MapStatistics& counts = report.statistics;
+  const auto line = [&](std::size_t count, const std::string& what, const char* noun = "texel") {
+    if (count > 0) print_message(kProgram, place + counted(count, noun) + what);
+  };
+  const std::string by = plan.list.has_several ? "" : " by " + converter_text(chosen);
+  if (counts.texel_count == 0) print_message(kProgram, place + "copied: " + files_text(report));
+  line(counts.texel_count, " in " + fixed(report.seconds, 2) + " s" + by + ": " + files_text(report));
+  if (plan.verbose && !report.left_behind.empty()) print_message(kProgram, place + left_behind_text(report));
+  print_confidence(place, chosen, report, plan.verbose);
+  const auto is_told = [&](std::size_t count) {
+    return plan.verbose || !plan.list.has_several ||
+           static_cast<double>(count) >= kVisible * static_cast<double>(counts.texel_count);
+  };
+  const auto visible_line = [&](std::size_t count, const std::string& what, const char* noun = "texel") {
+    if (is_told(count)) line(count, what, noun);
+  };
+  if (plan.verbose)
+    line(counts.masked_count, " with an opacity of 0, which are converted and do not count here");
+  visible_line(counts.above_one_count,
+               " reflect more than 1; clamped to 1 (put emission into a map for itself)");
+  visible_line(counts.out_of_domain_count, " outside " + outside_text(chosen) +
+                                               ": roughness clamped, specular extrapolated in proportion");
+  line(counts.nan_count, " with NaN" + first_text(counts));
+  line(counts.infinite_count, " with infinite values" + first_text(counts));
+  line(counts.negative_count, " with negative values" + first_text(counts));
+  visible_line(counts.clipped_count, " clipped to [0, 1] by an integer pixel type", "value");
+}
+
+// Below this no picture shows the error of a material.
+constexpr double kShownError = 5e-4;
+
+std::string error_text(const AssetMaterial& material) {
+  const double error = kPictureOfResidual * material.residual;
+  return error < kShownError ? "" : " (pictures differ by " + number_text(rounded(100.0 * error, 2)) + " %)";
+}
+
+void print_material(const AssetMaterial& material, const std::string& place, bool dry_run, bool quiet) {
+  if (!quiet)
+    for (const std::string& warning : material.warnings)
+      print_message(kProgram, "warning: " + place + material.title() + ": " + warning);
+  if (material.state == MaterialState::kFailed)
+    print_message(kProgram, place + material.title() + ": failed: " + material.failure);
+  if (material.state == MaterialState::kConverted && dry_run && !quiet)
+    print_message(kProgram,
+                  place + material.title() + ": would become " + material.becomes + error_text(material));
+}
+
+std::string outcome_text(const JobReport& report, bool dry_run) {
+  const std::size_t converted = report.count(MaterialState::kConverted),
+                    failed = report.count(MaterialState::kFailed),
+                    untouched = report.count(MaterialState::kUntouched);
+  const std::string verb = dry_run ? "would be " : "";
+  std::string text = converted == 0 && failed == 0
+                         ? "nothing to convert, " + verb + "copied"
+                         : counted(converted, "material") + " " + verb + "converted";
+  if (failed > 0) text += ", " + std::to_string(failed) + " failed";
+  if (untouched > 0)
+    text += ", " + std::to_string(untouched) + " left as " + (untouched == 1 ? "it is" : "they are");
+  if (report.results.empty()) return text + "; nothing " + verb + "written";
+  if (!dry_run) text += " in " + fixed(report.seconds, 2) + " s";
+  text += ": " + display_path(report.results.front().path);
+  const std::size_t images = report.results.size() - 1;
+  if (images > 0) text += ", plus " + counted(images, "new file");
+  if (!report.copies.empty())
+    text += (images == 0 ? ", plus " : " and ") + counted(report.copies.size(), "copied file");
+  return text;
+}
+
+}  // namespace
+
+std::string converter_text(const ChosenConverter& chosen) {
+  if (chosen.workflow.is_material()) return material_text(chosen);
+  if (chosen.path.steps.size() == 1) return chosen.info().id;
+  return models_text(chosen.path);
+}
+
+bool WarningKinds::is_new(const std::string& warning) {
+  const std::size_t colon = warning.find(": ");
+  const std::string kind = colon == std::string::npos ? warning : warning.substr(colon + 2);
+  if (counts_.contains(kind) || counts_.size() < kShownKinds) return ++counts_[kind] <= kShownOfKind;
+  ++unshown_;
+  return false;
+}
+
+std::size_t WarningKinds::repeated() const {
+  std::size_t more = unshown_;
+  for (const auto& [kind, count] : counts_) more += count - std::min(count, kShownOfKind);
+  return more;
+}
+
+void print_job(const ConvertPlan& plan, const JobReport& report, WarningKinds& warnings) {
+  const bool is_asset = plan.sets() == nullptr;
+  std::string place = report.name.empty() ? "" : display_path(report.name) + ": ";
+  if (!report.tiles.empty()) place += counted(report.tiles.size(), plan.list.tile_noun) + ": ";
+  if (!plan.quiet)
+    for (const std::string& warning : report.warnings)
+      if (const std::string text = (is_asset ? place : "") + warning;
+          plan.verbose || !plan.list.has_several || warnings.is_new(text))
+        print_message(kProgram, "warning: " + text);
+  if (report.failure) return print_message(kProgram, (is_asset ? "" : place) + "failed: " + *report.failure);
+  if (report.was_done) return;
+  for (const AssetMaterial& material : report.materials)
+    print_material(material, place, plan.dry_run, plan.quiet);
+  if (plan.quiet) return;
+  if (is_asset)
+    print_message(kProgram, place + outcome_text(report, plan.dry_run));
+  else
+    print_set(plan, place, report);
+}
+
+void print_colors(const ColorNotes& colors, bool has_several) {
+  std::vector<std::pair<std::string, std::size_t>> phrases;  // reasons that read the same are one phrase
+  for (const bool is_written : {false, true})
+    for (const auto& [note, count] : colors) {
+      if (note.is_written != is_written) continue;
+      std::string phrase = std::string(parameter_name(note.color)) +
+                           (is_written ? " written as " : " read as ") +
+                           std::string(name_of(kTransfers, note.transfer));
+      if (note.reason == TransferReason::kUser)
+        phrase += is_written ? " (--output-color-space)" : " (--color-space)";
+      if (note.reason == TransferReason::kFile && note.transfer != Transfer::kSrgb)
+        phrase += is_written ? " (as the map that it follows)" : " (tagged so by the file)";
+      const auto known = std::find_if(phrases.begin(), phrases.end(),
+                                      [&](const auto& entry) { return entry.first == phrase; });
+      if (known == phrases.end())
+        phrases.emplace_back(phrase, count);
+      else
+        known->second += count;
+    }
+  std::string text;
+  for (const auto& [phrase, count] : phrases)
+    text += (text.empty() ? "" : ", ") + phrase + (has_several ? " in " + counted(count, "map") : "");
+  if (text.empty()) return;
+  print_message(kProgram, "color: " + text + "; --color-space and --output-color-space change this");
+}
+
+}  // namespace remap

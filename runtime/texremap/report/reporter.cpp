@@ -1,0 +1,213 @@
+#include "texremap/report/reporter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+
+#include "command_line/run_app.hpp"
+#include "core/errors.hpp"
+#include "core/report_text.hpp"
+#include "remap/conversion.hpp"
+#include "sets/folder_walk.hpp"
+#include "texremap/options/program.hpp"
+#include "texremap/plan/conversion_request.hpp"
+#include "texremap/plan/converter_text.hpp"
+#include "texremap/report/job_json.hpp"
+#include "texremap/report/job_text.hpp"
+#include "texremap/report/part_report.hpp"
+
+namespace remap {
+namespace {
+
+void say(const std::string& text) { print_message(kProgram, text); }
+
+void print_messages(const ConvertPlan& plan) {
+  if (plan.quiet) return;
+  for (const std::string& message : plan.messages) say(message);
+}
+
+// File names need not be UTF-8.
+void print(const Json& json) { std::cout << json.dump(2) << std::endl; }
+
+void print_unrecognised(const JobList& list) {
+  constexpr std::size_t kShown = 20;
+  const std::size_t count = list.unrecognised.size();
+  for (std::size_t i = 0; i < std::min(count, kShown); ++i)
+    say("not recognised: " + list.unrecognised[i].string());
+  if (count == 0) return;
+  say(counted(count, "image") + " left out, because no habit knows the name" +
+      (count > kShown ? "; --json lists all" : "") + " (--names FILE teaches one)");
+}
+
+void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
+  const ConvertPlan& plan = outcome.plan;
+  const JobList& list = plan.list;
+  if (const std::size_t more = warnings.repeated(); more > 0)
+    say(counted(more, "more warning") + " of the same kinds (--verbose lists them)");
+  print_unrecognised(list);
+  if (list.asset_count > 0)
+    say(counted(list.asset_count, "asset") + " left out (--assets converts assets instead of sets)");
+  std::size_t texels = 0, materials = 0, done = 0, done_before = 0;
+  for (const JobReport& report : outcome.reports) {
+    done += !report.failure_text() && !report.was_done;
+    done_before += report.was_done;
+    texels += report.statistics.texel_count;
+    materials += report.count(MaterialState::kConverted);
+  }
+  std::string text = counted(done, noun_of(list.kind)) +
+                     (plan.dry_run ? " would be converted" : " converted") +
+                     (plan.sets() == nullptr ? "" : " by " + converter_text(plan.sets()->chosen)) + ", " +
+                     std::to_string(outcome.failed_count()) + " failed";
+  if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
+  if (!plan.dry_run)
+    text += "; " + (plan.sets() == nullptr ? counted(materials, "material") : counted(texels, "texel")) +
+            " in " + fixed(outcome.seconds, 2) + " s, " + fixed(outcome.used.processor_seconds, 2) +
+            " s of processor time";
+  say(text);
+}
+
+// Throws where an entry, or a material of the only one, failed.
+void require_success(const Outcome& outcome) {
+  const JobList& list = outcome.plan.list;
+  const std::size_t all = outcome.reports.size() + list.skipped.size();
+  const std::string of_all = " of " + counted(all, noun_of(list.kind)) + " ";
+  if (const std::size_t failed = outcome.failed_count(); failed > 0) {
+    if (!list.has_several)
+      throw input_error(display_path(outcome.reports.front().name) + ": " +
+                        *outcome.reports.front().failure_text());
+    int passing = 0;  // the code of the first failure that may pass when the run is repeated
+    for (const JobReport& report : outcome.reports)
+      if (passing == 0 && report.failure && is_retryable(report.failure_code)) passing = report.failure_code;
+    throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed", passing);
+  }
+  if (outcome.reports.empty() && !list.skipped.empty() && !outcome.plan.part)
+    throw input_error(std::to_string(list.skipped.size()) + of_all +
+                      "skipped, because there is nothing to convert in them");
+}
+
+// The name of a target parameter; the roughness is called by its encoding.
+std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessEncoding width) {
+  if (parameter == Parameter::kRoughness) return std::string(encoding_name(width));
+  if (!chosen.workflow.is_material()) return chosen.info().target.specular;
+  return std::string(parameter_name(parameter));
+}
+
+// The result of a conversion of numbers.
+struct ConvertedNumbers {
+  std::string name;
+  std::vector<float> channels;
+  bool is_scalar = false;  // JSON shows a number, not a list
+};
+
+void print_numbers(const ConvertPlan& plan, const std::vector<ConvertedNumbers>& values, bool in_domain) {
+  if (plan.json) {
+    Json result = conversion_json(plan);
+    for (const ConvertedNumbers& value : values)
+      result["values"][value.name] =
+          value.channels.size() == 1 && value.is_scalar ? Json(value.channels.front()) : Json(value.channels);
+    result["in_domain"] = in_domain;
+    return print(result);
+  }
+  // Six digits: the precision of a float.
+  std::cout << std::setprecision(6);
+  for (const ConvertedNumbers& value : values) {
+    std::cout << value.name;
+    for (const float channel : value.channels) std::cout << " " << channel;
+    std::cout << "\n";
+  }
+}
+
+}  // namespace
+
+Reporter::Reporter(const ConvertPlan& plan) : plan_(plan), warnings_(std::make_unique<WarningKinds>()) {
+  print_messages(plan);
+  for (const SkippedEntry& entry : plan.list.skipped)
+    if (entry.is_failure || !plan.quiet) say((entry.is_failure ? "failed: " : "skipped: ") + entry.message);
+  if (plan.part) write(part_json(*plan.part, plan.manifest, plan.conversion));
+  write({{"conversion", conversion_json(plan)}});
+  for (const SkippedEntry& entry : plan.list.skipped)
+    write({{"left_out", {{"message", entry.message}, {"is_failure", entry.is_failure}}}});
+}
+
+Reporter::~Reporter() = default;
+
+void Reporter::write(const Json& line) {
+  if (!plan_.list.has_several) return;
+  const std::string text = line.dump() + '\n';
+  if (plan_.json) std::cout << text << std::flush;
+  if (plan_.part) lines_ += text;
+}
+
+void Reporter::add(const JobReport& report) {
+  if (!plan_.list.has_several) return;  // finish() knows the time of all
+  print_job(plan_, report, *warnings_);
+  write({{noun_of(plan_.list.kind), job_json(plan_, report)}});
+}
+
+void Reporter::finish(std::vector<JobReport> reports) {
+  Outcome outcome{plan_, std::move(reports), stopwatch_.seconds(), resource_use()};
+  const SetPlan* sets = plan_.sets();
+  const std::string note = sets == nullptr ? "" : note_text(sets->chosen.path, sets->chosen.closer);
+  if (!note.empty() && !plan_.quiet) say("note: " + note);
+  if (!plan_.list.has_several) {
+    JobReport& report = outcome.reports.front();
+    report.seconds = outcome.seconds;
+    print_job(plan_, report, *warnings_);
+    if (plan_.json) {
+      Json result = conversion_json(plan_);
+      result.update(job_json(plan_, report));
+      result.update(run_json(outcome));
+      print(result);
+    }
+  }
+  if (!plan_.quiet) {
+    print_colors(outcome.colors(), plan_.list.has_several);
+    if (plan_.list.has_several) print_summary(outcome, *warnings_);
+  }
+  write({{"summary", summary_json(outcome)}});
+  if (plan_.part && !plan_.dry_run) write_part_report(plan_.output, plan_.part->part, lines_);
+  require_success(outcome);
+}
+
+void print_converted_numbers(const ConvertPlan& plan) {
+  print_messages(plan);
+  const SetPlan& sets = *plan.sets();
+  const ChosenConverter& chosen = sets.chosen;
+  const ConverterInfo& info = chosen.info();
+  MapConversion maps;
+  maps.width = maps.height = 1;
+  for (const auto& [parameter, asked] : sets.request.parameters) {
+    SourceParameter& source = maps.sources[parameter];
+    source.constants = std::get<ConstantValues>(asked.source);
+    source.factors = asked.factors;
+    source.name = parameter_option(parameter);
+  }
+  maps.source_convention = sets.request.convention;
+  maps.target_convention = sets.pass.target_convention;
+  maps.target_roughness_factor = sets.pass.target_roughness_factor;
+  if (!maps.target_convention && chosen.workflow.is_material())
+    maps.target_convention = width_of(*chosen.workflow.target);
+  maps.bad_texels = sets.pass.bad_texels;
+  const RoughnessEncoding width = maps.target_convention.value_or(info.target.roughness);
+  require_factor_of_exponent(sets.scales_exponents, width);
+  const auto specular = maps.sources.find(Parameter::kSpecular);
+  std::vector<ConvertedNumbers> values;
+  for (const Parameter parameter : chosen.converter().targets()) {
+    if (parameter == Parameter::kMetallicIssues) continue;
+    const std::size_t channels = chosen.converter().target_channels(
+        parameter, specular == maps.sources.end() ? 3 : specular->second.constants.size());
+    values.push_back(
+        {name_of_target(chosen, parameter, width), std::vector<float>(channels), !is_color(parameter)});
+    for (float& value : values.back().channels)
+      maps.targets[parameter].channels.push_back(float_channel(&value, 1));
+  }
+  const bool in_domain = convert_maps(chosen.converter(), maps).out_of_domain_count == 0;
+  if (!plan.quiet && !in_domain)
+    say("warning: the values are outside the domain (" + domain_text(chosen.domain()) + ")");
+  const std::string note = note_text(chosen.path, chosen.closer);
+  if (!plan.quiet && !note.empty()) say("note: " + note);
+  print_numbers(plan, values, in_domain);
+}
+
+}  // namespace remap

@@ -1,0 +1,162 @@
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/stopwatch.hpp"
+#include "sets/folder_walk.hpp"
+#include "texremap/plan/asset_files.hpp"
+#include "texremap/plan/asset_formats.hpp"
+#include "texremap/run/job_work.hpp"
+#include "texture/content_hash.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// Files that several assets of a run name are copied by the first; the others find them whole.
+class SharedCopies {
+ public:
+  void copy(const ResourceCopy& copy) {
+    const std::shared_ptr<std::mutex> own = lock_of(copy.to);
+    const std::lock_guard lock(*own);
+    std::error_code ignored;
+    if (fs::is_regular_file(copy.to, ignored) && are_same_files(copy.from, copy.to)) return;
+    copy_whole_file(copy.from, copy.to);
+  }
+
+ private:
+  std::shared_ptr<std::mutex> lock_of(const fs::path& path) {
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<std::mutex>& own = locks_[path.lexically_normal()];
+    if (!own) own = std::make_shared<std::mutex>();
+    return own;
+  }
+
+  std::mutex mutex_;
+  std::map<fs::path, std::shared_ptr<std::mutex>> locks_;
+};
+
+std::string inputs_hash_of(const FileSource& source, const AssetWork& asset,
+                           const std::vector<AssetResource>& resources) {
+  ContentHash hash;
+  hash.add_file(source.file());
+  hash.add(asset.image_prefix);
+  const FolderResources files(asset);
+  for (const AssetResource& resource : resources) {
+    std::error_code ignored;
+    if (resource.kind != UriKind::kFile) continue;
+    const fs::path file = files.input(resource.path);
+    hash.add(resource.path);
+    if (fs::is_regular_file(file, ignored)) hash.add_file(file);
+  }
+  return hash.hex();
+}
+
+class AssetWorker final : public JobWorker {
+ public:
+  AssetWorker(const ConvertPlan& plan, OutputFolder& folder)
+      : plan_(plan), options_(std::get<AssetOptions>(plan.work)), folder_(folder) {}
+
+  void run(const Job& job, const std::function<void(double)>&, JobReport& report) override {
+    const Stopwatch stopwatch;
+    const auto& asset = std::get<AssetWork>(job.work);
+    const FileSource source(asset.input);
+    const FolderResources files(asset);
+    std::vector<AssetResource> named;
+    if (folder_.has_journal()) named = resources_of_asset(source, asset.input, files);
+    const std::string inputs = folder_.has_journal() ? inputs_hash_of(source, asset, named) : "";
+    report.was_done = is_done(asset, inputs, named);
+    report.results = {{asset.output, {}, false}};
+    if (report.was_done) return;
+    if (!plan_.force && same_file(asset.input, asset.output))
+      throw output_error(display_path(asset.output) + ": is the input itself (--force replaces it)");
+    folder_.require_free(asset.output);
+    const AssetConversion conversion = convert_asset(source, asset.input, asset.output, options_, files);
+    report.materials = conversion.materials;
+    report.warnings = conversion.warnings;
+    const ResourcePlan beside = plan_resources(asset, conversion.resources,
+                                               [&](const fs::path& target) { folder_.require_free(target); });
+    report.warnings.insert(report.warnings.end(), beside.warnings.begin(), beside.warnings.end());
+    for (const NewResource& file : conversion.files) {
+      const fs::path image = files.output(file.path);
+      report.results.push_back({image, {}, false});
+      std::error_code ignored;
+      if (!fs::is_regular_file(image, ignored) || !have_same_bytes(image, file.bytes))
+        folder_.require_free(image);
+      folder_.take(image, job.owner);
+    }
+    const bool has_failed = report.failure_text().has_value();
+    // A file of which nothing was converted and something failed would be taken for a result.
+    if (has_failed && !conversion.changed) report.results.clear();
+    if (!report.results.empty()) {
+      for (const ResourceCopy& copy : beside.copies) report.copies.push_back(copy.to);
+      // A resumed run tries again what failed.
+      if (!plan_.dry_run) write(asset, source, conversion, report, beside, has_failed ? "" : inputs);
+    }
+    report.bytes_read = source.size();
+    for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});
+    report.seconds = stopwatch.seconds();
+  }
+
+ private:
+  // Copies are compared with what they are of: several assets may share one. Files that only converted
+  // materials used are not in the result, and have none.
+  bool is_done(const AssetWork& asset, const std::string& inputs, std::vector<AssetResource> named) const {
+    if (!folder_.is_done(inputs, folder_.files_of(asset.name()))) return false;
+    const bool is_new_format =
+        asset.input.extension() != asset.output.extension();  // which names other files
+    if (is_new_format) return true;
+    std::set<std::string> kept;
+    for (const AssetResource& resource :
+         resources_of_asset(FileSource(asset.output), asset.output, FolderResources(asset)))
+      kept.insert(resource.path);
+    std::erase_if(named, [&](const AssetResource& resource) { return !kept.contains(resource.path); });
+    return plan_resources(asset, named, [](const fs::path&) {}).copies.empty();
+  }
+
+  // The asset comes last, so that it never lies without its parts.
+  void write(const AssetWork& asset, const ByteSource& source, const AssetConversion& conversion,
+             const JobReport& report, const ResourcePlan& beside, const std::string& inputs) {
+    std::vector<std::unique_ptr<NewFile>> files;
+    for (std::size_t i = 0; i < conversion.files.size(); ++i) {
+      files.push_back(std::make_unique<NewFile>(report.results[i + 1].path));
+      files.back()->add(conversion.files[i].bytes);
+    }
+    if (conversion.changed || !same_file(asset.input, asset.output)) {
+      files.push_back(std::make_unique<NewFile>(asset.output));
+      if (conversion.changed)
+        add_pieces(*files.back(), conversion.pieces, source);
+      else
+        add_pieces(*files.back(), {{"", 0, source.size()}}, source);
+    }
+    for (const std::unique_ptr<NewFile>& file : files) file->finish();
+    folder_.begin(report.copies);  // so that a later run knows them
+    for (const ResourceCopy& copy : beside.copies) copies_.copy(copy);
+    const Flush flush = folder_.has_journal() ? Flush::kNo : Flush::kYes;
+    std::vector<FinishedFile> finished;
+    std::vector<fs::path> paths;
+    if (folder_.has_journal())
+      for (const std::unique_ptr<NewFile>& file : files) finished.push_back(finished_file(*file));
+    for (const FinishedFile& file : finished) paths.push_back(file.path);
+    folder_.begin(paths);
+    folder_.commit(asset.name(), inputs, finished, [&] {
+      for (const std::unique_ptr<NewFile>& file : files) file->commit(flush);
+    });
+  }
+
+  const ConvertPlan& plan_;
+  const AssetOptions options_;
+  OutputFolder& folder_;
+  SharedCopies copies_;
+};
+
+}  // namespace
+
+std::unique_ptr<JobWorker> asset_worker(const ConvertPlan& plan, OutputFolder& folder) {
+  return std::make_unique<AssetWorker>(plan, folder);
+}
+
+}  // namespace remap

@@ -1,0 +1,51 @@
+#include "texremap/run/job_report.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "core/report_text.hpp"
+
+namespace remap {
+
+JobReport JobReport::of(const Job& job) {
+  JobReport report;
+  report.name = job.name;
+  if (!job.tile.empty()) report.tiles = {job.tile};
+  if (const auto* asset = std::get_if<AssetWork>(&job.work)) report.inputs = {asset->input};
+  return report;
+}
+
+JobReport& JobReport::operator+=(const JobReport& other) {
+  const auto append = [](auto& all, const auto& more) {
+    for (const auto& entry : more)
+      if (std::find(all.begin(), all.end(), entry) == all.end()) all.push_back(entry);
+  };
+  append(tiles, other.tiles);
+  append(inputs, other.inputs);
+  append(copies, other.copies);
+  append(left_behind, other.left_behind);
+  append(warnings, other.warnings);
+  results.insert(results.end(), other.results.begin(), other.results.end());
+  was_done = was_done && other.was_done;
+  has_8_bits = has_8_bits || other.has_8_bits;
+  has_compression_level = has_compression_level || other.has_compression_level;
+  if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
+  if (!is_retryable(failure_code)) failure_code = other.failure_code;
+  for (const auto& [note, count] : other.colors) colors[note] += count;
+  if (plan.empty()) plan = other.plan;
+  if (!estimated_f0) estimated_f0 = other.estimated_f0;
+  statistics += other.statistics;
+  seconds += other.seconds;
+  bytes_read += other.bytes_read;
+  bytes_written += other.bytes_written;
+  return *this;
+}
+
+std::optional<std::string> JobReport::failure_text() const {
+  const std::size_t failed = count(MaterialState::kFailed);
+  if (failure || failed == 0) return failure;
+  return std::to_string(failed) + " of " +
+         counted(materials.size() - count(MaterialState::kUntouched), "material") + " failed";
+}
+
+}  // namespace remap

@@ -1,0 +1,106 @@
+// What became of a job, or of a set with all its tiles.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/document/asset.hpp"
+#include "stages/dielectric_f0.hpp"
+#include "texremap/plan/job.hpp"
+#include "texremap/run/planned_roles.hpp"
+#include "texture/texture_pass.hpp"
+
+namespace remap {
+
+// The color space in which maps of a color are read or written, and why: the user's word, the file's (its
+// tag, or for a result the map that it follows), or the usual one.
+struct ColorNote {
+  Parameter color;
+  bool is_written;
+  Transfer transfer;
+  TransferReason reason;
+  auto operator<=>(const ColorNote&) const = default;
+};
+using ColorNotes = std::map<ColorNote, std::size_t>;  // with the number of maps
+
+struct JobReport {
+  struct Result {
+    std::filesystem::path path;
+    std::vector<Parameter> parameters;  // that the file holds
+    bool mask = false;
+  };
+  std::string name;                // empty for the one set of a command line
+  std::vector<std::string> tiles;  // converted tiles; empty where the set has no tiles
+  std::vector<std::filesystem::path> inputs;
+  // Also planned ones, in a dry run and after a failure. Of an asset: itself, unless nothing is written, and
+  // its new images.
+  std::vector<Result> results;
+  std::vector<std::filesystem::path> copies;  // files that are not converted; also planned ones
+  std::vector<std::string> warnings;
+  std::optional<std::string> failure;
+  int failure_code = 0;           // errno of the call that failed, or 0
+  bool was_done = false;          // by the earlier run that this one resumes
+  double seconds = 0.0;           // sum over all tiles, even where tiles ran in parallel
+  std::uintmax_t bytes_read = 0;  // sizes of the files on disk
+  std::uintmax_t bytes_written = 0;
+
+  // Of texture sets.
+  std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
+  Transfer specular_transfer = Transfer::kLinear;
+  ColorNotes colors;                         // of whole numbers, and of what a file or the user says
+  std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
+  std::vector<PlannedRole> plan;             // of a dry run; of tiles, that of the first
+  bool has_8_bits = false, has_compression_level = false;  // a result does
+  MapStatistics statistics;
+
+  std::vector<AssetMaterial> materials;  // of assets
+
+  // Of one job, or none of them yet.
+  static JobReport of(const Job& job);
+  // Adds the report of the next tile of the set.
+  JobReport& operator+=(const JobReport& other);
+
+  std::size_t count(MaterialState state) const { return count_of(materials, state); }
+  // Why it has failed: the whole of it, or `1 of 3 materials failed`. None where all went well.
+  std::optional<std::string> failure_text() const;
+};
+
+// All members, for another process (packed_values.hpp).
+template <typename Archive>
+void fields(Archive& archive, JobReport::Result& result) {
+  archive(result.path, result.parameters, result.mask);
+}
+template <typename Archive>
+void fields(Archive& archive, MapStatistics& statistics) {
+  archive(statistics.texel_count, statistics.out_of_domain_count, statistics.nan_count,
+          statistics.infinite_count, statistics.negative_count, statistics.clipped_count,
+          statistics.masked_count, statistics.above_one_count, statistics.first_bad, statistics.sources,
+          statistics.targets, statistics.tints, statistics.metallic);
+}
+template <typename Archive>
+void fields(Archive& archive, PlannedRole& role) {
+  archive(role.role, role.input, role.encoding, role.happens, role.output);
+}
+template <typename Archive>
+void fields(Archive& archive, MaterialFactor& factor) {
+  archive(factor.name, factor.values);
+}
+template <typename Archive>
+void fields(Archive& archive, AssetMaterial& material) {
+  archive(material.index, material.name, material.state, material.factors, material.residual,
+          material.becomes, material.warnings, material.failure);
+}
+template <typename Archive>
+void fields(Archive& archive, JobReport& report) {
+  archive(report.name, report.tiles, report.inputs, report.results, report.copies, report.warnings,
+          report.failure, report.failure_code, report.was_done, report.seconds, report.bytes_read,
+          report.bytes_written, report.left_behind, report.specular_transfer, report.colors,
+          report.estimated_f0, report.plan, report.has_8_bits, report.has_compression_level,
+          report.statistics, report.materials);
+}
+
+}  // namespace remap

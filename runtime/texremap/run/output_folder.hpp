@@ -1,0 +1,48 @@
+// Where a run writes: which files it may replace, which are done, and what its journal notes.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "texremap/plan/convert_plan.hpp"
+#include "texremap/run/journal.hpp"
+
+namespace remap {
+
+// Of named assets there is no journal: they go where the user says, beside whatever is there.
+class OutputFolder {
+ public:
+  // `plan` must outlive it. Throws kOutput if the folder belongs to another conversion, unless --force is
+  // given.
+  explicit OutputFolder(const ConvertPlan& plan);
+
+  // The one answer to whether a file may be written: where there is none, with --force, and with --resume
+  // where this conversion wrote it. Throws kOutput, with what to do.
+  void require_free(const std::filesystem::path& file) const;
+  // Takes the name of a result. Throws kOutput where another job has it.
+  void take(const std::filesystem::path& file, const std::string& owner) const;
+
+  // Whether --resume finds that this conversion wrote all files from `inputs`, and that they still are what
+  // it wrote.
+  bool is_done(const std::string& inputs, const std::vector<std::filesystem::path>& files) const;
+  // The files that this conversion wrote last of an entry.
+  std::vector<std::filesystem::path> files_of(const std::string& entry) const;
+
+  // Notes that files are about to appear.
+  void begin(const std::vector<std::filesystem::path>& files);
+  // Calls `rename`, which gives finished files their names, and notes them. They are on the disk before; the
+  // lock of the folder is held for the renames only.
+  void commit(const std::string& entry, const std::string& inputs, const std::vector<FinishedFile>& files,
+              const std::function<void()>& rename);
+  // Whether results are noted, and so on the disk before they have their names.
+  bool has_journal() const { return journal_.has_value(); }
+
+ private:
+  const ConvertPlan& plan_;
+  std::optional<Journal> journal_;
+};
+
+}  // namespace remap

@@ -1,0 +1,368 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "command_line/interruption.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/report_text.hpp"
+#include "core/stopwatch.hpp"
+#include "remap/version.hpp"
+#include "sets/folder_walk.hpp"
+#include "texremap/plan/conversion_request.hpp"
+#include "texremap/run/job_work.hpp"
+#include "texture/content_hash.hpp"
+#include "texture/material_survey.hpp"
+#include "texture/target_plan.hpp"
+#include "texture/texture_pass.hpp"
+
+namespace remap {
+namespace {
+
+// Files that are open, each once.
+using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
+
+// Each file once: a file of several parts is several maps.
+OpenFiles files_of(const TextureSet& set) {
+  OpenFiles files;
+  for (const ImageReader& map : set.maps)
+    if (std::ranges::find(files, map.file()) == files.end()) files.push_back(map.file());
+  return files;
+}
+
+// The open file of that name; opens it where it is none of `files`.
+std::shared_ptr<const InputFile> file_among(const OpenFiles& files, const std::filesystem::path& path) {
+  const auto found = std::ranges::find(files, path, [](const auto& file) { return file->path(); });
+  return found != files.end() ? *found : std::make_shared<const InputFile>(path);
+}
+
+// A hash of the files of a set, of what is taken from where, and of the files that are copied beside it.
+std::string inputs_hash(const OpenFiles& files, const SetWork& set, const OpenFiles& copied) {
+  ContentHash hash;
+  for (const auto& file : files) hash.add_file(*file);
+  const auto add = [&](const std::string& name, const ParameterRequest& asked) {
+    hash.add(name);
+    if (const auto* map = std::get_if<MapName>(&asked.source)) {
+      hash.add(map->file.filename().string());
+      for (const std::string& channel : map->channels) hash.add(channel);
+    }
+  };
+  for (const auto& [parameter, asked] : set.request.parameters) add(plain_name(parameter), asked);
+  for (const CarriedRequest& carried : set.request.carried) add(carried.name, carried.parameter);
+  hash.add(set.request.convention ? encoding_name(*set.request.convention) : "");
+  for (const auto& file : copied) hash.add_file(*file);
+  return hash.hex();
+}
+
+Metadata metadata_of(const ChosenConverter& chosen) {
+  const ConverterInfo& info = chosen.info();
+  return {{"remap:converter", converter_ids(chosen)},
+          {"remap:source", info.source.model},
+          {"remap:target", info.target.model},
+          {"remap:version", kVersion}};
+}
+
+// Refuses maps that were converted before to another model than the source of this conversion.
+void require_not_converted(const TextureSet& set, const ChosenConverter& chosen, JournalLookup& journals) {
+  const std::string& source = chosen.info().source.model;
+  const WorkflowChoice& workflow = chosen.workflow;
+  const WorkflowEnd end = workflow.is_material()
+                              ? *workflow.source
+                              : workflow_over(source, WorkflowKind::kSpecular, RoughnessEncoding::kAlpha).end;
+  const std::string& brdf = workflow.is_material() ? workflow.source_brdf : source;
+  for (const ImageReader& map : set.maps) {
+    std::optional<std::string> model = map.noted_metadata("remap:target");
+    if (!model) model = journals.target_of(*map.file());
+    if (model && *model != source && !holds_materials_of(*model, end, brdf))
+      throw Error(ErrorKind::kUsage, map.path().string() + ": already converted to " + *model +
+                                         ", but the source is " + source + " (--force converts it anyway)");
+  }
+}
+
+std::vector<std::filesystem::path> results_of(const TargetPlan& plan) {
+  std::vector<std::filesystem::path> files;
+  for (const PlannedMap& map : plan.maps) files.push_back(map.path);
+  for (const PlannedCopy& copy : plan.copies) files.push_back(copy.path);
+  return files;
+}
+
+WidthSource width_source(const TextureSet& set) {
+  const SetParameter* map = set.map_of(Parameter::kRoughness);
+  if (map == nullptr) return {{}, set.convention};
+  return {set.maps[map->channels.front().map].path(), set.convention};
+}
+
+// Notes in which color spaces the set is read and written.
+void note_colors(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) {
+  for (const auto& [parameter, values] : set.parameters)
+    if (is_color(parameter) && values.is_map() &&
+        (values.is_whole_numbers || values.transfer_reason != TransferReason::kUsual))
+      ++report.colors[{parameter, false, values.transfer, values.transfer_reason}];
+  for (const TargetMap& target : targets)
+    for (std::size_t p = 0; p < target.parts.size(); ++p) {
+      const TargetPart& part = target.parts[p];
+      for (std::size_t c = 0; c < part.channels.size(); ++c) {
+        const auto* channel = std::get_if<ConvertedChannel>(&part.channels[c]);
+        if (channel == nullptr || !is_color(channel->parameter) || channel->index > 0) continue;
+        const PixelType type = target.writer->layout(static_cast<int>(p)).channels[c].type;
+        const ColorStorage& storage = *part.changes.colors;
+        const auto source = set.parameters.find(channel->parameter);
+        const bool is_asked =
+            source != set.parameters.end() && source->second.transfer_reason == TransferReason::kUser;
+        if (!is_integer(type) && !storage.chosen && !is_asked) continue;
+        const TransferReason reason = storage.chosen                         ? TransferReason::kUser
+                                      : storage.followed && is_integer(type) ? TransferReason::kFile
+                                                                             : TransferReason::kUsual;
+        ++report.colors[{channel->parameter, true, storage.of(type), reason}];
+      }
+    }
+}
+
+JobReport::Result result_of(const PlannedMap& planned) {
+  JobReport::Result result{planned.path, {}, false};
+  for (const TargetPart& part : planned.parts)
+    for (const TargetChannel& channel : part.channels) {
+      if (const auto* converted = std::get_if<ConvertedChannel>(&channel))
+        result.parameters.push_back(converted->parameter);
+      result.mask |= std::holds_alternative<MaskChannel>(channel);
+    }
+  return result;
+}
+
+class SetWorker final : public JobWorker {
+ public:
+  SetWorker(const ConvertPlan& plan, OutputFolder& folder, int threads)
+      : plan_(plan), sets_(*plan.sets()), chosen_(sets_.chosen), folder_(folder), pass_(sets_.pass) {
+    pass_.thread_count = threads;
+    pass_.cancelled = &interruption();
+  }
+  void run(const Job& job, const std::function<void(double)>& progress, JobReport& report) override;
+
+ private:
+  void commit(const Job& job, const TargetPlan& targets, const OpenFiles& files, const std::string& inputs,
+              std::vector<TargetMap>& finished);
+  std::unique_ptr<Converter> survey(TextureSet& set, JobReport& report) const;
+  void note_issues(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
+  // What the roughness results hold where neither a name nor an option says it: what the target model of a
+  // workflow takes, else what the inputs hold where that is known, else what the target model takes.
+  RoughnessEncoding usual_width(const TextureSet& set) const {
+    if (chosen_.workflow.is_material()) return width_of(*chosen_.workflow.target);
+    return set.convention.value_or(chosen_.info().target.roughness);
+  }
+
+  const ConvertPlan& plan_;
+  const SetPlan& sets_;
+  const ChosenConverter& chosen_;
+  OutputFolder& folder_;
+  PassOptions pass_;
+  JournalLookup journals_;  // of the inputs
+};
+
+// Samples the maps of a workflow and notes warnings. Returns a converter for this set alone if its dielectric
+// F0 is to be estimated from the maps.
+std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report) const {
+  const WorkflowChoice& workflow = chosen_.workflow;
+  if (!workflow.is_material()) return nullptr;
+  const MaterialSample sample = sample_materials(set);
+  for (std::string& issue : issues_in(sample, set)) report.warnings.push_back(std::move(issue));
+  if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
+  WorkflowStages stages = stages_of(chosen_.workflow, chosen_.brdf);
+  const RoughnessEncoding width = set.convention.value_or(chosen_.info().source.roughness);
+  if (!workflow.f0_given) report.estimated_f0 = estimated_f0(sample, stages, width);
+  if (!workflow.estimates_f0) return nullptr;
+  if (!report.estimated_f0 || !report.estimated_f0->is_certain) {
+    report.warnings.push_back(report.inputs.front().string() +
+                              ": too few texels to estimate the dielectric F0; the default is used "
+                              "(--dielectric-f0 VALUE sets it)");
+    return nullptr;
+  }
+  std::get<MetallicWorkflow>(stages.target).dielectric_f0 = std::round(report.estimated_f0->f0 * 1e4) / 1e4;
+  return make_workflow_converter(stages, chosen_.info().instructions);
+}
+
+// Says which maps of one value have a trace of color, where it could be visible.
+void note_tints(const TextureSet& set, JobReport& report) {
+  constexpr float kVisibleTint = 0.01f;
+  for (const auto& [parameter, tint] : report.statistics.tints) {
+    const SetParameter* parameter_map = set.map_of(parameter);
+    if (parameter_map == nullptr || tint <= kVisibleTint) continue;
+    const ChannelPlace used = parameter_map->channels.front();
+    const ImageReader& map = set.maps[used.map];
+    report.warnings.push_back(map.path().string() + ": is not quite grey: its channels differ from " +
+                              map.layout().channels[used.channel].name + ", which is used, by at most " +
+                              fixed(255.0 * static_cast<double>(tint), 0) + " of 255");
+  }
+}
+
+void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>& targets,
+                            JobReport& report) const {
+  for (const std::string& remark : remarks(set)) report.warnings.push_back(remark);
+  // Of packed files; the first file with a constant is the one that lacks a map.
+  const auto has_constant = [](const TargetMap& target) {
+    const auto is_constant = [](const TargetChannel& channel) {
+      return std::holds_alternative<float>(channel);
+    };
+    return std::ranges::any_of(target.parts.front().channels, is_constant);
+  };
+  const auto packed = std::ranges::find_if(targets, has_constant);
+  if (packed != targets.end() && sets_.targets.layout.file_with(Parameter::kMetallic) != nullptr) {
+    const auto note = [&](const std::string& name, const std::string& value) {
+      const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
+      if (sets_.targets.layout.has_place_for(name) && std::ranges::none_of(set.carried, has_name))
+        report.warnings.push_back(packed->writer->path().string() + ": no " + name + " map; " + name +
+                                  " is set to " + value);
+    };
+    note("occlusion", "1");
+    if (!chosen_.workflow.is_to_metallic()) note("metallic", "0");
+  }
+  for (const TargetMap& target : targets) {
+    if (const std::string& lossy = target.writer->layout().lossy_compression; !lossy.empty())
+      report.warnings.push_back(target.writer->path().string() + ": " + lossy +
+                                " compression changes values (--format png or exr keeps them)");
+  }
+}
+
+// Copies that are finished and have no final name yet; those that do not get one are removed.
+class FinishedCopies {
+ public:
+  FinishedCopies() = default;
+  FinishedFile add(const PlannedCopy& copy, const std::shared_ptr<const InputFile>& source) {
+    if (copy.turns_green) return finished_file(*turned_.emplace_back(turned_copy(source, copy.path)));
+    NewFile& whole = *whole_.emplace_back(std::make_unique<NewFile>(copy.path));
+    add_copy(*source, whole);
+    whole.finish();
+    return finished_file(whole);
+  }
+  void commit() {
+    for (const auto& image : turned_) image->commit(Flush::kNo);
+    for (const auto& file : whole_) file->commit(Flush::kNo);
+  }
+
+ private:
+  std::vector<std::unique_ptr<NewImage>> turned_;
+  std::vector<std::unique_ptr<NewFile>> whole_;
+};
+
+// Gives the finished files of a set, and its copies, their names.
+void SetWorker::commit(const Job& job, const TargetPlan& targets, const OpenFiles& files,
+                       const std::string& inputs, std::vector<TargetMap>& finished) {
+  folder_.begin(results_of(targets));
+  std::vector<FinishedFile> results;
+  for (const TargetMap& target : finished) results.push_back(finished_file(*target.writer));
+  FinishedCopies copies;
+  for (const PlannedCopy& copy : targets.copies)
+    results.push_back(copies.add(copy, file_among(files, copy.source)));
+  folder_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, results, [&] {
+    for (TargetMap& target : finished) target.writer->commit(Flush::kNo);
+    copies.commit();
+  });
+}
+
+void SetWorker::run(const Job& job, const std::function<void(double)>& progress, JobReport& report) {
+  const Stopwatch stopwatch;
+  const auto& work = std::get<SetWork>(job.work);
+  TextureSet set = open_texture_set(work.request);
+  require_scale(set, set.convention.value_or(chosen_.info().source.roughness));
+  const OpenFiles files = files_of(set);
+  for (const auto& file : files) report.inputs.push_back(file->path());
+  report.left_behind = work.left_behind;
+  if (const SetParameter* specular = set.map_of(Parameter::kSpecular))
+    report.specular_transfer = specular->transfer;
+  if (!plan_.force) require_not_converted(set, chosen_, journals_);
+
+  TargetChoice choice = sets_.targets;
+  choice.folder = work.folder;
+  choice.diagnosis_folder = work.diagnosis_folder;
+  choice.names = work.names;
+  choice.metadata = metadata_of(chosen_);
+  choice.copies = work.copies;
+  const RoughnessEncoding width =
+      written_width(sets_.pass.target_convention, choice, width_source(set), usual_width(set));
+  const bool is_exponent = width == RoughnessEncoding::kExponent;
+  choice.width_name = width == RoughnessEncoding::kGlossiness ? "glossiness"
+                      : is_exponent                           ? "exponent"
+                                                              : "roughness";
+  require_factor_of_exponent(sets_.scales_exponents, width);
+  if (sets_.scales_exponents || width != set.convention.value_or(chosen_.info().source.roughness))
+    std::erase(choice.unchanged, Parameter::kRoughness);
+  const TargetPlan targets = plan_targets(set, choice);
+  if (is_exponent && !sets_.scales_exponents) require_target_scale(set, targets);
+  for (const PlannedMap& map : targets.maps) report.results.push_back(result_of(map));
+  for (const PlannedCopy& copy : targets.copies)
+    if (copy.parts.empty())
+      report.copies.push_back(copy.path);
+    else
+      report.results.push_back(result_of({copy.path, copy.parts}));
+  const std::vector<std::filesystem::path> results = results_of(targets);
+  for (const std::filesystem::path& file : results) folder_.take(file, job.owner);
+  report.warnings = work.notes;
+  report.warnings.insert(report.warnings.end(), targets.left_out.begin(), targets.left_out.end());
+  const bool needs_hash = plan_.resume || !plan_.dry_run;
+  OpenFiles all = files, copied;
+  if (needs_hash)
+    for (const CopiedFile& copy : work.copies) {
+      copied.push_back(file_among(all, copy.source));
+      all.push_back(copied.back());
+    }
+  const std::string inputs = needs_hash ? inputs_hash(files, work, copied) : "";
+  report.was_done = folder_.is_done(inputs, results);
+  if (report.was_done) return;
+  for (const std::filesystem::path& file : results) folder_.require_free(file);
+  if (plan_.dry_run) {
+    report.plan = planned_roles(set, targets, choice, work, chosen_.info().source.roughness, width);
+    return;
+  }
+
+  const std::unique_ptr<Converter> own = survey(set, report);
+  std::vector<TargetMap> maps = open_targets(set, targets);
+  note_issues(set, maps, report);
+  note_colors(set, maps, report);
+  for (const TargetMap& map : maps) {
+    const ImageLayout& layout = map.writer->layout();
+    report.has_compression_level |= layout.has_compression_level;
+    for (const Channel& channel : layout.channels) report.has_8_bits |= channel.type == PixelType::kUint8;
+  }
+  if (!plan_.list.has_several) require_effect(plan_, {report});
+  PassOptions pass = pass_;
+  pass.target_convention = width;
+  pass.progress = progress;
+  pass.commit = [&](std::vector<TargetMap>& finished) { commit(job, targets, all, inputs, finished); };
+  report.statistics = run_texture_pass(set, maps, own ? *own : chosen_.converter(), pass);
+  note_tints(set, report);
+  report.bytes_read = size_of(report.inputs);
+  for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});
+  report.seconds = stopwatch.seconds();
+}
+
+}  // namespace
+
+std::unique_ptr<JobWorker> set_worker(const ConvertPlan& plan, OutputFolder& folder, int threads) {
+  return std::make_unique<SetWorker>(plan, folder, threads);
+}
+
+void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& reports) {
+  if (plan.sets() == nullptr || plan.dry_run || plan.part) return;
+  const auto converted = [](const JobReport& report) { return !report.failure && !report.was_done; };
+  const auto some = [&](bool JobReport::*has) {
+    return std::ranges::any_of(reports, [&](const JobReport& report) { return report.*has; });
+  };
+  if (std::ranges::none_of(reports, converted)) return;
+  if (plan.sets()->pass.dither && !some(&JobReport::has_8_bits))
+    throw usage_error("--dither: applies to nothing, because no result has 8 bits (remove this option)");
+  if (plan.sets()->targets.compression_level && !some(&JobReport::has_compression_level))
+    throw usage_error(
+        "--compression: applies to nothing, because no result is PNG, or EXR or TIFF with zip (remove this "
+        "option)");
+}
+
+std::uintmax_t size_of(const std::vector<std::filesystem::path>& files) {
+  std::uintmax_t bytes = 0;
+  for (const std::filesystem::path& file : files) {
+    std::error_code failure;
+    const std::uintmax_t size = std::filesystem::file_size(file, failure);
+    if (!failure) bytes += size;
+  }
+  return bytes;
+}
+
+}  // namespace remap
