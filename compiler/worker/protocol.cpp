@@ -119,7 +119,7 @@ Json parse_answer(const std::string& line, std::int64_t id, const std::string& p
   return answer;
 }
 
-// The complaint of an answer, for a message: its line breaks are spaces, and it is cut.
+// The error text of the worker, on one line and truncated.
 std::optional<std::string> complaint_of(const Json& answer, const std::string& place) {
   if (!answer.contains("error")) return std::nullopt;
   std::string complaint = Field(answer, place)["error"].any_text();

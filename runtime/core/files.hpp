@@ -103,7 +103,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 // The one rule for results: throws kOutput where `path` is a file already, unless `force`.
 void require_new(const std::filesystem::path& path, bool force);
 
-// What is installed as `below` in the prefix of the running program; empty where that is not there.
+// The path of the installed file `below` in the prefix of the running program; empty if it is missing.
 std::filesystem::path installed(const std::filesystem::path& below);
 
 // Creates the folder of `path` if it does not exist. Throws kOutput on failure.

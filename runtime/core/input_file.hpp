@@ -68,9 +68,9 @@ class InputLines {
   // stays valid until the next call. Throws kInput for a line that is too long.
   std::optional<std::string_view> next();
   std::size_t number() const noexcept { return number_; }  // of the last line, from 1
-  // Where that line ends in the file.
+  // The end of that line in the file.
   std::uintmax_t end() const noexcept { return end_; }
-  // What follows the last line break, once next() has returned none.
+  // The text after the last line break, once next() has returned none.
   std::string_view rest() const noexcept { return std::string_view(buffer_).substr(next_); }
 
  private:

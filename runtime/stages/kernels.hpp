@@ -20,7 +20,7 @@
 
 namespace remap {
 
-// What a kernel is told of a converter (converter/compact_form.hpp).
+// The arguments of a kernel that depend on the converter (converter/compact_form.hpp).
 struct FormPass {
   using Terms = std::array<std::array<float, kMostPowersOfAlpha>, kMostPowersOfT>;
   RoughnessEncoding source = RoughnessEncoding::kAlpha;

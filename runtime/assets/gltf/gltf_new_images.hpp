@@ -45,7 +45,7 @@ class GltfNewImages {
   void write(const GltfSpares& spares, TextEdits& edits);
   // The texture info of a new texture. After write().
   std::string info_text(const TextureText& texture) const;
-  // What becomes of the binary chunk. After write().
+  // The new end of the binary chunk. Call it after write().
   const BinaryTail& tail() const noexcept { return tail_; }
   std::vector<NewResource>& files() noexcept { return files_; }
   // Values of extensions of textures that write() removed.

@@ -13,7 +13,7 @@
 
 namespace remap {
 
-// Of constant pixels one to read, of others one to write.
+// A read-only view if `pixels` is const; otherwise a writable one.
 template <typename Pixels>
 auto channel_of_pixels(Pixels& pixels, std::size_t channel) {
   const auto texel = static_cast<std::ptrdiff_t>(pixels.texel_bytes());

@@ -39,7 +39,7 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
   return escaped;
 }
 
-// What the lines of journals say, read anew from where reading ended.
+// The content of journals. Each read continues at the end of the last one.
 struct Content {
   std::optional<ConversionNote> owner;
   std::map<std::string, Entry> files;  // by name, the last line counts
@@ -172,7 +172,7 @@ bool is_as_written(const fs::path& path, const Entry& entry) {
   }
 }
 
-// Of a text from a journal, which anybody may have written.
+// Cleans a text of a journal, which anybody may have written.
 std::string shown_note(const std::string& text) {
   constexpr std::size_t kShown = 200;
   return text.empty() ? "none" : plain(text, kShown);

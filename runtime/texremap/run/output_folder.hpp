@@ -1,4 +1,4 @@
-// Where a run writes: which files it may replace, which are done, and what its journal notes.
+// The output folder of a run: which files may be replaced, which are done, and the journal.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// Of named assets there is no journal: they go where the user says, beside whatever is there.
+// Named assets have no journal: the user chose their place, and other files may be there.
 class OutputFolder {
  public:
   // `plan` must outlive it. Throws kOutput if the folder belongs to another conversion, unless --force is
