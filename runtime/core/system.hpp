@@ -25,7 +25,7 @@ char32_t small_letter(char32_t letter);
 struct FileFacts {
   std::filesystem::file_type type = std::filesystem::file_type::unknown;
   std::uintmax_t size = 0;
-  // Links are followed.
+  // Equal for all names and links of one file.
   std::pair<std::uint64_t, std::uint64_t> identity;
 };
 std::optional<FileFacts> facts_of(const std::filesystem::path& path);
