@@ -14,7 +14,7 @@
 namespace remap {
 namespace {
 
-// Of one renderer; models are listed, and parameters are options.
+// Limits of one renderer; models are listed, and parameters are options.
 constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }

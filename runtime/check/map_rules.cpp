@@ -106,7 +106,7 @@ std::vector<const Plane*> planes_of(const CheckedMaterial& material, const Mater
   return planes;
 }
 
-// Of constant channels.
+// Rules of constant channels.
 std::vector<float> values_of(const std::vector<const Plane*>& planes) {
   std::vector<float> values;
   for (const Plane* plane : planes) values.push_back(plane->front());
@@ -140,7 +140,7 @@ bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
   });
 }
 
-// What replaces a map of one value. Factors and options take linear numbers.
+// The factor that replaces a map of one value. Factors and options take linear numbers.
 Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
   if (use.role == Role::kNormal) return "remove the map: it changes nothing";
   const ImageLayout& layout = material.texels(use)->layout;

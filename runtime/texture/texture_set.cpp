@@ -31,7 +31,7 @@ std::string listed(std::span<const std::string> names) {
 // The size from which a remark is made about an image that cannot be streamed.
 constexpr std::size_t kWholeImageWorthSaying = std::size_t{64} << 20;
 
-// None if one of the parts is not a number.
+// Returns none if one of the parts is not a number.
 std::optional<std::vector<float>> numbers(std::string_view text) {
   std::vector<float> values;
   for (const std::string& part : parts_between(text, ',')) {

@@ -112,7 +112,7 @@ struct PictureDifference {
   bool operator==(const PictureDifference&) const = default;
 };
 
-// What a person or a program needs to know of a converter before using it.
+// Facts about a converter that a person or a program needs before using it.
 struct ConverterInfo {
   std::string id;
   ModelSide source;

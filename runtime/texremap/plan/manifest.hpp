@@ -10,7 +10,7 @@
 //   {"unrecognised": "props/notes.png"}
 //   {"problem": "props/secret: cannot be read: Permission denied"}
 //
-// Of assets, the first line has `"assets": 2` in place of sets, and the others are:
+// If assets are listed, the first line has `"assets": 2` instead of sets, and the others are:
 //
 //   {"cost": 240617, "asset": "props/chair.gltf", "prefix": "", "bytes": 40617, "files":
 //   [["props/chair.gltf", 1203], ["props/wood.png", 39414]]}
