@@ -90,7 +90,7 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
   }
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"};
-  // The models' names of specular; every header names the widths.
+  // The names of specular in the models. The names of the widths are in every header.
   body.constants = "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
                    "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular + "\";";
   const auto meaning = [](const HeaderEnd& end) {

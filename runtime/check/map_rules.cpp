@@ -80,8 +80,8 @@ Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, con
   return Orientation::kUnknown;
 }
 
-// The share of texels between 0.15 and 0.85 all of whose neighbours two texels away are so, too: an edge is
-// thinner.
+// The fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all between 0.15 and
+// 0.85. Edges are thinner.
 double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   constexpr int kReach = 2;
   const auto is_grey = [&](int x, int y) {

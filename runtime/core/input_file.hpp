@@ -60,7 +60,8 @@ void for_pieces(const InputFile& file, const Take& take) {
 // The lines of a file, one after another.
 class InputLines {
  public:
-  // Lines of this project's files are far shorter, and a file may have any size without any content.
+  // The longest line that is read. Lines of this project's files are far shorter, but a sparse file may be
+  // huge.
   static constexpr std::size_t kLongest = std::size_t{16} << 20;
   // `file` must outlive it. Reading begins at `start`.
   explicit InputLines(const InputFile& file, std::uintmax_t start = 0) : file_(file), end_(start) {}

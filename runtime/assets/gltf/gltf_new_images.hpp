@@ -62,7 +62,7 @@ class GltfNewImages {
     std::size_t image = 0, model = 0;
     std::size_t place = 0;  // after write()
   };
-  // Members of an image that say where it is, and names its type.
+  // Members of an image that give its place and its type.
   using Location = std::vector<std::pair<std::string_view, std::string>>;
 
   bool is_in_chunk(SpanValue image) const;

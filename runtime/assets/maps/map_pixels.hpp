@@ -66,7 +66,7 @@ NormalShares normal_shares(const std::array<std::span<const float>, 3>& rgb);
 // are_normals() of an even grid of texels.
 bool holds_normals(const ImagePixels& pixels);
 
-// Between pixels with alpha.
+// Copies the alpha channel. Both images must have one.
 void copy_alpha(const ImagePixels& from, ImagePixels& to);
 
 // Fills a channel with its largest value.

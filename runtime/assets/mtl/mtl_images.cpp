@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// Color, specular and exponent of one material, and the next color.
+// Four images are kept: color, specular and exponent of one material, and the next color.
 constexpr std::size_t kImagesInMemory = 4;
 constexpr std::uint64_t kLargestImageFile = std::uint64_t{1} << 30;
 constexpr std::size_t kLongestShownName = 200;

@@ -48,8 +48,8 @@ struct Content {
   std::map<fs::path, std::uintmax_t> read_bytes;
   bool ends_in_line = false;  // what was read last: a line of a killed run has no end, and is not whole
 
-  // The journal `name` of a folder, if it is there. Throws kOutput for what is none of this user's, kInput
-  // for a line that is too long.
+  // The journal `name` of a folder, if it is there. Throws kOutput if the file belongs to another user,
+  // kInput if a line is too long.
   void read_own(const fs::path& folder, const fs::path& name);
   // In the order in which they were written to.
   void read_own(const fs::path& folder, const std::vector<fs::path>& names);

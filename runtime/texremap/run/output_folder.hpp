@@ -19,8 +19,8 @@ class OutputFolder {
   // given.
   explicit OutputFolder(const ConvertPlan& plan);
 
-  // The one answer to whether a file may be written: where there is none, with --force, and with --resume
-  // where this conversion wrote it. Throws kOutput, with what to do.
+  // Decides whether a file may be written: if it does not exist, with --force, or with --resume if this
+  // conversion wrote it. Otherwise throws kOutput, with what to do.
   void require_free(const std::filesystem::path& file) const;
   // Takes the name of a result. Throws kOutput where another job has it.
   void take(const std::filesystem::path& file, const std::string& owner) const;
