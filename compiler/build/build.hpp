@@ -24,7 +24,7 @@ struct BuildExecution {
   const std::atomic<bool>* cancelled = nullptr;  // throws kInterrupted; finished items stay
 };
 
-// What an item took, in seconds of its one thread; 0 for what was up to date.
+// The time of an item, in seconds of its one thread; 0 if it was up to date.
 struct BuildSeconds {
   double sweep = 0.0;     // the table, or the samples of a network, with the waiting for pictures
   double pictures = 0.0;  // of it, the waiting for the renderer
@@ -33,7 +33,7 @@ struct BuildSeconds {
   double all = 0.0;
 };
 
-// What was made for one item.
+// The files and times of one item.
 struct BuiltItem {
   std::string id;
   bool table = false, fit = false, header = false;

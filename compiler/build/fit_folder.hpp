@@ -19,8 +19,8 @@ struct FitFolder {
   void add(AnyFit fit);
 };
 
-// Where fits are looked up by default: `fits` in the working directory where it holds any, else the folder
-// that was installed with the program; `fits` where neither is there.
+// The default folder of fits: `fits` in the working directory if it holds any, otherwise the installed
+// folder. If neither exists, `fits`.
 std::filesystem::path default_fit_folder();
 
 // Loads every `*.json` of `folder` except its manifest and what is beside tables. Throws kInput for a folder

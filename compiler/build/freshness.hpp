@@ -27,7 +27,7 @@ bool has_table(const ManifestItem& item);
 // Hashes what an item is made from. `lock` holds the current state of its inputs.
 std::string recipe_hash(const ManifestItem& item, const Lock& lock);
 
-// Which files of an item are those recorded in the lock and still match their inputs.
+// The files of an item that are recorded in the lock and still match their inputs.
 struct Freshness {
   bool table = false, fit = false, header = false;
   std::string reason;  // why the first of them is not fresh

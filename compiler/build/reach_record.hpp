@@ -10,7 +10,7 @@ namespace remap {
 
 inline constexpr const char* kReachName = "reach.csv";
 
-// Of one fit. Excesses are shares of the source's picture (study/reach.hpp).
+// The record of one fit. Excesses are fractions of the source's picture (study/reach.hpp).
 struct ReachRecord {
   std::string fit;            // SHA-256 of its file
   std::size_t materials = 0;  // that were compared
@@ -21,7 +21,7 @@ using ReachRecords = std::map<std::string, ReachRecord>;  // by id
 
 // The records in `folder`; empty without a file. Throws kInput for a file of another form.
 ReachRecords read_reach(const std::filesystem::path& folder);
-// Those of fits that have not changed since.
+// Returns the records of fits that have not changed since.
 ReachRecords current_reach(const std::filesystem::path& folder);
 void write_reach(const std::filesystem::path& folder, const ReachRecords& records);
 

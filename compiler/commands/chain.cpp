@@ -26,7 +26,7 @@ struct ChainCommand {
   bool force = false, json = false;
 };
 
-// Where the new fit goes, which must not be there yet.
+// The path of the new fit, which must not exist.
 std::filesystem::path new_path(const ChainCommand& command, const std::string& source,
                                const std::string& target) {
   const std::string id = command.id.empty() ? converter_id(source, target) : command.id;

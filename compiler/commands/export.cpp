@@ -1,4 +1,5 @@
-// `remapc export` writes a table of any form as plain CSV, with how it was made beside it.
+// `remapc export` writes a table of any form as plain CSV, and beside it a file that says how the table was
+// made.
 #include <algorithm>
 
 #include "commands/commands.hpp"
@@ -15,7 +16,7 @@ struct ExportOptions {
   bool force = false;
 };
 
-// The table's models, where its columns or options told them, become comments.
+// Adds the models of the table as comments, if its columns or options name them.
 std::string text_of(Table table) {
   const auto add = [&](const std::string& key, std::string_view value) {
     if (!value.empty() && !std::ranges::count(table.comments, key, &Comments::value_type::first))

@@ -148,7 +148,7 @@ void require_output_folder(const std::filesystem::path& folder) {
     throw output_error(folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
 }
 
-// Where the fit goes, which must not be there yet, nor its plot.
+// The path of the fit. Neither it nor its plot may exist.
 std::filesystem::path new_path(const FitCommand& command, const std::string& id) {
   const std::filesystem::path path = command.folder / (id + ".json");
   require_new(path, command.force);

@@ -27,7 +27,7 @@ std::string pictures_text(const PictureCount& pictures) {
          (lost == 0 ? "" : ", " + counted(lost, "worker") + " lost");
 }
 
-// `about 12:30 in all`; empty before some rows and ten pictures of workers are done, and after the last row.
+// `about 12:30 in all`; empty until some rows and ten pictures of workers are done, and after the last row.
 std::string estimate_text(double seconds, const PictureCount& pictures, std::size_t done, std::size_t rows) {
   constexpr std::size_t kEnoughPictures = 10;
   if (pictures.rendered + pictures.cached < kEnoughPictures || done == 0 || done == rows) return "";

@@ -1,4 +1,4 @@
-// What the conventions of widths are called in generated headers.
+// The names of the encodings of widths in generated headers.
 #pragma once
 
 #include "remap/converter.hpp"

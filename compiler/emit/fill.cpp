@@ -72,7 +72,7 @@ std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<flo
   return text;
 }
 
-// What a header has of its own within the frame.
+// The part of a header that differs from others.
 struct Body {
   std::vector<std::string> includes;
   std::string detail, constants, text;
@@ -90,7 +90,7 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
   }
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"};
-  // What the models call specular; the widths are named by every header.
+  // The names of specular in the models. The names of the widths are in every header.
   body.constants = "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
                    "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular + "\";";
   const auto meaning = [](const HeaderEnd& end) {

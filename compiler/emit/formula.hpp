@@ -35,8 +35,8 @@ std::vector<Statement> formula_of(const ConverterData& converter);
 Expression alpha_of(RoughnessEncoding convention, const std::string& parameter);
 Expression own_of(RoughnessEncoding convention, const std::string& parameter);
 
-// Factors of a form (converter/compact_form.hpp) of `alpha` and `t`, in the order of operations of every
-// evaluator.
+// The factors of a form (converter/compact_form.hpp) as expressions of `alpha` and `t`. Every evaluator has
+// this order of operations.
 Expression factor_expression(const FactorTerms& factor, const std::string& alpha, const std::string& t);
 
 // How a language writes an expression.

@@ -213,7 +213,7 @@ std::string material_function(const Parts& parts) {
          "    <output name=\"specular_out\" type=\"color3\" nodename=\"specular_value\" />\n  </nodegraph>\n";
 }
 
-// What stands around the functions of a language.
+// The text around the functions of a language.
 struct Frame {
   std::string comment, units, begin, end;
   std::function<std::string(const Parts&)> function;

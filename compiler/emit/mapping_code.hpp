@@ -12,7 +12,7 @@ namespace remap {
 // `struct Form` of a converter, over which runtime/stages/code/form_rows.inc is written.
 std::string form_code(const ConverterData& converter);
 
-// What whole materials contribute.
+// The contribution of whole materials.
 struct MaterialCode {
   std::string formula;
   std::string constants;  // definitions beside those of the ends

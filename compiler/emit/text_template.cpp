@@ -11,8 +11,8 @@ namespace remap {
 namespace {
 
 constexpr std::string_view kLoopMark = "REMAP_INDEPENDENT_LOOP";
-// Before a loop whose output rows may be exactly its input rows and overlap nothing else: compilers need not
-// ask which rows overlap.
+// Stands before a loop whose output rows are its input rows, or overlap no other row. Compilers then check no
+// overlap.
 constexpr std::string_view kIndependentLoop = R"(#if defined(__clang__)
 #pragma clang loop vectorize(assume_safety)
 #elif defined(__GNUC__)

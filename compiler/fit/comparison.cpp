@@ -104,7 +104,7 @@ double relative_rms(const std::vector<double>& errors, const std::vector<double>
   return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-// Where nothing was held out, the trained rows have to do.
+// If no rows were held out, the trained rows are used.
 const std::vector<TableRow>& judging_rows(const RowSplit& split) {
   return split.held_out.empty() ? split.training : split.held_out;
 }

@@ -51,7 +51,7 @@ class Half {
     if (!pictures) pictures = std::make_unique<LobePictures>(lights_, model, widths_of(model));
     return *pictures;
   }
-  // Of equal ratios, within the range of the model.
+  // Widths in equal ratios, within the range of the model.
   static std::vector<double> widths_of(const std::string& model) {
     static const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
     const Range range = renderer->model(model).alpha;

@@ -19,7 +19,7 @@ double own_error(RoughnessEncoding convention, double own, double error) {
   return std::max(std::fabs(low - own), std::fabs(high - own)) + rounding_of(std::fabs(own) + 1.0);
 }
 
-// As a short decimal.
+// The number as a short decimal.
 float bound(double value) { return static_cast<float>(rounded_up(rounded_to_float(value), 2)); }
 
 std::optional<double> two_digits(bool is_known, double error) {

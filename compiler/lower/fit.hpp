@@ -111,7 +111,7 @@ struct Fit {
   Split split;
   TableRecord table;
   std::string tool_version;
-  // What add_converter() (lower/lower.hpp) makes of the fit; none before that, and where it cannot be made.
+  // The converter that add_converter() (lower/lower.hpp) makes; none before that, and if it cannot be made.
   std::optional<ConverterData> converter;
   // Whether the errors are known. Formulas from publications were not compared with rows.
   bool has_errors() const { return alpha_error != ErrorFigures{} || specular_error != ErrorFigures{}; }

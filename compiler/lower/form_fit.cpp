@@ -314,7 +314,7 @@ CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limit
   const CompactForm nearest = least_squares(samples, limits, shape, kLeastShown);
   const bool is_limited = nearest.alpha_limit || nearest.specular_limit;
   if (!is_limited && is_sound(nearest, domain)) return nearest;
-  // Factors that begin near 0 stay positive where small values count as much as large ones.
+  // A start that weights small values as much as large ones keeps factors positive that begin near 0.
   std::vector<CompactForm> starts = {nearest, least_squares(samples, limits, shape, kLeastRelative)};
   if (const CompactForm* smaller = best_within(sound, shape, domain, samples))
     starts.push_back(padded(*smaller, shape));

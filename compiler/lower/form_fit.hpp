@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// What a source texel becomes, and whether the target is at a limit there.
+// The target of a source texel, and whether it is at a limit there.
 struct FormSample {
   MappedTexel source, target;
   bool alpha_at_limit = false, specular_at_limit = false;

@@ -19,7 +19,7 @@ struct Rule {
   double alpha_limit = INFINITY, specular_limit = INFINITY;
   Hinge hinge;
 
-  // Of a texel in the domain, beside the edge of which a perfectly dark one lies.
+  // A texel in the domain. A texel with specular 0 lies just outside of it.
   double alpha_factor(double alpha, double specular) const {
     return std::visit([&](const auto& kind) { return target_alpha(kind, alpha, specular); }, mapping) / alpha;
   }

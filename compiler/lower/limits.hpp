@@ -10,13 +10,13 @@
 
 namespace remap {
 
-// Of a parametric mapping: powers of specular, powers of alpha, terms of specular.
+// Limits of a parametric mapping: powers of specular, powers of alpha, terms of specular.
 inline constexpr std::size_t kMostSpecularPowers = 16, kMostAlphaPowers = 32, kMostTerms = 64;
 // Gaussians of each output.
 inline constexpr std::size_t kMostVectors = 4096;
-// Of each network.
+// Limits of each network.
 inline constexpr std::size_t kMostLayers = 6, kMostNetworkNumbers = 20'000;
-// Of the source, alpha and specular. Physical ones end at 1, scales of some models at a few.
+// The largest alpha and specular of a source. Physical ones end at 1, scales of some models at a few.
 inline constexpr double kLargestDomain = 1000.0;
 
 // What of a fit or a network is beyond a limit: `has 5000 support vectors; at most 4096 are possible`. Empty

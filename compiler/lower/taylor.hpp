@@ -256,7 +256,7 @@ struct GaussianSeries {
     rounding *= kUnit * (8.0 * N + 4.0 + 4.0 * exponent);
     // exp(largest) rounds as its exponents do.
     total = (total + left * (1.0 + 1e-12 * (1.0 + exponent + std::fabs(largest)))) * (1.0 + 1e-14);
-    // Where the series is no good, the values alone: from 0 to that of the nearest point.
+    // If the series is not good, only the values: from 0 to the value at the nearest point.
     const double nearest = std::max(0.0, std::fabs(distance) - half_width);
     const double peak = std::min(1.0, std::exp(-gamma * nearest * nearest) * (1.0 + 1e-9));
     if (total <= 2.0 * peak || !std::isfinite(distance) || !std::isfinite(half_width)) return;

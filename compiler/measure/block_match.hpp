@@ -21,7 +21,7 @@ struct SampleBlock {
 // Samples are rounded to numbers that a user can type.
 inline constexpr int kSampleDigits = 9;
 
-// What the blocks of one sweep share.
+// The data that the blocks of one sweep share.
 struct SweepSetup {
   const SweepOptions& options;
   const PictureTaker& picture_taker;

@@ -60,7 +60,7 @@ class Matcher {
   std::vector<std::vector<float>> basis_;
   PictureWeights weights_;
   std::vector<std::vector<float>> weighted_basis_;
-  // Inner products of the basis pictures, and the part of the means.
+  // Gram matrices of the basis pictures: of all samples, and of mean pixels only.
   std::vector<std::vector<double>> power_, power_of_means_;
   std::map<std::size_t, NodeProducts> products_;
 };

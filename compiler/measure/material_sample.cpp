@@ -92,7 +92,7 @@ std::vector<std::vector<double>> draw(const MaterialSampleOptions& options,
   return samples;
 }
 
-// What the samples share.
+// The data that the samples share.
 struct Matching {
   const MaterialSampleOptions& options;
   const PictureTaker& picture_taker;

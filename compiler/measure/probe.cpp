@@ -102,7 +102,8 @@ class SpecularProbe {
     return worst;
   }
 
-  // Deviation from affine in the F0 of an index: in the middle of the range, and where F0 is half way.
+  // How far pictures are from affine in the F0 of an index: in the middle of the range of indices, and at
+  // half of the range of F0.
   double ior_deviation() const {
     if (range_.min < 1.0) return 1.0;
     const double low = normal_reflectance(range_.min), high = normal_reflectance(range_.max);

@@ -30,7 +30,7 @@ struct PairOptions {
   bool accept_light = false;  // go on where require_light() (table/light.hpp) refuses
 };
 
-// What a sweep computes. Every field is recorded in the table's comments.
+// The settings of a sweep. Every field is recorded in the table's comments.
 struct SweepOptions : PairOptions {
   std::string sampling;              // how the samples were chosen, in words
   std::vector<SamplePoint> samples;  // in the order of the table; specular canonical

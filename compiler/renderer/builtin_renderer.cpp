@@ -19,7 +19,7 @@
 namespace remap {
 namespace {
 
-// What the parameters other than width and diffuse mean, and which reflectance they give the lobe.
+// The meaning of parameters other than width and diffuse, and the reflectance that they give the lobe.
 enum class Reflectance {
   kScale,         // `specular`, 0 to 1
   kTrimmedScale,  // `specular`, 0 to 2, clamped to 1 so that energy is conserved

@@ -21,7 +21,7 @@ struct Light {
   bool operator==(const Light&) const = default;
 };
 
-// What the camera sees. Sweeps use the sphere.
+// The object in front of the camera. Sweeps use the sphere.
 enum class Shape { kSphere, kTorus };
 inline constexpr NamedValues<Shape, 2> kShapes = {{{Shape::kSphere, "sphere"}, {Shape::kTorus, "torus"}}};
 

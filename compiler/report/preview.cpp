@@ -267,7 +267,7 @@ std::string row_label(const std::vector<double>& specular, const PreviewFigure& 
          short_list(figure.target_specular);
 }
 
-// Those of `shapes` that `light` shows.
+// Returns the shapes that `light` shows.
 std::vector<Shape> lit_shapes(const PreviewLight& light, const std::vector<Shape>& shapes) {
   if (std::holds_alternative<Light>(light.light)) return shapes;
   if (std::ranges::find(shapes, Shape::kSphere) == shapes.end())

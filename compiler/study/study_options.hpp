@@ -1,4 +1,4 @@
-// What the studies share on the command line: environment maps, rendering, progress and output.
+// Options that the studies share: environment maps, rendering, progress and output.
 #pragma once
 
 #include <filesystem>

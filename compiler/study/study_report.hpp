@@ -1,4 +1,4 @@
-// What a study found, ready to be printed and written.
+// The results of a study, ready to be printed and written.
 #pragma once
 
 #include <string>

@@ -41,7 +41,7 @@ void require_line(const Csv& csv, std::size_t number, std::string_view line) {
                  std::to_string(kLongestCsvLine) + " are read");
 }
 
-// Which of two equal columns is meant, nobody can tell.
+// Two columns of one name are ambiguous.
 void require_header(const Csv& csv) {
   const std::vector<CsvCell>& cells = csv.header.cells;
   if (cells.size() > kMostCsvColumns)

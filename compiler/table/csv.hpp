@@ -29,7 +29,7 @@ struct CsvLine {
   std::vector<CsvCell> cells;
 };
 
-// The largest tables that are read: of what remapc sample writes at most, twice. A million rows take 300 MB
+// The largest tables that are read: twice the largest table of remapc sample. A million rows take 300 MB
 // of memory while they are read.
 inline constexpr std::size_t kMostCsvRows = 2'000'000, kMostCsvColumns = 1000, kMostCsvComments = 1000;
 inline constexpr std::size_t kLongestCsvLine = 100'000, kLongestComment = 5000;  // bytes

@@ -23,7 +23,7 @@ struct LightMatch {
   bool accepted = false;
 };
 
-// What a user must know of a match of light.
+// The warning about a match of light.
 struct LightRemark {
   bool is_error = false;  // the specular changes by more than kMostLightChange, and nobody has accepted it
   std::string text;       // `what is wrong (what to do)`, with the numbers

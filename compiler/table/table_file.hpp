@@ -12,7 +12,7 @@ namespace remap {
 
 // Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
-// Of a file; empty for a missing one.
+// The text of a file; empty if it is missing.
 std::string file_sha256(const std::filesystem::path& path);
 
 // Parses what a JSON object of texts says of the table `table`. Throws kInput, beginning with `place`.

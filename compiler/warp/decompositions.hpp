@@ -11,7 +11,7 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;  // n x n, a column for each value, of length 1
 };
 
-// Of a symmetric n x n matrix, of which the lower triangle is read.
+// Decomposes a symmetric n x n matrix. Only its lower triangle is read.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
 // Returns the n x m matrix x with left x = right for a symmetric, positive definite n x n matrix.

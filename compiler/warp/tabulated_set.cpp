@@ -17,7 +17,7 @@
 namespace remap {
 namespace {
 
-// Of 33 MB each on disk; the database has 100.
+// A file has 33 MB on disk; the database has 100 of them.
 constexpr std::size_t kMostBrdfs = 10'000;
 
 namespace fs = std::filesystem;

@@ -45,7 +45,7 @@ void close_end(int* end) {
   *end = -1;
 }
 
-// What a line that waits takes. Empty ones take memory, too.
+// The memory of a waiting line. Empty lines take memory, too.
 std::size_t bytes_of(const std::string& line) { return sizeof line + line.size(); }
 
 // Runs between fork and exec, so it makes async-signal-safe calls only.

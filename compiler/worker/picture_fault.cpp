@@ -8,7 +8,7 @@
 namespace remap {
 namespace {
 
-// What is wrong with one value; null if nothing is.
+// The fault of one value; null if there is none.
 const char* rule_against(float value, float least) {
   if (!std::isfinite(value)) return "values must be finite";
   if (value > kBrightestPixel) return "values must not be above 1e18";

@@ -1,4 +1,5 @@
-// What no picture of a renderer may hold, whether a worker has just made it or a file has kept it.
+// Finds values that no picture of a renderer may hold, whether a worker has just made it or a file has kept
+// it.
 #pragma once
 
 #include <string>

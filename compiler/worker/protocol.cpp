@@ -14,7 +14,7 @@
 namespace remap {
 namespace {
 
-// Of one renderer; models are listed, and parameters are options.
+// Limits of one renderer; models are listed, and parameters are options.
 constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
@@ -119,7 +119,7 @@ Json parse_answer(const std::string& line, std::int64_t id, const std::string& p
   return answer;
 }
 
-// The complaint of an answer, for a message: its line breaks are spaces, and it is cut.
+// The error text of the worker, on one line and truncated.
 std::optional<std::string> complaint_of(const Json& answer, const std::string& place) {
   if (!answer.contains("error")) return std::nullopt;
   std::string complaint = Field(answer, place)["error"].any_text();

@@ -36,7 +36,7 @@ struct WorkerSettings {
   std::chrono::milliseconds pause{1000};
 };
 
-// What a renderer has returned so far, and at what cost.
+// Counts and costs of the pictures that a renderer has returned so far.
 struct PictureCount {
   std::size_t rendered = 0;
   std::size_t cached = 0;

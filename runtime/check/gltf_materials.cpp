@@ -31,7 +31,7 @@ namespace {
 constexpr double kUsualIor = 1.5;
 constexpr std::uintmax_t kLargestAsset = std::uintmax_t{4} << 30;  // as much as a glb can say
 
-// What a factor of 0 means for the texture that it multiplies.
+// The effect of a factor of 0 on the texture that it multiplies.
 enum class Zero {
   kLost,          // what the texture holds is lost
   kOff,           // the material does without: nothing reads the texture
@@ -77,7 +77,7 @@ constexpr std::array<TexturePlace, 16> kPlaces = {{
      Channels::kRed, Zero::kOffByDefault},
 }};
 
-// What an extension of a material adds is as strong as one factor, and nothing without it.
+// An extension whose strength is a factor of 0 adds nothing to the material.
 struct Strength {
   std::string_view extension, factor;
   double by_default = 0.0;

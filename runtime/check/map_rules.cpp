@@ -80,8 +80,8 @@ Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, con
   return Orientation::kUnknown;
 }
 
-// The share of texels between 0.15 and 0.85 all of whose neighbours two texels away are so, too: an edge is
-// thinner.
+// The fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all between 0.15 and
+// 0.85. Edges are thinner.
 double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   constexpr int kReach = 2;
   const auto is_grey = [&](int x, int y) {
@@ -106,7 +106,7 @@ std::vector<const Plane*> planes_of(const CheckedMaterial& material, const Mater
   return planes;
 }
 
-// Of constant channels.
+// Rules of constant channels.
 std::vector<float> values_of(const std::vector<const Plane*>& planes) {
   std::vector<float> values;
   for (const Plane* plane : planes) values.push_back(plane->front());
@@ -140,7 +140,7 @@ bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
   });
 }
 
-// What replaces a map of one value. Factors and options take linear numbers.
+// The factor that replaces a map of one value. Factors and options take linear numbers.
 Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
   if (use.role == Role::kNormal) return "remove the map: it changes nothing";
   const ImageLayout& layout = material.texels(use)->layout;

@@ -83,7 +83,7 @@ std::vector<std::string> CheckedMaterial::read_maps() {
 std::optional<std::size_t> CheckedMaterial::channel(const MaterialUse& use) const {
   const TexelSample* sample = texels(use);
   if (sample == nullptr || use.channels == Channels::kRgb) return std::nullopt;
-  // Opacity beside the color in one file is its alpha.
+  // If opacity and color are in one file, opacity is the alpha of the color.
   const bool is_alpha =
       use.role == Role::kOpacity && use.channels == Channels::kWhole && sample->layout.alpha_channel >= 0;
   return channel_of(*sample, is_alpha ? Channels::kAlpha : use.channels, kind != MaterialKind::kFolder);

@@ -24,7 +24,7 @@ struct TexelSample {
   int rows = 0;
   std::vector<std::vector<float>> channels;  // row-major, as many as `layout` has
   ImageLayout layout;                        // of the file
-  // Of all texels of floating-point channels.
+  // Counts over all texels of floating-point channels.
   std::size_t nan_count = 0, negative_count = 0, above_one_count = 0;
 
   bool has_floats() const;
@@ -55,12 +55,12 @@ struct MaterialUse {
   std::vector<double> factors;  // that an asset multiplies the map by; empty for none
   std::string factor_name;      // `metallicFactor`
   bool is_neighbour = false;    // of another material in the same folder: compared with, not judged
-  // Where the map lies on the surface (glTF).
+  // The place of the map on the surface (glTF).
   std::size_t tex_coord = 0;
   std::string transform = {};  // KHR_texture_transform as it stands; empty for none
 };
 
-// What a material of glTF says besides its maps (names and defaults of glTF 2.0 and its extensions).
+// Statements of a glTF material besides its maps (names and defaults of glTF 2.0 and its extensions).
 struct GltfStatements {
   std::set<std::string> extensions;  // that change what the material looks like
   double metallic_factor = 1.0;

@@ -93,7 +93,7 @@ std::span<const Rule> rules() { return kRules; }
 std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader) {
   std::vector<MaterialFinding> findings;
   for (const Rule& rule : kRules) rule.look(material, reader, rule, findings);
-  // What the values of a map look like says nothing where the map holds something else.
+  // Rules about values do not apply if the map holds something else.
   std::set<std::string> misread;
   for (const MaterialFinding& finding : findings)
     if (finding.rule == "wrong-texture" || finding.rule == "channel-order") misread.insert(finding.place);

@@ -1,4 +1,4 @@
-// What looks wrong in a material: rules, each with the pattern that it sees.
+// Rules that find mistakes in a material, each with the pattern that it detects.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ inline constexpr NamedValues<Confidence, 3> kConfidences = {{{Confidence::kCerta
                                                              {Confidence::kLikely, "likely"},
                                                              {Confidence::kPossible, "possible"}}};
 
-// What puts a finding right.
+// The repair of a finding.
 struct Fix {
   Fix() = default;
   Fix(std::string in_words, std::string as_command = "")
@@ -68,7 +68,7 @@ struct Rule {
 // All rules, in the order in which findings are shown.
 std::span<const Rule> rules();
 
-// What all rules find in a material whose maps are read; `reader` may be null.
+// The findings of all rules in a material whose maps are read; `reader` may be null.
 std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader);
 
 // The rules of single maps, of pairs of maps and of what assets state; rules() lists them.

@@ -28,7 +28,7 @@ namespace remap {
 // The heading of options that only `--help-all` shows; other headings that begin with "Rare" are as rare.
 inline constexpr const char* kRareOptions = "Rare options";
 
-// What an option may hold.
+// The types of values of options.
 template <typename T>
 concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::filesystem::path> ||
     std::same_as<T, int> || std::same_as<T, unsigned> || std::same_as<T, std::int64_t> ||
@@ -36,7 +36,7 @@ concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::files
     std::same_as<T, std::vector<std::size_t>> || std::same_as<T, std::vector<double>> ||
     std::same_as<T, std::vector<std::filesystem::path>>;
 
-// What follows from the use of an option, as bits that each program defines.
+// Consequences of the use of an option, as bits that each program defines.
 using OptionTags = unsigned;
 
 // Reads the word of an option into a value. `read` throws kUsage, naming the option (`--type`), for a word

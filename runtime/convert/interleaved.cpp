@@ -16,7 +16,7 @@ Four four_at(const void* values) noexcept {
 }
 void put(const Four& four, void* values) noexcept { std::memcpy(values, &four, sizeof four); }
 
-// What is common to both directions: four texels at a time, and the last ones float by float.
+// Both directions take four texels at a time, and the last ones float by float.
 template <typename Fours, typename One>
 void for_texels(std::size_t count, std::size_t channels, Fours fours, One one) noexcept {
   std::size_t i = 0;

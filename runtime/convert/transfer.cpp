@@ -55,7 +55,7 @@ constexpr double exp2_of(double x) noexcept {
   return power * polynomial(kFactors, x - (shifted - kWhole));
 }
 
-// Of finite values of at least 0. Products with reciprocals are quicker than quotients.
+// Takes finite values of at least 0. Products with reciprocals are quicker than quotients.
 constexpr double magnitude_to_linear(double stored) noexcept {
   const double power = exp2_of(2.4 * log2_of((stored + 0.055) * (1.0 / 1.055)));
   const double line = stored * (1.0 / 12.92);

@@ -43,7 +43,7 @@ ConverterData read_converter(const Field& field);
 // That of the fit file with this root; none where the fit could not be lowered. Throws kInput, also where the
 // file has no such section.
 std::optional<ConverterData> read_fitted_converter(const Field& root);
-// What to do about a file without a converter.
+// The advice for a file without a converter.
 inline constexpr const char* kMakeAgain = "run remapc fit again, or chain, invert or build";
 
 }  // namespace remap

@@ -19,7 +19,7 @@ inline Error system_error(ErrorKind kind, const std::string& message, int code) 
   return {kind, message + ": " + std::strerror(code), code};
 }
 
-// Whether the same call may work a moment later, as where a server of files is busy or was restarted.
+// True if the same call may work a moment later, for example because a file server is busy or was restarted.
 inline bool is_transient(int system_code) noexcept {
 #ifdef ESTALE
   if (system_code == ESTALE) return true;

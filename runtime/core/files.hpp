@@ -71,7 +71,7 @@ void write_file(const std::filesystem::path& path, std::string_view content, Flu
 // that do not flush, for several files at once. Throws kOutput, naming `shown`, if the system refuses.
 void flush_to_disk(const std::filesystem::path& path, const std::filesystem::path& shown);
 
-// Adds the bytes of a file. Its permissions, which may be those of a stranger's program, stay behind.
+// Adds the bytes of a file. Its permissions are not copied, since a stranger may have set them.
 void add_copy(const InputFile& from, NewFile& to);
 
 // Copies a file byte for byte and replaces `to`, which is complete or unchanged. Throws kInput if `from` is
@@ -103,7 +103,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 // The one rule for results: throws kOutput where `path` is a file already, unless `force`.
 void require_new(const std::filesystem::path& path, bool force);
 
-// What is installed as `below` in the prefix of the running program; empty where that is not there.
+// The path of the installed file `below` in the prefix of the running program; empty if it is missing.
 std::filesystem::path installed(const std::filesystem::path& below);
 
 // Creates the folder of `path` if it does not exist. Throws kOutput on failure.

@@ -60,7 +60,8 @@ void for_pieces(const InputFile& file, const Take& take) {
 // The lines of a file, one after another.
 class InputLines {
  public:
-  // Lines of this project's files are far shorter, and a file may have any size without any content.
+  // The longest line that is read. Lines of this project's files are far shorter, but a sparse file may be
+  // huge.
   static constexpr std::size_t kLongest = std::size_t{16} << 20;
   // `file` must outlive it. Reading begins at `start`.
   explicit InputLines(const InputFile& file, std::uintmax_t start = 0) : file_(file), end_(start) {}
@@ -68,9 +69,9 @@ class InputLines {
   // stays valid until the next call. Throws kInput for a line that is too long.
   std::optional<std::string_view> next();
   std::size_t number() const noexcept { return number_; }  // of the last line, from 1
-  // Where that line ends in the file.
+  // The end of that line in the file.
   std::uintmax_t end() const noexcept { return end_; }
-  // What follows the last line break, once next() has returned none.
+  // The text after the last line break, once next() has returned none.
   std::string_view rest() const noexcept { return std::string_view(buffer_).substr(next_); }
 
  private:

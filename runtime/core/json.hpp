@@ -78,7 +78,7 @@ class Json {
   std::optional<double> number() const;
   std::optional<std::int64_t> whole() const;
   bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
-  // Of the entries or fields; 0 of other values.
+  // The number of entries or fields; 0 for other values.
   std::size_t size() const;
   bool empty() const { return size() == 0; }
 

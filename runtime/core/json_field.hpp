@@ -57,7 +57,7 @@ class Field {
     return *value;
   }
   double number() const;
-  // Of a field that may be missing, which is false.
+  // The value of a flag; false if the field is missing.
   bool flag(const std::string& key) const;
   bool is_null() const { return value_.is_null(); }
   std::int64_t count() const;

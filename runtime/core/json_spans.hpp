@@ -69,18 +69,18 @@ class SpanValue {
   SpanKind kind() const noexcept { return json_ != nullptr ? node().kind : SpanKind::kNull; }
   bool is(SpanKind kind) const noexcept { return json_ != nullptr && node().kind == kind; }
   TextSpan span() const noexcept { return {node().begin, node().end}; }
-  // Of the member, with its quotes; empty where this is no member.
+  // The key of the member, with its quotes; empty if this is not a member.
   TextSpan key_span() const noexcept { return {node().key_begin, node().key_end}; }
   std::string key() const;
   bool has_key(std::string_view key) const;
   SpanValue parent() const noexcept;
   // The bytes as they stand.
   std::string_view raw() const noexcept;
-  // Of a text, without escapes; none for other values.
+  // The text without escapes; none for other values.
   std::optional<std::string> text() const;
-  // Of a number that a double can hold; none for other values.
+  // The number, if a double can hold it; none for other values.
   std::optional<double> number() const;
-  // Of a whole number from 0, as glTF counts; none for other values.
+  // The whole number from 0, as glTF counts; none for other values.
   std::optional<std::size_t> whole() const;
   std::size_t size() const noexcept { return json_ != nullptr ? node().count : 0; }
   // Entries of a list or members of an object, repeated keys among them.

@@ -25,7 +25,7 @@ char32_t small_letter(char32_t letter);
 struct FileFacts {
   std::filesystem::file_type type = std::filesystem::file_type::unknown;
   std::uintmax_t size = 0;
-  // Of what links and other names lead to as well.
+  // Equal for all names and links of one file.
   std::pair<std::uint64_t, std::uint64_t> identity;
 };
 std::optional<FileFacts> facts_of(const std::filesystem::path& path);
@@ -75,7 +75,7 @@ class FolderLock {
   std::intptr_t handle_;
 };
 
-// What the standard library reports, as errno.
+// The error of the standard library, as errno.
 inline int errno_of(const std::error_code& failure) { return failure.default_error_condition().value(); }
 
 // Processes.
@@ -99,7 +99,7 @@ struct ProcessCopy {
 std::optional<ProcessCopy> copy_process(const std::function<void(int descriptor)>& serve);
 // Closes the stream and waits for the end: `by signal 11 (Segmentation fault)`, or `with exit code 0`.
 std::string end_of(const ProcessCopy& copy);
-// As if the user had asked it to stop.
+// Asks the process to stop, as Ctrl-C does.
 void interrupt(const ProcessCopy& copy);
 // Writes all to the stream; false where the other side has ended.
 bool send_all(int descriptor, const std::string& bytes);

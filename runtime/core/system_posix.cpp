@@ -131,7 +131,7 @@ bool append_to_file(int descriptor, std::string_view text) {
 
 bool wait_for_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS; }
 
-// What cannot be opened was read-only when it was made.
+// A path that cannot be opened was made read-only, so there is nothing to wait for.
 bool wait_for_disk(const fs::path& path) {
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   return !file.is_open() || wait_for_disk(file.get());

@@ -19,7 +19,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// What a call of Windows left, in errno.
+// Sets errno by the error of a call of Windows.
 void note_failure() {
   errno = errno_of(std::error_code(static_cast<int>(::GetLastError()), std::system_category()));
 }

@@ -1,4 +1,4 @@
-// What part of a first step's domain stays inside the domains of the steps that follow it.
+// Finds the part of a first step's domain that stays inside the domains of the later steps.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// What texremap reads of fit files.
+// Reads the converters in fit files.
 #pragma once
 
 #include <filesystem>

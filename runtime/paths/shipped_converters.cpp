@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Fits of whole materials and warps have files of their own on the command line.
+// Ignores fits of whole materials and warps, which --fit names.
 void add_fit(FittedConverter fit, std::vector<ConverterData>* converters) {
   if (auto* data = std::get_if<ConverterData>(&fit)) converters->push_back(std::move(*data));
 }

@@ -8,7 +8,7 @@ extern const char remap_shipped_text_end[];
 
 #define REMAP_TEXT_OF(name) #name
 #define REMAP_TEXT(name) REMAP_TEXT_OF(name)
-// What the assembler calls a name of C.
+// The assembler's form of a name of C.
 #define REMAP_SYMBOL(name) REMAP_TEXT(__USER_LABEL_PREFIX__) #name
 #define REMAP_LABEL(name) ".globl " REMAP_SYMBOL(name) "\n" REMAP_SYMBOL(name) ":\n"
 // WebAssembly links data by its size.

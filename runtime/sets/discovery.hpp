@@ -55,7 +55,7 @@ struct FoundSet {
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
 // The channel names that a request uses; empty for the whole image.
 std::vector<std::string> channel_names(Channels channels);
-// The encoding of a map of this role; none for the roughness as the model defines it.
+// The encoding of a map of this role; none if the map holds roughness as the model defines it.
 std::optional<RoughnessEncoding> encoding_of(Role role);
 // Sets `state`, `width`, `specular` and `remarks` from the roles of the maps.
 void judge(FoundSet& set);

@@ -18,7 +18,7 @@
 //     "ignored_words": ["ACEScg"]
 //   }
 //
-// Of a rule:
+// Members of a rule:
 // - `words` end the name of a map, before resolution and tile. Case is ignored. A separator in a word
 //   (`_`, `-`, `.`, space) matches any separator or none: `base_color` matches baseColor, Base-Color and
 //   basecolor, whereas `baseColor` does not match base_color. The longest matching word wins; of two habits
@@ -29,7 +29,7 @@
 //   another map has the same stem, if a resolution is next to them, or if they are written in capitals here
 //   and in the name.
 //
-// Of a habit:
+// Members of a habit:
 // - `camel_case` (default false): a word may follow the name of the set without a separator (heroSpec).
 // - `resolution` (default "none"): where the tool writes the resolution: "before" the word (x_4K_Gloss),
 //   "before-with-format" (x_4K-PNG_Color) or "after" it (x_rough_4k). Every habit accepts every place; the

@@ -20,7 +20,7 @@
 
 namespace remap {
 
-// What a kernel is told of a converter (converter/compact_form.hpp).
+// The arguments of a kernel that depend on the converter (converter/compact_form.hpp).
 struct FormPass {
   using Terms = std::array<std::array<float, kMostPowersOfAlpha>, kMostPowersOfT>;
   RoughnessEncoding source = RoughnessEncoding::kAlpha;
@@ -53,7 +53,7 @@ using SpecularRows = std::array<Float*, 7>;
 template <typename Float>
 using MetallicRows = std::array<Float*, 5>;
 
-// What is found out about a conversion to metallic; rows of `count` texels each.
+// The diagnosis of a conversion to metallic; rows of `count` texels each.
 struct DiagnosisRows {
   float* residual = nullptr;
   float* metallic_uncertainty = nullptr;

@@ -1,4 +1,4 @@
-// What a converter is made of: stages, which run one after another over a block of texels.
+// Stages of a converter, which run one after another over a block of texels.
 #pragma once
 
 #include <array>
@@ -79,7 +79,7 @@ class Stage {
   // Replaces rows of the block. With a domain: returns the number of texels outside, and sets `outside`, if
   // not null, to 1 for each of them and to 0 for each other. Can be called from many threads.
   virtual std::size_t run(Block& block, std::uint8_t* outside) const = 0;
-  // As Converter::self_test.
+  // Throws as Converter::self_test.
   virtual bool self_test() const { return true; }
 
  protected:

@@ -16,7 +16,7 @@ void require_valid(const SpecularWorkflow& specular, const MetallicWorkflow& met
 void require_prior(double prior, const std::string& place);
 
 workflow_code::WidthParameter width_parameter(RoughnessEncoding width);
-// Of a conversion to metallic, or to specular.
+// The conventions of a conversion to metallic, or to specular.
 workflow_code::Conventions conventions_of(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
                                           bool to_metallic);
 

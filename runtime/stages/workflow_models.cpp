@@ -36,7 +36,7 @@ std::vector<WorkflowModel> make_models() {
   };
 }
 
-// What engines and tools document of their default material.
+// The default materials of engines and tools, as they document them.
 constexpr std::string_view kLayered = "index 1.5, the diffuse lobe has what the specular lobe leaves";
 constexpr std::string_view kPlainMetal = "base color (1 - metallic), F0 0.04";
 constexpr std::string_view kUnityLit = "Lit and Standard: base color 0.96 (1 - metallic), F0 0.04";

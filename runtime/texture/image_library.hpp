@@ -69,7 +69,7 @@ class NewImage {
   virtual std::shared_ptr<const InputFile> content() const {
     return std::make_shared<const InputFile>(finished_file());
   }
-  // Waits until the disk has the finished file; in the same way.
+  // Waits until the finished file is on the disk. Throws as finish().
   virtual void flush_to_disk() const { remap::flush_to_disk(finished_file(), path()); }
   // Renames the finished file to its final name and replaces an existing file.
   virtual void commit(Flush flush) = 0;

@@ -38,7 +38,7 @@ struct Layout {
   bool keeps_names = false;       // each map with a converted channel keeps its name
   std::vector<LayoutFile> files;  // other results have a file each, named as the parameter
 
-  // What the roughness in its files is; none where it has a file of its own.
+  // The encoding of the roughness in its files; none if roughness has a separate file.
   std::optional<RoughnessEncoding> width() const;
   // The file with `parameter`; null for none.
   const LayoutFile* file_with(Parameter parameter) const;
@@ -52,7 +52,7 @@ Layout as_inputs();
 // One file each for roughness, colors and carried parameters.
 Layout separate();
 
-// What an engine or tool takes, by its documentation (docs/presets.md has the links).
+// The maps that an engine or tool reads, by its documentation (docs/presets.md has the links).
 struct Preset {
   std::string_view name;
   std::string_view model;  // of `--to`; empty where `layout` is all that the name means
@@ -64,7 +64,7 @@ struct Preset {
 };
 // `unity`, `unreal`, ... and the plain layouts `as-inputs`, `separate`, `orm`, `arm`, `specgloss`.
 std::span<const Preset> presets();
-// Those of them that name a model.
+// The presets that name a model.
 std::span<const Preset> engine_presets();
 // The preset that a word of `--to` means; null for none.
 const Preset* preset_of(std::string_view word);

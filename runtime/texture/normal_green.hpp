@@ -19,7 +19,7 @@ struct StatedGreen {
   NormalGreen green = NormalGreen::kUp;
   std::string turned_name;
 };
-// None where the name has none of the words OpenGL, DirectX, GL and DX.
+// Returns none if the name has none of the words OpenGL, DirectX, GL and DX.
 std::optional<StatedGreen> stated_green(const std::string& name);
 
 // A finished copy, not yet under its name `to`, whose green is 1 - green; -green where values have a sign.

@@ -412,11 +412,10 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
       for (const TargetChannel& channel : part.channels)
         if (const auto* made = std::get_if<ConvertedChannel>(&channel);
             made != nullptr && made->parameter == Parameter::kRoughness)
-          throw usage_error(
-              map.path.string() +
-              ": would hold whole numbers, and its roughness is an exponent "
-              "(--exponent-of-white says which exponent white is: 1000 in MTL files, 128 in "
-              "OpenGL, 100 for percent; or --format exr)");
+          throw usage_error(map.path.string() +
+                            ": would hold whole numbers, and its roughness is an exponent "
+                            "(--exponent-of-white says which exponent white is: 1000 in MTL files, 128 in "
+                            "OpenGL, 100 for percent; or --format exr)");
     }
 }
 

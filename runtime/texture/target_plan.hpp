@@ -23,7 +23,7 @@ struct CopiedFile {
   std::filesystem::path source;
   // Of the copy, without extension, in layouts that name their files; empty to keep the name of the file.
   std::string name;
-  // Of a normal map whose green is turned in the copy: the name of the copy.
+  // The name of the copy of a normal map whose green channel is inverted.
   std::string turned_name;
 };
 struct PlannedCopy {

@@ -31,7 +31,7 @@ std::string listed(std::span<const std::string> names) {
 // The size from which a remark is made about an image that cannot be streamed.
 constexpr std::size_t kWholeImageWorthSaying = std::size_t{64} << 20;
 
-// None if one of the parts is not a number.
+// Returns none if one of the parts is not a number.
 std::optional<std::vector<float>> numbers(std::string_view text) {
   std::vector<float> values;
   for (const std::string& part : parts_between(text, ',')) {
@@ -266,7 +266,7 @@ SetParameter open_parameter(const ParameterRequest& request, std::optional<Param
   }
   const auto& map = std::get<MapName>(request.source);
   parameter.channels = find_channels(map, role, expected, set);
-  // Of copies of one value, green is the one that lossy compression and filters keep best.
+  // If the channels are copies of one value, lossy compression and filters keep green best.
   const bool is_copied = !(role && is_color(*role)) && map.channels.empty() && parameter.channels.size() == 3;
   if (is_copied) std::swap(parameter.channels[0], parameter.channels[1]);
   parameter.one_channel = request.one_channel;

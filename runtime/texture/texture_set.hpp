@@ -64,7 +64,7 @@ struct ChannelPlace {
   bool operator==(const ChannelPlace&) const = default;
 };
 
-// Who decided the transfer curve of a color.
+// The origin of the transfer curve of a color.
 enum class TransferReason {
   kUsual,  // nobody: usual_color_transfer()
   kFile,

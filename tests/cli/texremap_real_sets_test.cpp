@@ -59,8 +59,7 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   const Tree tree;
-  const ProcessResult result =
-      require_success(tree.texremap(words(folder.string() + " --json ")));
+  const ProcessResult result = require_success(tree.texremap(words(folder.string() + " --json ")));
   const auto sets = tree_report(result.output)["sets"];
   REQUIRE(sets.size() == 3);
   for (const auto& set : sets) CHECK(set["texels"] == 2048 * 2048);

@@ -96,8 +96,8 @@ TEST_CASE("reports: one map for several sets of a folder", "[reports][slow]") {
   for (const std::string name : {"black", "white"})
     CHECK(sets.texel("out/king_" + name + "_occlusionRoughnessMetallic.png") == std::vector{255, 90, 255});
   // A name without * is also looked up beside the maps of each set.
-  require_success(sets.texremap(
-      "convert in --from metallic --to gltf --metallic king_shared_metallic.png -o two"));
+  require_success(
+      sets.texremap("convert in --from metallic --to gltf --metallic king_shared_metallic.png -o two"));
   CHECK(sets.texremap("convert in --from metallic --to gltf --metallic nothing.png -o three").exit_code == 1);
 }
 

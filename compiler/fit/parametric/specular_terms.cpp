@@ -274,7 +274,7 @@ std::vector<Rates> search_starts(const VariableProjection& projection) {
   return beams;
 }
 
-// Of infinite cost if no start converges.
+// The cost is infinite if no start converges.
 Rates best_or_none(const VariableProjection& projection, const std::vector<Rates>& starts) {
   Rates best;
   for (const Rates& start : starts) {

@@ -57,7 +57,7 @@ class AssetResources : public AssetFiles {
   // The image at a size that is at least its own in both directions: bilinear, in linear light, with all
   // channels but alpha in sRGB.
   virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
-  // What the names of new images begin with; not empty where another asset may add an image of the same name.
+  // The prefix of the names of new images; not empty if another asset may add an image of the same name.
   virtual std::string image_prefix() const { return ""; }
 };
 
@@ -68,7 +68,7 @@ enum class MaterialProfile {
 inline constexpr NamedValues<MaterialProfile, 2> kMaterialProfiles = {
     {{MaterialProfile::kCore, "core"}, {MaterialProfile::kExtensions, "extensions"}}};
 
-// What materials become.
+// The form that materials are converted to.
 enum class AssetTarget {
   kMetalRough,  // core metallic-roughness, as the profile says
   kSpecGloss,   // KHR_materials_pbrSpecularGlossiness, with core as its fallback
@@ -82,7 +82,7 @@ struct AssetOptions {
   AssetTarget target = AssetTarget::kMetalRough;
   // KHR_materials_specular and _ior go into core, too; with kMetalRough and the profile kCore alone.
   bool folds_specular = false;
-  // What only converted materials used goes: bytes of images, and extensions of textures.
+  // Removes image bytes and texture extensions that only the converted materials used.
   bool compacts = false;
   bool bakes = false;  // maps of a material whose KHR_texture_transform differ go onto the grid of the first
   std::optional<MtlMaker> mtl_maker = std::nullopt;  // none: as the file says
@@ -108,7 +108,7 @@ struct MaterialFactor {
   std::vector<double> values;
 };
 
-// What becomes of a material of the asset.
+// The outcome of a material of the asset.
 struct AssetMaterial {
   std::size_t index = 0;  // in the order of the file
   std::string name;       // of the file; may be empty

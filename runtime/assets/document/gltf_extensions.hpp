@@ -16,7 +16,7 @@ inline constexpr std::string_view kSpecGlossExtension = "KHR_materials_pbrSpecul
 
 // Whether it changes what a material reflects or transmits, beside core.
 bool is_reflecting(std::string_view extension);
-// Whether it is of Khronos, or of several vendors, and known to say nothing else of materials.
+// True for KHR_ and EXT_ extensions that are known not to affect materials.
 bool is_known_extension(std::string_view extension);
 // Whether it names an image of another format in a texture.
 bool is_of_image_format(std::string_view extension);

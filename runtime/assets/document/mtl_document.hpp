@@ -37,8 +37,8 @@ class MtlDocument {
   std::string_view raw(TextSpan span) const noexcept {
     return text_.substr(span.begin, span.end - span.begin);
   }
-  // In the order of the text; blank lines and comments are none. Those before the first material belong to
-  // none.
+  // The statements in the order of the text, without blank lines and comments. Statements before the first
+  // material belong to no material.
   const std::vector<MtlStatement>& statements() const noexcept { return statements_; }
   const std::vector<MtlBlock>& materials() const noexcept { return materials_; }
   // The word of a statement in lower case: tools differ (map_bump, map_Bump).

@@ -1,4 +1,4 @@
-// Who wrote an MTL file. Some programs give statements of the format another meaning than its text does.
+// The program that wrote an MTL file. Some programs give statements another meaning than the specification.
 #pragma once
 
 #include <string>

@@ -5,7 +5,7 @@
 namespace remap {
 namespace {
 
-// Where an entry begins, or a member with its key.
+// The begin of an entry, or of a member with its key.
 std::size_t start_of(SpanValue child) {
   const TextSpan key = child.key_span();
   return key.begin == key.end ? child.span().begin : key.begin;

@@ -38,7 +38,7 @@ class TextEdits {
   std::string result() const;
 
  private:
-  // What becomes of the children of a list or object.
+  // The edits of the children of a list or object.
   struct Changes {
     std::set<std::size_t> removed;      // indices of values
     std::vector<std::string> appended;  // entries, or members with their keys

@@ -19,7 +19,7 @@ struct CoreMaterial {
   FactorText metallic, roughness;
   FactorText ior = {1.5, "1.5"}, specular;
   std::array<FactorText, 3> specular_color;
-  // None for none.
+  // Absent if the material has no such texture.
   SpanValue base_texture, metal_rough_texture, specular_texture, specular_color_texture;
   bool has_dielectric = false;  // an extension that says its F0
 

@@ -42,7 +42,7 @@ struct GltfContainer {
 // kInput, beginning with `place`, for a container that is cut off or whose lengths contradict each other.
 GltfContainer read_container(const ByteSource& source, const std::string& place);
 
-// What becomes of the end of the binary chunk.
+// The new end of the binary chunk.
 struct BinaryTail {
   std::optional<std::uint64_t> kept;  // bytes from its start; none for all
   std::string appended;               // from the next multiple of four

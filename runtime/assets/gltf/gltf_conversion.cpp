@@ -88,7 +88,7 @@ class GltfConversion {
             ", which is unknown here: it is kept, and its meaning for materials is not");
   }
 
-  // What animations change in materials.
+  // The materials that animations change.
   void read_pointers() {
     for (const SpanValue& animation : root_["animations"].children())
       for (const SpanValue& channel : animation["channels"].children()) {

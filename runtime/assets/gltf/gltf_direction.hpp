@@ -38,7 +38,7 @@ struct ExtensionText {
   std::vector<MemberText> members;
 };
 
-// What becomes of the text of a material.
+// The edits of the text of a material.
 struct MaterialEdit {
   SpanValue material;
   std::vector<MemberText> core;  // of pbrMetallicRoughness, in their order
@@ -59,7 +59,7 @@ class GltfDirection {
   virtual MaterialEdit convert(SpanValue material, AssetMaterial& report) = 0;
 };
 
-// What a direction needs besides materials; both must outlive it.
+// The inputs of a direction besides materials; both must outlive it.
 struct DirectionParts {
   const AssetOptions& options;
   MaterialTextures* textures;  // null where no images can be read

@@ -100,14 +100,14 @@ bool GltfNewImages::is_in_chunk(SpanValue image) const {
 std::string GltfNewImages::free_uri(const std::string& model, const NewImage& image) {
   const std::string prefix = resources_.image_prefix();
   std::string stem = stem_beside(model, percent_encoded(prefix), image.suffix);
-  // Line breaks may be encoded. A URI without any keeps its spelling.
+  // Line breaks in a URI may be percent-encoded. A URI without line breaks keeps its spelling.
   if (const std::string path = stem_beside(percent_decoded(model), prefix, image.suffix);
       path != percent_decoded(stem))
     stem = uri_of_path(path);
   return stem + names_.free_ending(percent_decoded(stem), image.type == kJpeg ? ".jpg" : ".png");
 }
 
-// `own`: the image whose place it takes; none for a new place.
+// `own`: the old image that the new one replaces; none if the new image is added.
 std::size_t GltfNewImages::add_view(const std::string& bytes, SpanValue own, TextEdits& edits) {
   std::string& appended = tail_.appended;
   appended.append((4 - appended.size() % 4) % 4, '\0');

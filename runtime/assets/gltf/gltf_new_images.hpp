@@ -45,7 +45,7 @@ class GltfNewImages {
   void write(const GltfSpares& spares, TextEdits& edits);
   // The texture info of a new texture. After write().
   std::string info_text(const TextureText& texture) const;
-  // What becomes of the binary chunk. After write().
+  // The new end of the binary chunk. Call it after write().
   const BinaryTail& tail() const noexcept { return tail_; }
   std::vector<NewResource>& files() noexcept { return files_; }
   // Values of extensions of textures that write() removed.
@@ -62,7 +62,7 @@ class GltfNewImages {
     std::size_t image = 0, model = 0;
     std::size_t place = 0;  // after write()
   };
-  // Members of an image that say where it is, and names its type.
+  // Members of an image that give its place and its type.
   using Location = std::vector<std::pair<std::string_view, std::string>>;
 
   bool is_in_chunk(SpanValue image) const;

@@ -51,7 +51,7 @@ class SpareFinder {
     return container_.binary_chunk() != nullptr && !buffers.empty() && !buffers.front()["uri"];
   }
 
-  // What a converted material loses, and what it keeps.
+  // Notes the textures that a converted material loses, and those it keeps.
   void read(const MaterialEdit& edit) {
     const SpanValue core = edit.material[kCoreMember];
     const auto keep = [&](const std::vector<MemberText>& members) {

@@ -152,7 +152,7 @@ class SpecGlossToCore final : public GltfDirection {
     for (const SpanValue& extension : read.material["extensions"].children()) {
       const std::string name = extension.key();
       if (!is_reflecting(name)) continue;
-      // What was ignored beside spec-gloss would be folded when the file is converted again.
+      // Converting the file again would fold extensions that spec-gloss viewers ignored.
       if (options_.folds_specular && (name == kSpecularExtension || name == kIorExtension))
         edit.removed_extensions.push_back(name == kIorExtension ? kIorExtension : kSpecularExtension);
       else

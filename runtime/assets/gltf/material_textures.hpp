@@ -16,7 +16,7 @@
 
 namespace remap {
 
-// What names of new images end with.
+// The endings of the names of new images.
 inline constexpr std::string_view kBaseSuffix = "_baseColor", kMetalRoughSuffix = "_metallicRoughness";
 
 // A texture of a material, with its name in messages: `specular-glossiness`.

@@ -27,7 +27,7 @@ class SpecGlossTextures {
   CoreTexts exact(const SpecGlossMaterial& material);
 
  private:
-  // What became of a pair of images.
+  // The result of a pair of images.
   struct Converted {
     std::optional<std::size_t> base_image, metal_rough_image;  // numbers of new images
     MetalRoughMaps maps;                                       // without their pixels

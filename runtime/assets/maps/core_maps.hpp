@@ -1,4 +1,5 @@
-// Maps of core glTF, with KHR_materials_specular and _ior, as maps of spec-gloss materials or of core alone.
+// Converts maps of core glTF, with KHR_materials_specular and _ior, to maps of spec-gloss materials, or of
+// core without these extensions.
 #pragma once
 
 #include <array>

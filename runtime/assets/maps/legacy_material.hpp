@@ -16,7 +16,7 @@ struct LegacyMaterial {
   std::array<double, 3> diffuse{}, specular{};
   double exponent = kLeastExponent;
 
-  // What the constants were measured for. The specification writes 0 to 1000.
+  // The range for which the constants were measured. The specification writes 0 to 1000.
   static constexpr double kLeastExponent = 1.0, kMostExponent = 10000.0;
 };
 

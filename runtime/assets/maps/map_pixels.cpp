@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// What a map times a factor is for each stored value.
+// A table of map times factor, for each stored value.
 std::vector<std::uint32_t> expected_values(PixelType type, float factor) {
   const std::size_t count = type == PixelType::kUint16 ? 65536 : 256;
   const float largest = static_cast<float>(count - 1);

@@ -13,7 +13,7 @@
 
 namespace remap {
 
-// Of constant pixels one to read, of others one to write.
+// A read-only view if `pixels` is const; otherwise a writable one.
 template <typename Pixels>
 auto channel_of_pixels(Pixels& pixels, std::size_t channel) {
   const auto texel = static_cast<std::ptrdiff_t>(pixels.texel_bytes());
@@ -66,7 +66,7 @@ NormalShares normal_shares(const std::array<std::span<const float>, 3>& rgb);
 // are_normals() of an even grid of texels.
 bool holds_normals(const ImagePixels& pixels);
 
-// Between pixels with alpha.
+// Copies the alpha channel. Both images must have one.
 void copy_alpha(const ImagePixels& from, ImagePixels& to);
 
 // Fills a channel with its largest value.

@@ -30,7 +30,7 @@ struct MetalRoughFactors {
 // From gltf-specgloss to gltf, with roughness at both ends.
 std::unique_ptr<Converter> specgloss_projection(double prior, InstructionSet set);
 
-// Of a conversion to gltf with its diagnosis.
+// The result of a conversion to gltf, with its diagnosis.
 MetalRoughFactors metal_rough_of(const MaterialValues& values);
 
 // 1 - glossiness, rounded once.

@@ -121,7 +121,7 @@ bool is_within_one(const TextureTransform& transform) {
   return true;
 }
 
-// As fine as the finest of the textures.
+// The size at which no texture loses detail.
 TextureGrid grid_of(const std::vector<PlacedTexture>& textures, const TextureTransform& place) {
   constexpr double kMostTexels = 4096.0;
   double width = 0.0, height = 0.0, most = kMostTexels;

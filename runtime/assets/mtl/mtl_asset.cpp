@@ -48,7 +48,7 @@ std::string argument_prefix(std::string prefix) {
 // The name of a file as the argument of a map, where `-s` would be an option.
 std::string argument(const std::string& file) { return (file.starts_with('-') ? "./" : "") + file; }
 
-// What a material becomes: numbers, and names of new images.
+// The result of a material: numbers, and names of new images.
 struct MtlResult {
   std::array<double, 3> base{};
   double metallic = 0.0, roughness = 1.0;

@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// Color, specular and exponent of one material, and the next color.
+// Four images are kept: color, specular and exponent of one material, and the next color.
 constexpr std::size_t kImagesInMemory = 4;
 constexpr std::uint64_t kLargestImageFile = std::uint64_t{1} << 30;
 constexpr std::size_t kLongestShownName = 200;
@@ -110,7 +110,7 @@ std::optional<std::string> MtlImages::find(const std::string& file, std::vector<
 std::optional<std::string> MtlImages::place_of(const std::string& file) {
   std::vector<std::string> ignored;
   if (const auto found = find(file, ignored)) return found;
-  // What is not there and leads up may lead out of what may be read.
+  // A missing file with `..` in its path could be outside the allowed root.
   if (const auto path = relative_path(folder_, file); path && !path->starts_with("../")) return path;
   return relative_path("", file_name_of(file));
 }

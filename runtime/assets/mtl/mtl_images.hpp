@@ -35,7 +35,7 @@ class MtlImages {
   // may be read counts as its file name beside the MTL file, or beside the asset, and appends a warning. None
   // where nothing is there.
   std::optional<std::string> find(const std::string& file, std::vector<std::string>& warnings);
-  // As find(), or where it would have to be; none for a name of no file.
+  // As find(), or the path where the file would have to be; none if the name cannot be a file.
   std::optional<std::string> place_of(const std::string& file);
 
   // The bytes of a file that find() found. Throws kInput.
@@ -75,7 +75,7 @@ struct SurfaceMaps {
 SurfaceMaps load_maps(const MtlSurface& surface, MtlImages& images, const AssetOptions& options,
                       std::vector<std::string>& warnings);
 
-// What tells one conversion of maps from another: their names, options and factors.
+// The key of a conversion of maps: their names, options and factors.
 std::string key_of(const MtlSurface& surface, const LegacyMaterial& factors);
 
 // `map_Ns shine.png is read as ...`, which the specification says and tools do not agree on.

@@ -70,7 +70,7 @@ bool has_metal_rough_lines(const MtlDocument& document, const MtlBlock& block);
 void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMaker maker, MtlSurface& surface,
                       std::vector<std::string>& warnings);
 
-// What covers and lights the surface.
+// Opacity and emission of the surface.
 struct MtlCover {
   std::optional<double> opacity;       // d, 0 to 1
   std::optional<double> transparency;  // Tr, 0 to 1
@@ -84,7 +84,7 @@ struct MtlCover {
   std::optional<MtlMap> opacity_map, emissive_map, normal_map, bump_map;
 };
 
-// As read_mtl_surface().
+// Throws as read_mtl_surface().
 MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
                         std::vector<std::string>& warnings);
 

@@ -51,7 +51,7 @@ char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
 
 }  // namespace
 
-// What a conversion of maps became, without its pixels; kNoImage where it is a factor.
+// The images that a conversion of maps has made; kNoImage if the result is a factor.
 struct ObjMaterials::ConvertedImages {
   LegacyMapResult result;
   bool has_own_base = false;
@@ -141,7 +141,7 @@ Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, A
   planned.attempt(
       [&] { planned.cover = read_mtl_cover(library.document, block, library.maker, report.warnings); });
   set_reflection(planned);
-  // What lacks its opacity is not shared.
+  // Do not share a base image whose opacity map failed.
   if (!planned.attempt([&] { set_opacity(planned); })) planned.shared_image = nullptr;
   Json color = numbers_of(planned.base);
   color.push_back(float_value(planned.alpha));

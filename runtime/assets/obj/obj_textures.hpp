@@ -16,7 +16,7 @@
 
 namespace remap {
 
-// Where images go.
+// The places of images.
 enum class NewImagePlace {
   kBuffer,  // into the buffer
   kFiles,   // files that are there stay where they are, new ones lie beside them

@@ -22,7 +22,7 @@ struct ModelName {
   // The alias, or the name.
   std::string_view word() const noexcept { return alias != nullptr ? alias->name : std::string_view(name); }
 };
-// What `word` means: an alias and a workflow in any case of letters, else itself.
+// The meaning of `word`: an alias or a workflow in upper or lower case; otherwise the word itself.
 ModelName model_named(const std::string& word);
 
 // How messages call what a request says.
@@ -48,7 +48,7 @@ struct ConversionRequest {
   ConversionWords words;
 };
 
-// What a request means.
+// A resolved request.
 struct ConversionChoice {
   std::string source_brdf, target_brdf;  // models of the graph of converters
   std::string renderer;     // that the target names or belongs to; empty for a workflow such as gltf

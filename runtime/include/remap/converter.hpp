@@ -112,15 +112,15 @@ struct PictureDifference {
   bool operator==(const PictureDifference&) const = default;
 };
 
-// What a person or a program needs to know of a converter before using it.
+// Facts about a converter that a person or a program needs before using it.
 struct ConverterInfo {
   std::string id;
   ModelSide source;
   ModelSide target;
   Range roughness;  // covered range of the source's own width parameter
   Range specular;   // covered range of the source's specular, linear
-  // Of a fit that follows a table, in the target's alpha and specular; none where it follows pictures, or
-  // where they are not known.
+  // The rms errors of a fit to a table, in the target's alpha and specular; none if it was fitted to
+  // pictures, or if they are not known.
   std::optional<double> roughness_rms_error;
   std::optional<double> specular_rms_error;
   std::optional<double> image_rms_error;  // of the pictures at the best parameters, relative; none if unknown

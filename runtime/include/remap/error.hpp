@@ -6,7 +6,7 @@
 
 namespace remap {
 
-// What went wrong, so that a caller can react without reading the message.
+// The kind of an error, so that a caller can react without reading the message.
 enum class ErrorKind {
   kUsage,        // the caller asked for something that does not exist or does not fit together
   kInput,        // a file or value that was given cannot be used

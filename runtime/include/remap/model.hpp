@@ -103,7 +103,7 @@ std::string converter_id(const std::string& source_model, const std::string& tar
 // need some.
 inline constexpr std::size_t kLongestName = 128;
 
-// What an id must be, for messages.
+// The rule for ids, for messages.
 inline constexpr const char* kIdRule =
     "a C++ identifier of at most 128 letters, without leading or doubled underscore, that C++ does not use "
     "itself";

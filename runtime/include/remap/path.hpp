@@ -150,8 +150,8 @@ SourceDomain chained_domain(std::span<const Converter* const> steps);
 // Which model of a renderer matches the highlight of a source best. Judged by expected errors: environments
 // hide the shape of a highlight.
 
-// Another model is closer if its expected error is at most this share. Expected errors are estimates, and
-// those of two models are of different domains: a smaller gain may be none.
+// Another model is closer if its expected error is at most this share. Expected errors are estimates over
+// different domains, so a smaller gain may not be real.
 inline constexpr double kCloserShare = 0.5;
 
 // Up to this expected error no other model is named, because nobody would see the difference: all shipped

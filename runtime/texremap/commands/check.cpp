@@ -62,7 +62,7 @@ Reader<std::vector<std::string>> rule_names() {
                                      {}});
 }
 
-// What is found in one material, and what could not be read.
+// The findings in one material, and messages about files that cannot be read.
 struct Looked {
   std::vector<MaterialFinding> findings;
   std::vector<std::string> problems;

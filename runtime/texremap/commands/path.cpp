@@ -20,7 +20,7 @@ namespace {
 // The chosen path and the next best two.
 constexpr std::size_t kPathsShown = 3;
 
-// What is printed of a conversion that needs converters.
+// The paths and errors that the command prints.
 struct Plan {
   std::vector<ConverterPath> paths;     // the chosen one and the next best
   ConverterInfo whole;                  // of the chosen one

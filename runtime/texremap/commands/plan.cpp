@@ -39,7 +39,7 @@ constexpr double kUsualSeconds = 900.0;
 constexpr std::size_t kMostParts = 1000;
 constexpr std::size_t kMeasuredEntries = 8;
 
-// What a conversion needs on this machine.
+// Time and memory of a conversion on this machine.
 struct Measured {
   double seconds_a_cost = 0.0;  // on one thread
   double memory_bytes = 0.0;

@@ -27,7 +27,7 @@ std::string log_line(const std::filesystem::path& folder, const std::string& nam
   return "#SBATCH --output=\"" + text + "/" + name + "\"\n";
 }
 
-// As a plan writes them: themselves, or parameters of a template.
+// Paths as a plan writes them: literally, or as parameters of a template.
 struct PlannedPaths {
   std::string program, manifest, tree, output, report;
 };

@@ -22,7 +22,7 @@
 
 namespace remap {
 
-// What an option needs, or what its use has for a consequence.
+// Tags of options: when an option applies, and what its use changes.
 enum : OptionTags {
   kChangesResults = 1u << 0u,
   kNeedsFiles = 1u << 1u,   // applies to nothing where all maps are numbers
@@ -48,7 +48,7 @@ struct ColorSpaceWord {
   Transfer transfer;
 };
 
-// Where the F0 of dielectrics comes from.
+// The source of the F0 of dielectrics.
 struct FromMaps {};
 using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
 
@@ -131,7 +131,7 @@ void add_convert_options(Command& command, ConvertOptions& options);
 // its preset.
 void apply_preset(ConvertOptions& options);
 
-// Where green of normal maps points in materials of a source or target; none where it is not documented.
+// The direction of green in normal maps of a source or target; none if it is not documented.
 std::optional<NormalGreen> normals_of(const ModelName& model);
 
 // Throws kUsage if an option with `tag` was given: `--only` and the reason.

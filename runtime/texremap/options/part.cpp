@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// What a scheduler tells a job of an array, by the names of variables; null where it does not.
+// The variables by which a scheduler describes a job of an array; null if it does not set one.
 struct Scheduler {
   const char* name;
   const char* index;

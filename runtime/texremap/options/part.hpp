@@ -1,4 +1,4 @@
-// A part of a conversion that many processes share, and where what it notes of itself lies.
+// A part of a conversion that many processes share, and the paths of its journal and report.
 #pragma once
 
 #include <cstddef>

@@ -158,7 +158,7 @@ class NamePlan {
   }
 
  private:
-  // Who names new images after a stem; null for several.
+  // The asset whose new images are named after a stem; null if there are several.
   using Stems = std::unordered_map<std::string, const AssetWork*>;
 
   void take(Job& job, const fs::path& name, const std::string& owner) {
@@ -166,7 +166,7 @@ class NamePlan {
     if (!other.empty() && job.refusal.empty()) job.refusal = written_twice_text(name, other, owner);
   }
 
-  // As take_stems() names it.
+  // The key of a name in take_stems().
   static std::string stem_of(const fs::path& name) {
     const std::string key = name_key(name);
     return key.substr(0, key.size() - fs::path(key).extension().string().size());

@@ -12,7 +12,7 @@ namespace remap {
 struct ConversionNote {
   std::string source, target;  // models
   std::string hash;            // of all, with the numbers that the converter gives
-  // What a person reads where two notes differ: converter, options, version.
+  // The differences that a message shows: converter, options, version.
   std::vector<std::pair<std::string, std::string>> details;
 };
 

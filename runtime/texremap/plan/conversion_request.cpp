@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::array kColors = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor};
 
-// The color space of each of `colors`, as far as `words` say one. Throws kUsage for a word that applies to
-// none of them; `reason`, as "is a result", is what no other color does.
+// The color space of each of `colors` that `words` name. Throws kUsage for a word that applies to none of
+// them. `reason` ends the message: "no specular is a result".
 std::map<Parameter, Transfer> color_spaces(const std::string& option,
                                            const std::vector<ColorSpaceWord>& words,
                                            const std::vector<Parameter>& colors, const std::string& reason) {

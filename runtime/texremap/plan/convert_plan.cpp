@@ -87,7 +87,7 @@ std::string encoding_warning(const ConvertOptions& options, const JobList& list,
          " (use --roughness-encoding roughness if they hold its square root)";
 }
 
-// What the manifest lists for this run; none without one. DIR becomes the root of the tree.
+// Reads the entries of this run from the manifest, if there is one. DIR becomes the root of the tree.
 std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   if (options.manifest.empty()) return std::nullopt;
   if (!options.names.empty())

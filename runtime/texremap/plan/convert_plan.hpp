@@ -19,7 +19,7 @@
 
 namespace remap {
 
-// What is done with texture sets, or with numbers.
+// The conversion of texture sets, or of numbers.
 struct SetPlan {
   UsedConverters converters;  // of which `chosen` is made
   ChosenConverter chosen;

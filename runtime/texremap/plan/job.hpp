@@ -35,7 +35,7 @@ struct AssetWork {
   std::string image_prefix = {};                  // of new images beside it
   std::vector<std::filesystem::path> files = {};  // that it names and that are there; of several assets only
 
-  // Where the result finds a file below the input root.
+  // The path at which the result finds a file below the input root.
   std::filesystem::path copy_of(const std::filesystem::path& file) const {
     return output_root / file.lexically_relative(input_root.lexically_normal());
   }
@@ -53,7 +53,7 @@ struct Job {
   std::string refusal = {};  // why it is not converted; empty for none
   std::variant<SetWork, AssetWork> work = {};
 
-  // Where its results and copies go.
+  // The folders of its results and copies.
   std::vector<std::filesystem::path> folders() const;
 };
 

@@ -300,7 +300,7 @@ void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, Conten
   if (!lines_.rest().empty()) refuse(kChanged);
 }
 
-// Those that can be listed; the others become problems.
+// Lists the entries that can be listed; the others become problems.
 template <class Entry>
 std::vector<Listed<Entry>> listed_all(const fs::path& root, const std::vector<Entry>& entries,
                                       ManifestHead& head, std::vector<WalkProblem>& problems) {

@@ -10,7 +10,7 @@
 //   {"unrecognised": "props/notes.png"}
 //   {"problem": "props/secret: cannot be read: Permission denied"}
 //
-// Of assets, the first line has `"assets": 2` in place of sets, and the others are:
+// If assets are listed, the first line has `"assets": 2` instead of sets, and the others are:
 //
 //   {"cost": 240617, "asset": "props/chair.gltf", "prefix": "", "bytes": 40617, "files":
 //   [["props/chair.gltf", 1203], ["props/wood.png", 39414]]}
@@ -30,7 +30,7 @@
 
 namespace remap {
 
-// What opening, writing and naming a small file costs, in bytes of a large one: measured, docs/farm.md.
+// Cost of opening, writing and renaming a small file, in bytes of a large one (measured: docs/farm.md).
 inline constexpr std::uint64_t kCostOfFile = 200'000;
 
 enum class ListedKind { kSets, kAssets };
@@ -39,7 +39,7 @@ inline constexpr NamedValues<ListedKind, 2> kListedKinds = {
 // `set` or `asset`.
 inline std::string noun_of(ListedKind kind) { return kind == ListedKind::kSets ? "set" : "asset"; }
 
-// What the first line says.
+// The first line of a manifest.
 struct ManifestHead {
   std::string version;         // of the program
   std::filesystem::path root;  // absolute
@@ -57,7 +57,7 @@ struct ListedAsset {
   std::vector<std::filesystem::path> files;  // that it names and that are there, relative to the root
 };
 
-// What a manifest lists: the texture sets of a tree, or its assets. Problems stand in `found` for both.
+// The entries of a manifest: the texture sets of a tree, or its assets. Both keep problems in `found`.
 struct Listing {
   ListedKind kind = ListedKind::kSets;
   Discovery found;

@@ -1,4 +1,4 @@
-// Which maps of a found set a conversion reads, and what the names of maps tell of the source.
+// Chooses the maps that a conversion reads of a found set, and infers the source from the names of maps.
 #pragma once
 
 #include <optional>

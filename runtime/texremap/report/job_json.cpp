@@ -98,7 +98,7 @@ Json counts_json(const MapStatistics& counts) {
           {"clipped_values", counts.clipped_count}};
 }
 
-// What only texture sets have.
+// The members that only texture sets have.
 Json set_json(const ConvertPlan& plan, const JobReport& report) {
   const ChosenConverter& chosen = plan.sets()->chosen;
   const MapStatistics& counts = report.statistics;

@@ -1,4 +1,4 @@
-// What became of a run, as JSON.
+// The outcome of a run, as JSON.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// What became of a set or an asset, as lines for people.
+// The outcome of a set or an asset, as lines for people.
 #pragma once
 
 #include <map>

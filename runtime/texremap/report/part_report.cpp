@@ -16,7 +16,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// As texremap plan makes at most.
+// texremap plan makes no more.
 constexpr std::size_t kMostReports = 1'000'000;
 
 // Many of one kind are told by the first few and their number.

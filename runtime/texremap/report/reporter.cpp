@@ -67,7 +67,7 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
   say(text);
 }
 
-// Throws where an entry, or a material of the only one, failed.
+// Throws if an entry failed, or a material of a single asset.
 void require_success(const Outcome& outcome) {
   const JobList& list = outcome.plan.list;
   const std::size_t all = outcome.reports.size() + list.skipped.size();

@@ -23,7 +23,7 @@ namespace {
 
 std::atomic<bool> uses_processes = false;
 
-// What a copy says of its job.
+// A message of a copy about its job.
 struct Answer {
   enum class Kind { kShare, kResult, kError } kind = Kind::kShare;
   double share = 0.0;
@@ -70,7 +70,7 @@ class Messages {
   std::string bytes_;
 };
 
-// What a copy does: one job after another, until this process closes the stream.
+// The loop of a copy: it does one job after another until this process closes the stream.
 void serve(int descriptor, const ApartJobs& jobs) {
   Messages requests;
   for (;;) {

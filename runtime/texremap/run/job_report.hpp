@@ -1,4 +1,4 @@
-// What became of a job, or of a set with all its tiles.
+// The report of a job, or of a set with all its tiles.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ struct JobReport {
   std::uintmax_t bytes_read = 0;  // sizes of the files on disk
   std::uintmax_t bytes_written = 0;
 
-  // Of texture sets.
+  // Members of texture sets only.
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   Transfer specular_transfer = Transfer::kLinear;
   ColorNotes colors;                         // of whole numbers, and of what a file or the user says
@@ -59,7 +59,7 @@ struct JobReport {
 
   std::vector<AssetMaterial> materials;  // of assets
 
-  // Of one job, or none of them yet.
+  // The report of a job that has not begun.
   static JobReport of(const Job& job);
   // Adds the report of the next tile of the set.
   JobReport& operator+=(const JobReport& other);

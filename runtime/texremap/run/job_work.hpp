@@ -1,4 +1,4 @@
-// What is done with a job of one kind.
+// The work of a job, for sets and for assets.
 #pragma once
 
 #include <functional>

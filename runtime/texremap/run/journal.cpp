@@ -39,7 +39,7 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
   return escaped;
 }
 
-// What the lines of journals say, read anew from where reading ended.
+// The content of journals. Each read continues at the end of the last one.
 struct Content {
   std::optional<ConversionNote> owner;
   std::map<std::string, Entry> files;  // by name, the last line counts
@@ -48,8 +48,8 @@ struct Content {
   std::map<fs::path, std::uintmax_t> read_bytes;
   bool ends_in_line = false;  // what was read last: a line of a killed run has no end, and is not whole
 
-  // The journal `name` of a folder, if it is there. Throws kOutput for what is none of this user's, kInput
-  // for a line that is too long.
+  // The journal `name` of a folder, if it is there. Throws kOutput if the file belongs to another user,
+  // kInput if a line is too long.
   void read_own(const fs::path& folder, const fs::path& name);
   // In the order in which they were written to.
   void read_own(const fs::path& folder, const std::vector<fs::path>& names);
@@ -172,7 +172,7 @@ bool is_as_written(const fs::path& path, const Entry& entry) {
   }
 }
 
-// Of a text from a journal, which anybody may have written.
+// Cleans a text of a journal, which anybody may have written.
 std::string shown_note(const std::string& text) {
   constexpr std::size_t kShown = 200;
   return text.empty() ? "none" : plain(text, kShown);

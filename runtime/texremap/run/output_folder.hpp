@@ -1,4 +1,4 @@
-// Where a run writes: which files it may replace, which are done, and what its journal notes.
+// The output folder of a run: which files may be replaced, which are done, and the journal.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@
 
 namespace remap {
 
-// Of named assets there is no journal: they go where the user says, beside whatever is there.
+// Named assets have no journal: the user chose their place, and other files may be there.
 class OutputFolder {
  public:
   // `plan` must outlive it. Throws kOutput if the folder belongs to another conversion, unless --force is
   // given.
   explicit OutputFolder(const ConvertPlan& plan);
 
-  // The one answer to whether a file may be written: where there is none, with --force, and with --resume
-  // where this conversion wrote it. Throws kOutput, with what to do.
+  // Decides whether a file may be written: if it does not exist, with --force, or with --resume if this
+  // conversion wrote it. Otherwise throws kOutput, with what to do.
   void require_free(const std::filesystem::path& file) const;
   // Takes the name of a result. Throws kOutput where another job has it.
   void take(const std::filesystem::path& file, const std::string& owner) const;

@@ -1,4 +1,4 @@
-// What `texremap convert --dry-run` shows of a set: a line for each role.
+// The table that `texremap convert --dry-run` shows for a set: a line for each role.
 #pragma once
 
 #include <string>

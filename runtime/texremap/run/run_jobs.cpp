@@ -97,7 +97,7 @@ class MergedReports {
   std::vector<std::pair<std::size_t, std::size_t>> set_of_;  // index of the set, and of the job in it
 };
 
-// What a message calls a job: the set or the asset, or of a set without a name its first map.
+// The place in messages: the set or the asset; the first map if the set has no name.
 std::string place_of(const Job& job) {
   if (!job.name.empty()) return display_path(job.name);
   for (const auto& [parameter, asked] : std::get<SetWork>(job.work).request.parameters)

@@ -197,7 +197,7 @@ void note_tints(const TextureSet& set, JobReport& report) {
 void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>& targets,
                             JobReport& report) const {
   for (const std::string& remark : remarks(set)) report.warnings.push_back(remark);
-  // Of packed files; the first file with a constant is the one that lacks a map.
+  // In packed layouts, the first file with a constant is the file that lacks a map.
   const auto has_constant = [](const TargetMap& target) {
     const auto is_constant = [](const TargetChannel& channel) {
       return std::holds_alternative<float>(channel);

@@ -1,4 +1,4 @@
-// What a program gets from the module.
+// The function that a program calls in the module.
 #include "remap/version.hpp"
 #include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"

@@ -297,9 +297,8 @@ TEST_CASE("Vertex colors of metals are named on the way to spec-gloss", "[assets
   std::string text = file_with("{}", "");
   text.replace(text.size() - 1, 1,
                R"(,"meshes":[{"primitives":[{"attributes":{"COLOR_0":0},"material":0}]}]})");
-  CHECK(
-      convert_gltf(MemorySource(text), "file", to_specgloss()).materials[0].warnings ==
-      std::vector<std::string>{"vertex colors of 1 primitive tinted its reflection and now tint only its "
+  CHECK(convert_gltf(MemorySource(text), "file", to_specgloss()).materials[0].warnings ==
+        std::vector<std::string>{"vertex colors of 1 primitive tinted its reflection and now tint only its "
                                  "diffuse color"});
 }
 
