@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/errors.hpp"
 #include "core/json_field.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
