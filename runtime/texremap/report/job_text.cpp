@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "command_line/run_app.hpp"
+#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "sets/folder_walk.hpp"
