@@ -18,7 +18,7 @@ for (const one of cases) {
 }
 
 test('help and refusals are those of the program', () => {
-  assert.match(runOwn(['--help']).stdout, /Convert texture maps/);
+  assert.match(runOwn(['--help']).stdout, /Convert textures and materials/);
   const wrong = runOwn(['convert', '--from', 'mitsuba/wrd']);
   assert.notEqual(wrong.status, 0);
   assert.match(wrong.stderr, /^texremap: /);
