@@ -95,7 +95,7 @@ namespace {
 
 Library library_value(const Json& json);
 
-// The bytes of a text, or of a list's texts, of which one is no UTF-8; else null.
+// The bytes of a text, or of a list's texts, of which one is not UTF-8; otherwise null.
 Json lost_bytes(const Json& value) {
   if (const std::string* text = value.text()) return is_utf8(*text) ? Json() : Json(base64(*text));
   const Json::List* entries = value.entries();

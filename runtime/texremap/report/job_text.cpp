@@ -63,7 +63,7 @@ std::string left_behind_text(const JobReport& report) {
 }
 
 double f0_of(const ChosenConverter& chosen, const DielectricF0& estimated) {
-  if (chosen.workflow.estimates_f0 && estimated.is_certain) return rounded(estimated.f0, 4);
+  if (chosen.workflow.estimates_f0 && estimated.is_certain) return used_f0(estimated);
   return std::get<MetallicWorkflow>(*chosen.workflow.target).dielectric_f0;
 }
 
@@ -74,8 +74,7 @@ void print_confidence(const std::string& place, const ChosenConverter& chosen, c
   const MetallicStatistics& metallic = counts.metallic;
   if (const auto& f0 = report.estimated_f0;
       f0 && (verbose || chosen.workflow.estimates_f0 || report.name.empty()))
-    print_message(kProgram, place +
-                                "dielectric F0 estimated from the maps: " + number_text(rounded(f0->f0, 4)) +
+    print_message(kProgram, place + "dielectric F0 estimated from the maps: " + number_text(used_f0(*f0)) +
                                 (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
                                 number_text(f0_of(chosen, *f0)) + " is used");
   if (metallic.texel_count == 0) return;

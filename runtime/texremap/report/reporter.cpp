@@ -14,7 +14,6 @@
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/plan/converter_text.hpp"
 #include "texremap/report/job_json.hpp"
-#include "texremap/report/job_text.hpp"
 #include "texremap/report/part_report.hpp"
 
 namespace remap {
@@ -120,7 +119,7 @@ void print_numbers(const ConvertPlan& plan, const std::vector<ConvertedNumbers>&
 
 }  // namespace
 
-Reporter::Reporter(const ConvertPlan& plan) : plan_(plan), warnings_(std::make_unique<WarningKinds>()) {
+Reporter::Reporter(const ConvertPlan& plan) : plan_(plan) {
   print_messages(plan);
   for (const SkippedEntry& entry : plan.list.skipped)
     if (entry.is_failure || !plan.quiet) say((entry.is_failure ? "failed: " : "skipped: ") + entry.message);
@@ -129,8 +128,6 @@ Reporter::Reporter(const ConvertPlan& plan) : plan_(plan), warnings_(std::make_u
   for (const SkippedEntry& entry : plan.list.skipped)
     write({{"left_out", {{"message", entry.message}, {"is_failure", entry.is_failure}}}});
 }
-
-Reporter::~Reporter() = default;
 
 void Reporter::write(const Json& line) {
   if (!plan_.list.has_several) return;
@@ -141,7 +138,7 @@ void Reporter::write(const Json& line) {
 
 void Reporter::add(const JobReport& report) {
   if (!plan_.list.has_several) return;  // finish() knows the time of all
-  print_job(plan_, report, *warnings_);
+  print_job(plan_, report, warnings_);
   write({{noun_of(plan_.list.kind), job_json(plan_, report)}});
 }
 
@@ -153,7 +150,7 @@ void Reporter::finish(std::vector<JobReport> reports) {
   if (!plan_.list.has_several) {
     JobReport& report = outcome.reports.front();
     report.seconds = outcome.seconds;
-    print_job(plan_, report, *warnings_);
+    print_job(plan_, report, warnings_);
     if (plan_.json) {
       Json result = conversion_json(plan_);
       result.update(job_json(plan_, report));
@@ -163,7 +160,7 @@ void Reporter::finish(std::vector<JobReport> reports) {
   }
   if (!plan_.quiet) {
     print_colors(outcome.colors(), plan_.list.has_several);
-    if (plan_.list.has_several) print_summary(outcome, *warnings_);
+    if (plan_.list.has_several) print_summary(outcome, warnings_);
   }
   write({{"summary", summary_json(outcome)}});
   if (plan_.part && !plan_.dry_run) write_part_report(plan_.output, plan_.part->part, lines_);

@@ -2,18 +2,16 @@
 // and into the report of a part (part_report.hpp).
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/json.hpp"
 #include "core/stopwatch.hpp"
 #include "texremap/plan/convert_plan.hpp"
+#include "texremap/report/job_text.hpp"
 #include "texremap/run/job_report.hpp"
 
 namespace remap {
-
-class WarningKinds;
 
 // JSON is one object for a single set or asset. For several it is an object a line, each as soon as it is
 // known: `{"part": ...}` of a part of a manifest, `{"conversion": ...}`, `{"left_out": ...}` for each entry
@@ -22,7 +20,6 @@ class Reporter {
  public:
   // `plan` must outlive it. Prints what was assumed and what is left out.
   explicit Reporter(const ConvertPlan& plan);
-  ~Reporter();
   // Called with each set or asset as it is finished, by one thread at a time.
   void add(const JobReport& report);
   // Prints the summary of all of them. Throws kInput where something failed; kOutput if the report of a part
@@ -34,7 +31,7 @@ class Reporter {
 
   const ConvertPlan& plan_;
   const Stopwatch stopwatch_;
-  std::unique_ptr<WarningKinds> warnings_;
+  WarningKinds warnings_;
   std::string lines_;  // of the report of a part
 };
 

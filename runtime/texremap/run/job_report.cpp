@@ -1,6 +1,7 @@
 #include "texremap/run/job_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/errors.hpp"
 #include "core/report_text.hpp"
@@ -40,6 +41,8 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   bytes_written += other.bytes_written;
   return *this;
 }
+
+double used_f0(const DielectricF0& estimated) { return std::round(estimated.f0 * 1e4) / 1e4; }
 
 std::optional<std::string> JobReport::failure_text() const {
   const std::size_t failed = count(MaterialState::kFailed);

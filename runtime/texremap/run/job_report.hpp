@@ -69,6 +69,9 @@ struct JobReport {
   std::optional<std::string> failure_text() const;
 };
 
+// An estimated F0 as it is used and printed: with four decimals.
+double used_f0(const DielectricF0& estimated);
+
 // All members, for another process (packed_values.hpp).
 template <typename Archive>
 void fields(Archive& archive, JobReport::Result& result) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "command_line/interruption.hpp"
@@ -176,7 +175,7 @@ std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report)
                               "(--dielectric-f0 VALUE sets it)");
     return nullptr;
   }
-  std::get<MetallicWorkflow>(stages.target).dielectric_f0 = std::round(report.estimated_f0->f0 * 1e4) / 1e4;
+  std::get<MetallicWorkflow>(stages.target).dielectric_f0 = used_f0(*report.estimated_f0);
   return make_workflow_converter(stages, chosen_.info().instructions);
 }
 
