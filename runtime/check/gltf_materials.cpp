@@ -17,6 +17,7 @@
 #include "assets/gltf/gltf_bytes.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_images.hpp"
+#include "assets/gltf/gltf_inputs.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -31,51 +32,37 @@ namespace {
 constexpr double kUsualIor = 1.5;
 constexpr std::uintmax_t kLargestAsset = std::uintmax_t{4} << 30;  // as much as a glb can say
 
-// The effect of a factor of 0 on the texture that it multiplies.
-enum class Zero {
-  kLost,          // what the texture holds is lost
-  kOff,           // the material does without: nothing reads the texture
-  kOffByDefault,  // the same, and so it is where there is no factor
-  kLostByDefault,
-};
-
-// A place of a texture in a material.
-struct TexturePlace {
-  std::string_view object;   // of the material, or the extension that holds it; empty for the material itself
-  std::string_view texture;  // the field with the index of the texture
-  std::string_view factor;   // the number or color that it is multiplied by
+// The role of an input.
+struct InputRole {
+  GltfInput input;
   Role role;
-  Channels channels;
-  Zero zero = Zero::kLost;
-  bool is_in_texture = false;  // the factor stands beside the index
+  bool is_off_at_zero = false;  // a factor of 0 means that nothing reads the texture, not that it is lost
 };
 
-constexpr std::array<TexturePlace, 16> kPlaces = {{
-    {kCoreMember, "baseColorTexture", "baseColorFactor", Role::kBaseColor, Channels::kRgb},
-    {kCoreMember, "metallicRoughnessTexture", "roughnessFactor", Role::kRoughness, Channels::kGreen},
-    {kCoreMember, "metallicRoughnessTexture", "metallicFactor", Role::kMetallic, Channels::kBlue, Zero::kOff},
-    {"", "normalTexture", "scale", Role::kNormal, Channels::kRgb, Zero::kOff, true},
-    {"", "occlusionTexture", "strength", Role::kOcclusion, Channels::kRed, Zero::kOff, true},
-    {"", "emissiveTexture", "emissiveFactor", Role::kEmissive, Channels::kRgb, Zero::kOffByDefault},
-    {kSpecGlossExtension, "diffuseTexture", "diffuseFactor", Role::kDiffuse, Channels::kRgb},
-    {kSpecGlossExtension, "specularGlossinessTexture", "specularFactor", Role::kSpecular, Channels::kRgb,
-     Zero::kOff},
-    {kSpecGlossExtension, "specularGlossinessTexture", "glossinessFactor", Role::kGlossiness,
-     Channels::kAlpha},
-    {kSpecularExtension, "specularTexture", "specularFactor", Role::kOther, Channels::kAlpha, Zero::kOff},
-    {kSpecularExtension, "specularColorTexture", "specularColorFactor", Role::kOther, Channels::kRgb,
-     Zero::kOff},
-    {"KHR_materials_clearcoat", "clearcoatTexture", "clearcoatFactor", Role::kOther, Channels::kRed,
-     Zero::kOffByDefault},
-    {"KHR_materials_clearcoat", "clearcoatRoughnessTexture", "clearcoatRoughnessFactor", Role::kOther,
-     Channels::kGreen, Zero::kLostByDefault},
-    {"KHR_materials_sheen", "sheenColorTexture", "sheenColorFactor", Role::kOther, Channels::kRgb,
-     Zero::kOffByDefault},
-    {"KHR_materials_sheen", "sheenRoughnessTexture", "sheenRoughnessFactor", Role::kOther, Channels::kAlpha,
-     Zero::kLostByDefault},
-    {"KHR_materials_transmission", "transmissionTexture", "transmissionFactor", Role::kTransmission,
-     Channels::kRed, Zero::kOffByDefault},
+constexpr std::array<InputRole, 16> kRoles = {{
+    {GltfInput::kBaseColor, Role::kBaseColor},
+    {GltfInput::kRoughness, Role::kRoughness},
+    {GltfInput::kMetallic, Role::kMetallic, true},
+    {GltfInput::kNormal, Role::kNormal, true},
+    {GltfInput::kOcclusion, Role::kOcclusion, true},
+    {GltfInput::kEmissive, Role::kEmissive, true},
+    {GltfInput::kDiffuse, Role::kDiffuse},
+    {GltfInput::kSpecGlossSpecular, Role::kSpecular, true},
+    {GltfInput::kGlossiness, Role::kGlossiness},
+    {GltfInput::kSpecular, Role::kOther, true},
+    {GltfInput::kSpecularColor, Role::kOther, true},
+    {GltfInput::kClearcoat, Role::kOther, true},
+    {GltfInput::kClearcoatRoughness, Role::kOther},
+    {GltfInput::kSheenColor, Role::kOther, true},
+    {GltfInput::kSheenRoughness, Role::kOther},
+    {GltfInput::kTransmission, Role::kTransmission, true},
 }};
+
+Channels channels_of(GltfInput input) {
+  constexpr std::array kSingle = {Channels::kRed, Channels::kGreen, Channels::kBlue, Channels::kAlpha};
+  const GltfInputInfo& info = info_of(input);
+  return info.count > 1 || input == GltfInput::kNormal ? Channels::kRgb : kSingle[info.channel];
+}
 
 // An extension whose strength is a factor of 0 adds nothing to the material.
 struct Strength {
@@ -183,6 +170,14 @@ class GltfMaterials {
     const std::optional<std::string> name = entry["name"].text();
     material.name =
         display_path(file_) + ": material " + (name ? "\"" + plain(*name) + "\"" : std::to_string(index));
+    GltfMaterial read;
+    try {
+      std::vector<std::string> clamped;
+      read = read_inputs(entry, all_inputs(), clamped);
+    } catch (const Error& error) {
+      found_.problems.push_back(material.name + ": " + error.what());
+      return;
+    }
     const SpanValue extensions = entry["extensions"];
     const bool is_unlit = extensions[kUnlitExtension].is(SpanKind::kObject);
     // Readers of these read no other extension of the surface.
@@ -191,43 +186,43 @@ class GltfMaterials {
       for (const SpanValue& extension : extensions.children())
         if (!(is_alone && is_reflecting(extension.key())) && !changes_nothing(extension.key(), extensions))
           material.gltf.extensions.insert(extension.key());
-    for (const TexturePlace& place : kPlaces) add_use(entry, place, is_unlit, material);
-    material.gltf.metallic_factor = entry[kCoreMember]["metallicFactor"].number().value_or(1.0);
+    for (const InputRole& role : kRoles) add_use(read, role, is_unlit, material);
+    material.gltf.metallic_factor = read.number(GltfInput::kMetallic);
     if (!is_alone) {
       material.gltf.ior = extensions[kIorExtension]["ior"].number();
+      // As it is written: values above 1 are a finding.
       material.gltf.specular_factor = extensions[kSpecularExtension]["specularFactor"].number();
     }
-    const SpanValue transmission = extensions["KHR_materials_transmission"];
-    material.gltf.transmits = transmission["transmissionFactor"].number().value_or(0.0) > 0.0;
+    material.gltf.transmits = read.number(GltfInput::kTransmission) > 0.0;
     material.gltf.has_volume = extensions["KHR_materials_volume"] || extensions["KHR_materials_dispersion"];
     found_.materials.push_back(std::move(material));
   }
 
-  void add_use(SpanValue entry, const TexturePlace& place, bool is_unlit, CheckedMaterial& material) {
-    SpanValue object = entry;
-    if (!place.object.empty())
-      object = place.object == kCoreMember ? entry[kCoreMember] : entry["extensions"][place.object];
-    const std::optional<std::size_t> texture = object[place.texture]["index"].whole();
+  void add_use(const GltfMaterial& read, const InputRole& role, bool is_unlit, CheckedMaterial& material) {
+    const GltfInputInfo& info = info_of(role.input);
+    const GltfValue& value = read[role.input];
+    const std::optional<std::size_t> texture = value.texture["index"].whole();
     const std::optional<std::size_t> map = texture ? map_of(*texture, material) : std::nullopt;
     if (!map) return;
     MaterialUse use{
-        place.role, *map, place.channels, std::string(place.texture), {}, std::string(place.factor), false};
-    use.factors = numbers_of((place.is_in_texture ? object[place.texture] : object)[place.factor]);
-    const SpanValue transform = object[place.texture]["extensions"][kTransformExtension];
-    use.tex_coord =
-        transform["texCoord"].whole().value_or(object[place.texture]["texCoord"].whole().value_or(0));
+        role.role, *map, channels_of(role.input), std::string(info.texture), {}, std::string(info.factor),
+        false};
+    for (std::size_t c = 0; value.is_stated && c < std::min<std::size_t>(info.count, 3); ++c)
+      use.factors.push_back(value.factor[c].value);
+    const SpanValue transform = value.texture["extensions"][kTransformExtension];
+    use.tex_coord = transform["texCoord"].whole().value_or(value.texture["texCoord"].whole().value_or(0));
     if (transform) use.transform = transform.raw();
-    if (use.factors.empty() && place.zero == Zero::kLostByDefault) use.factors = {0.0};
-    if (place.object == kSpecularExtension) material.gltf.has_specular_map = true;
-    const bool is_off_by_default = use.factors.empty() && place.zero == Zero::kOffByDefault;
-    const bool is_off_by_factor = !use.factors.empty() && all_are(0.0, use.factors) &&
-                                  (place.zero == Zero::kOff || place.zero == Zero::kOffByDefault);
+    const bool is_zero_by_default = !value.is_stated && info.usual == 0.0;
+    if (is_zero_by_default && !role.is_off_at_zero) use.factors = {0.0};
+    if (info.object == kSpecularExtension) material.gltf.has_specular_map = true;
+    const bool is_off_by_factor =
+        role.is_off_at_zero && (is_zero_by_default || (!use.factors.empty() && all_are(0.0, use.factors)));
     // Nobody reads the texture, whatever its own factor is.
-    const bool is_unseen = (is_unlit && place.role != Role::kBaseColor) ||
-                           (!is_off_by_default && !is_off_by_factor && is_off(place.object, object));
+    const bool is_unseen = (is_unlit && role.role != Role::kBaseColor) ||
+                           (!is_off_by_factor && is_off(info.object, read.text["extensions"][info.object]));
     if (is_unseen) use.factors.clear();
     if (is_unseen) use.factor_name.clear();
-    const bool is_unread = is_unseen || is_off_by_default || is_off_by_factor;
+    const bool is_unread = is_unseen || is_off_by_factor;
     (is_unread ? material.unread : material.uses).push_back(std::move(use));
   }
 

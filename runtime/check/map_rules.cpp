@@ -5,6 +5,7 @@
 #include <set>
 
 #include "assets/maps/map_pixels.hpp"
+#include "check/color_issue.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
@@ -220,6 +221,39 @@ void specgloss_channels(const CheckedMaterial& material, const GltfConsumer*, co
          "has " + std::to_string(count) + (count == 1 ? " channel" : " channels") + " and no alpha, which " +
              std::string(role_name(use.role)) + " is read from: it is 1 everywhere",
          "export it again with four channels, " + std::string(role_name(use.role)) + " in alpha"});
+  });
+}
+
+void specular_color(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
+                    std::vector<MaterialFinding>& findings) {
+  // Ks of MTL is no reflectance at normal incidence, and beside metallic a specular map is a level.
+  const bool has_metallic =
+      std::ranges::any_of(material.uses, [](const MaterialUse& use) { return use.role == Role::kMetallic; });
+  if (material.kind == MaterialKind::kMtl || has_metallic) return;
+  for_uses(material, [&](const MaterialUse& use) {
+    if (use.role != Role::kSpecular) return;
+    const MaterialMap& map = material.maps[use.map];
+    const ImageLayout& layout = material.texels(use)->layout;
+    const Transfer usual = is_integer(layout.channels.front().type) ? Transfer::kSrgb : Transfer::kLinear;
+    const Transfer transfer = layout.tagged_transfer.value_or(usual);
+    std::vector<Plane> linear;
+    for (const Plane* plane : material.colors(use)) {
+      linear.push_back(*plane);
+      to_linear(transfer, linear.back());
+      if (const std::size_t c = linear.size() - 1; c < use.factors.size())
+        for (float& value : linear.back()) value *= static_cast<float>(use.factors[c]);
+    }
+    const auto issue = color_issue(use.role, transfer, linear);
+    if (!issue) return;
+    Fix fix = "check its source: the export may have lost the map";
+    if (issue->transfer) {
+      const std::string name(name_of(kTransfers, *issue->transfer));
+      fix = material.kind == MaterialKind::kGltf ? "export it again: glTF reads colors as sRGB"
+                                                 : "convert it with --color-space specular=" + name;
+    }
+    findings.push_back(
+        {rule.name, issue->transfer ? Confidence::kLikely : Confidence::kPossible, map.shown, "",
+         "specular, read as " + std::string(name_of(kTransfers, transfer)) + ", " + issue->text, fix});
   });
 }
 

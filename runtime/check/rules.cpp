@@ -47,10 +47,13 @@ constexpr std::array<GltfConsumer, 6> kReaders = {{
     {"usd", "UsdPreviewSurface", kUsd},
 }};
 
-constexpr std::array<Rule, 21> kRules = {{
+constexpr std::array<Rule, 22> kRules = {{
     {"srgb-data", "a map of numbers (roughness, metallic, normal, ...) that its file tags as sRGB",
      look::srgb_data},
     {"linear-color", "a color map in whole numbers that its file tags as linear", look::linear_color},
+    {"specular-color",
+     "specular that is black or white everywhere, or whose F0 only fits another color space",
+     look::specular_color},
     {"gloss-as-roughness", "a map of roughness that another map of the set shows to be gloss, or the reverse",
      look::gloss_as_roughness},
     {"alpha-as-roughness", "a map of roughness that is a power of what another map of the set says",

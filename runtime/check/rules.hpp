@@ -74,8 +74,8 @@ std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const 
 // The rules of single maps, of pairs of maps and of what assets state; rules() lists them.
 namespace look {
 using Look = void(const CheckedMaterial&, const GltfConsumer*, const Rule&, std::vector<MaterialFinding>&);
-Look linear_color, specgloss_channels, constant_map, banding, bad_values, metallic_greys, channel_order,
-    normal_space, normal_orientation, wrong_texture;                           // single maps
+Look linear_color, specgloss_channels, specular_color, constant_map, banding, bad_values, metallic_greys,
+    channel_order, normal_space, normal_orientation, wrong_texture;            // single maps
 Look srgb_data, sizes, gloss_as_roughness, alpha_as_roughness, duplicate_map;  // pairs
 Look factor_zero, factor_ignored, index_of_refraction, ignored_by_reader, unreadable_statement,
     exponent_range;  // statements

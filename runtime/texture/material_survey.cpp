@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/report_text.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/error.hpp"
 
@@ -53,68 +52,6 @@ void add_row(const TextureSet& set, const StoredRows& rows, int step, MaterialSa
   sample.texel_count += added;
 }
 
-// The largest channel of each texel.
-std::vector<float> largest_of(const std::vector<std::vector<float>>& rows) {
-  std::vector<float> largest = rows.front();
-  for (const std::vector<float>& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) largest[i] = std::max(largest[i], row[i]);
-  return largest;
-}
-
-double share_within(const std::vector<float>& values, float low, float high) {
-  const auto inside =
-      std::count_if(values.begin(), values.end(), [&](float v) { return v >= low && v <= high; });
-  return static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(values.size(), 1));
-}
-
-// Most materials are dielectrics with an F0 of 0.03 to 0.05. In the wrong color space they read as 0.19 to
-// 0.25, where only a few gems are, or as 0.002 to 0.004, where no material is.
-void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
-                         std::vector<std::string>& messages) {
-  constexpr double kMuch = 0.4, kLittle = 0.05;
-  const SetParameter* specular = set.map_of(Parameter::kSpecular);
-  if (specular == nullptr) return;
-  const std::vector<float> values = largest_of(sample.rows.at(Parameter::kSpecular));
-  if (share_within(values, 0.027f, 0.055f) > kLittle) return;
-  const bool is_srgb = specular->transfer == Transfer::kSrgb;
-  const double share = is_srgb ? share_within(values, 0.0018f, 0.0045f) : share_within(values, 0.185f, 0.26f);
-  if (share < kMuch) return;
-  const std::string place = set.maps[specular->channels.front().map].path().string();
-  messages.push_back(place + ": specular, read as " + std::string(name_of(kTransfers, specular->transfer)) +
-                     ", is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " +
-                     fixed(100.0 * share, 0) + " % of the texels, like F0 0.04 stored " +
-                     (is_srgb ? "linear" : "in sRGB") +
-                     " (use --color-space specular=" + (is_srgb ? "linear" : "srgb") + " in that case)");
-}
-
-void look_at_flat_maps(const MaterialSample& sample, const TextureSet& set,
-                       std::vector<std::string>& messages) {
-  for (const auto& [parameter, values] : set.parameters) {
-    if (!is_color(parameter) || !values.is_map()) continue;
-    const std::vector<float> largest = largest_of(sample.rows.at(parameter));
-    const auto all = [&](float value) {
-      return !largest.empty() &&
-             std::all_of(largest.begin(), largest.end(), [&](float v) { return v == value; });
-    };
-    const std::string place = set.maps[values.channels.front().map].path().string() + ": " +
-                              std::string(parameter_name(parameter)) + " is ";
-    const auto& rows = sample.rows.at(parameter);
-    const auto is_white_everywhere = [&rows] {
-      return std::all_of(rows.begin(), rows.end(), [](const auto& row) {
-        return std::all_of(row.begin(), row.end(), [](float v) { return v == 1.0f; });
-      });
-    };
-    if (all(0.0f) && parameter != Parameter::kDiffuse)
-      messages.push_back(place + "black in every sampled texel (" +
-                         (parameter == Parameter::kSpecular ? "dielectrics have a linear F0 of 0.04)"
-                                                            : "a color is needed)"));
-    else if (all(1.0f) && is_white_everywhere())
-      messages.push_back(place + "white in every sampled texel (" +
-                         (parameter == Parameter::kSpecular ? "F0 is needed, not a specular strength)"
-                                                            : "a reflectance below 1 is needed)"));
-  }
-}
-
 }  // namespace
 
 MaterialSample sample_materials(TextureSet& set) {
@@ -137,14 +74,6 @@ MaterialSample sample_materials(TextureSet& set) {
     add_row(set, rows, step, sample);
   }
   return sample;
-}
-
-std::vector<std::string> issues_in(const MaterialSample& sample, const TextureSet& set) {
-  std::vector<std::string> messages;
-  if (sample.texel_count == 0) return messages;
-  look_at_color_space(sample, set, messages);
-  look_at_flat_maps(sample, set, messages);
-  return messages;
 }
 
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,

@@ -1,9 +1,8 @@
-// Samples the maps of a material before the conversion, to detect conventions that no file states.
+// Samples the maps of a material before the conversion: conventions that no file states.
 #pragma once
 
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "remap/workflow.hpp"
@@ -21,10 +20,6 @@ struct MaterialSample {
 
 // Samples about 4000 texels in 16 bands of rows. Each map is read once, up to the last band.
 MaterialSample sample_materials(TextureSet& set);
-
-// Warnings, one message each: colors that were probably read in the wrong color space, and implausible maps
-// that are black or white everywhere.
-std::vector<std::string> issues_in(const MaterialSample& sample, const TextureSet& set);
 
 // The F0 of the dielectrics after `stages.brdf`, for `stages` from a specular to a metallic workflow. `width`
 // is the encoding of the sampled roughness. None if no texel allows an estimate.

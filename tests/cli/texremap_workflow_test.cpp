@@ -179,9 +179,9 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   warned(words, "like F0 0.04 stored in sRGB (use --color-space specular=srgb");
   write_specular(session, 0.4f, 0.0f);
   write_colors(session, "s.exr", [](int, int, int) { return 0.0f; });
-  warned(words, "specular is black in every sampled texel (dielectrics have a linear F0 of 0.04)");
+  warned(words, "specular, read as linear, is black everywhere (dielectrics have a linear F0 of 0.04)");
   write_colors(session, "s.exr", [](int, int, int) { return 1.0f; });
-  warned(words, "specular is white in every sampled texel");
+  warned(words, "specular, read as linear, is white everywhere");
   write_specular(session, 8.0f);
   warned(words, "texels reflect more than 1; clamped to 1");
   write_specular(session);
@@ -189,7 +189,7 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   warned(words, "dielectric F0 estimated from the maps: 0.04");
   write_metallic(session);
   write_colors(session, "b.exr", [](int, int, int) { return 0.0f; });
-  warned(metallic_words("metallic", "specular"), "base_color is black in every sampled texel");
+  warned(metallic_words("metallic", "specular"), "base_color, read as linear, is black everywhere");
 }
 
 TEST_CASE("texremap workflows: the estimated F0 of the maps is used on request") {

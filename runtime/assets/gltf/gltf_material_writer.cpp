@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "assets/document/gltf_extensions.hpp"
-#include "assets/gltf/gltf_factors.hpp"
+#include "assets/gltf/gltf_inputs.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 

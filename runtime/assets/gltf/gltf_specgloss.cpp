@@ -2,37 +2,18 @@
 // extension of Khronos).
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 
 #include "assets/document/gltf_extensions.hpp"
-#include "assets/gltf/core_material.hpp"
+#include "assets/gltf/core_maker.hpp"
 #include "assets/gltf/gltf_direction.hpp"
-#include "assets/gltf/specgloss_material.hpp"
-#include "assets/gltf/specgloss_textures.hpp"
+#include "assets/maps/map_pixels.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 
 namespace remap {
 namespace {
-
-SpecGlossMaterial read_specgloss(SpanValue material, std::vector<std::string>& warnings) {
-  SpecGlossMaterial read;
-  read.material = material;
-  const SpanValue extensions = material["extensions"];
-  read.extension = extensions[kSpecGlossExtension];
-  if (!read.extension.is(SpanKind::kObject))
-    throw input_error(std::string(kSpecGlossExtension) + ": expected an object");
-  if (const SpanValue core = material[kCoreMember]; core && !core.is(SpanKind::kObject))
-    throw input_error(std::string(kCoreMember) + ": expected an object");
-  const FactorReader factors(read.extension, warnings);
-  factors.read("diffuseFactor", read.diffuse);
-  factors.read("specularFactor", read.specular);
-  factors.read("glossinessFactor", read.glossiness);
-  read.diffuse_texture = read.extension["diffuseTexture"];
-  read.specgloss_texture = read.extension["specularGlossinessTexture"];
-  read.is_unlit = static_cast<bool>(extensions[kUnlitExtension]);
-  return read;
-}
 
 // Names what the extension holds and core has no place for.
 void note_lost_members(SpanValue extension, std::vector<std::string>& warnings) {
@@ -51,19 +32,23 @@ void note_lost_members(SpanValue extension, std::vector<std::string>& warnings) 
   }
 }
 
-// A channel of base color: the text of diffuse or specular where it is that number.
-std::string base_text(float base, const FactorText& diffuse, const FactorText& specular) {
-  return is_factor(base, diffuse) ? diffuse.text : factor_text(base, specular);
+// The form that keeps diffuse as base color.
+CoreTexts texts_of_diffuse(const GltfMaterial& material) {
+  CoreTexts texts;
+  const GltfValue& diffuse = material[GltfInput::kDiffuse];
+  for (std::size_t c = 0; c < 4; ++c) texts.base_color[c] = diffuse.factor[c].text;
+  texts.base_texture = {diffuse.texture, {}};
+  texts.metallic = "0";
+  texts.roughness = float_text(roughness_of(material.number(GltfInput::kGlossiness)));
+  return texts;
 }
 
 class SpecGlossToCore final : public GltfDirection {
  public:
   explicit SpecGlossToCore(const DirectionParts& parts)
       : options_(parts.options),
-        projection_(specgloss_projection(parts.options.prior, parts.options.instructions)) {
-    if (parts.textures != nullptr)
-      textures_ = std::make_unique<SpecGlossTextures>(*parts.textures, *projection_);
-  }
+        textures_(parts.textures),
+        maker_(parts, GltfWorkflow::kSpecGloss, {"metallic", ", or --profile extensions"}) {}
 
   bool takes(SpanValue material) const override {
     return static_cast<bool>(material["extensions"][kSpecGlossExtension]);
@@ -74,17 +59,22 @@ class SpecGlossToCore final : public GltfDirection {
   }
 
   MaterialEdit convert(SpanValue material, AssetMaterial& report) override {
-    SpecGlossMaterial read = read_specgloss(material, report.warnings);
-    const bool is_exact = options_.profile == MaterialProfile::kExtensions && !read.is_unlit;
+    GltfMaterial read = read_material(material, GltfWorkflow::kSpecGloss, report.warnings);
+    const bool is_unlit = static_cast<bool>(material["extensions"][kUnlitExtension]);
+    const bool is_exact = options_.profile == MaterialProfile::kExtensions && !is_unlit;
     if (is_exact) require_exact_form(material);
-    const CoreTexts texts = texts_of(read, is_exact, report);
+    const CoreTexts texts = is_unlit   ? unlit(read, report)
+                            : is_exact ? exact(read, report)
+                                       : maker_.convert(read, report);
     report.residual = texts.residual;
-    report.becomes = summary(texts, read, is_exact);
-    note_lost_members(read.extension, report.warnings);
+    report.becomes = summary(texts, read, is_unlit, is_exact);
+    note_lost_members(extension_of(material), report.warnings);
     return edit_of(read, texts, is_exact, report);
   }
 
  private:
+  static SpanValue extension_of(SpanValue material) { return material["extensions"][kSpecGlossExtension]; }
+
   static void require_exact_form(SpanValue material) {
     for (const std::string_view name : {kSpecularExtension, kIorExtension})
       if (material["extensions"][name])
@@ -92,64 +82,75 @@ class SpecGlossToCore final : public GltfDirection {
                           " already, which the exact form needs (use --profile core)");
   }
 
-  // Constant maps are factors of `read` from here on.
-  CoreTexts texts_of(SpecGlossMaterial& read, bool is_exact, AssetMaterial& report) const {
-    if (!read.is_unlit && (read.diffuse_texture || read.specgloss_texture)) {
-      if (!textures_) throw input_error("has textures, and no library of images is given");
-      const std::optional<CoreTexts> texts =
-          is_exact ? textures_->exact(read) : textures_->core(read, report.warnings);
-      if (texts) return *texts;
+  static void report_factors(const GltfMaterial& material, AssetMaterial& report) {
+    const std::array<double, 3> diffuse = material.color(GltfInput::kDiffuse);
+    report.factors = {reported("base_color", {diffuse.begin(), diffuse.end()}), reported("metallic", {0.0f}),
+                      reported("roughness", {roughness_of(material.number(GltfInput::kGlossiness))})};
+  }
+
+  static CoreTexts unlit(const GltfMaterial& material, AssetMaterial& report) {
+    report_factors(material, report);
+    return texts_of_diffuse(material);
+  }
+
+  // Of the exact form only roughness needs a new image.
+  CoreTexts exact(const GltfMaterial& material, AssetMaterial& report) {
+    CoreTexts texts = texts_of_diffuse(material);
+    if (!has_textures(material, inputs_of(GltfWorkflow::kSpecGloss))) {
+      report_factors(material, report);
+      return texts;
     }
-    MetalRoughFactors result = projected(read.factors(), *projection_);
-    const bool keeps_diffuse = is_exact || read.is_unlit;
-    if (keeps_diffuse) {
-      for (std::size_t c = 0; c < 3; ++c) result.base_color[c] = static_cast<float>(read.diffuse[c].value);
-      result.metallic = result.residual = 0.0f;
+    if (textures_ == nullptr) throw input_error("has textures, and no library of images is given");
+    textures_->require_readable(material[GltfInput::kDiffuse].texture);
+    const SpanValue info = material[GltfInput::kGlossiness].texture;
+    if (!info) return texts;
+    const UsedTexture specgloss = textures_->load(info, GltfInput::kSpecGlossSpecular);
+    texts.specular_texture = {info, {}};
+    if (!specgloss.pixels().has_alpha()) return texts;
+    const double glossiness = material.number(GltfInput::kGlossiness);
+    const std::string key = std::to_string(specgloss.image.image) + " " + number_text(glossiness);
+    if (!roughness_maps_.contains(key)) {
+      const ImagePixels map = roughness_map(specgloss.pixels(), glossiness);
+      if (is_constant(map)) {
+        texts.roughness = float_text(first_texel(map)[1]);
+        return texts;
+      }
+      roughness_maps_[key] = textures_->add_data(map, specgloss, "_roughness");
     }
-    report.factors = {reported("base_color", {result.base_color.begin(), result.base_color.end()}),
-                      reported("metallic", {result.metallic}), reported("roughness", {result.roughness})};
-    CoreTexts texts;
-    for (std::size_t c = 0; c < 3; ++c)
-      texts.base_color[c] = keeps_diffuse
-                                ? read.diffuse[c].text
-                                : base_text(result.base_color[c], read.diffuse[c], read.specular[c]);
-    texts.base_color[3] = read.diffuse[3].text;
-    texts.metallic = float_text(result.metallic);
-    texts.roughness = float_text(result.roughness);
-    texts.has_metal = result.metallic > 0.0f;
-    texts.residual = static_cast<double>(result.residual);
-    if (read.is_unlit) texts.base_texture = {read.diffuse_texture, {}};
+    texts.metal_rough_texture = textures_->text_of(specgloss, roughness_maps_[key]);
+    texts.roughness = "1";
     return texts;
   }
 
-  static std::string summary(const CoreTexts& texts, const SpecGlossMaterial& read, bool is_exact) {
+  static std::string summary(const CoreTexts& texts, const GltfMaterial& read, bool is_unlit, bool is_exact) {
     std::string text = core_summary(texts, "diffuse map");
-    if (read.is_unlit) return text.substr(0, text.find(", metallic")) + ", unlit";
+    if (is_unlit) return text.substr(0, text.find(", metallic")) + ", unlit";
     if (texts.metal_rough_texture) text += is_exact ? " times map" : ", both times map";
+    const auto& specular = read[GltfInput::kSpecGlossSpecular].factor;
     if (is_exact)
       text += std::string(", specular color ") + (texts.specular_texture ? "map times " : "") +
-              read.specular[0].text + " " + read.specular[1].text + " " + read.specular[2].text;
+              specular[0].text + " " + specular[1].text + " " + specular[2].text;
     return text;
   }
 
-  MaterialEdit edit_of(const SpecGlossMaterial& read, const CoreTexts& texts, bool is_exact,
+  MaterialEdit edit_of(const GltfMaterial& read, const CoreTexts& texts, bool is_exact,
                        AssetMaterial& report) const {
     MaterialEdit edit;
-    edit.material = read.material;
+    edit.material = read.text;
     edit.core = core_members(texts);
     edit.removed_extensions = {kSpecGlossExtension};
-    edit.carried_extras = read.extension["extras"];
+    edit.carried_extras = extension_of(read.text)["extras"];
     if (texts.has_metal) edit.colored = "tinted its diffuse color and now tint its reflection, too";
     if (is_exact) {
-      const std::string color =
-          list_text({read.specular[0].text, read.specular[1].text, read.specular[2].text});
+      const auto& specular = read[GltfInput::kSpecGlossSpecular].factor;
+      const std::string color = list_text({specular[0].text, specular[1].text, specular[2].text});
       edit.added_extensions = {
           {kSpecularExtension,
            {{"specularColorFactor", color, {}}, {"specularColorTexture", "", texts.specular_texture}}},
           // An index of 0 means an F0 of 1, which the color then multiplies (KHR_materials_ior).
           {kIorExtension, {{"ior", "0", {}}}}};
     }
-    for (const SpanValue& extension : read.material["extensions"].children()) {
+    for (const SpanValue& extension : read.text["extensions"].children()) {
       const std::string name = extension.key();
       if (!is_reflecting(name)) continue;
       // Converting the file again would fold extensions that spec-gloss viewers ignored.
@@ -162,8 +163,9 @@ class SpecGlossToCore final : public GltfDirection {
   }
 
   const AssetOptions& options_;
-  std::unique_ptr<Converter> projection_;
-  std::unique_ptr<SpecGlossTextures> textures_;
+  MaterialTextures* textures_;  // null where no images can be read
+  CoreMaker maker_;
+  std::map<std::string, std::size_t> roughness_maps_;  // by image and factor
 };
 
 }  // namespace

@@ -1,18 +1,27 @@
 // Core materials get KHR_materials_pbrSpecularGlossiness. pbrMetallicRoughness stays: it is the fallback of
 // viewers that do not read the extension.
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "assets/document/gltf_extensions.hpp"
-#include "assets/gltf/core_material.hpp"
-#include "assets/gltf/core_textures.hpp"
 #include "assets/gltf/gltf_direction.hpp"
+#include "assets/gltf/gltf_workflow.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 
 namespace remap {
 namespace {
+
+// JSON of a spec-gloss material.
+struct SpecGlossTexts {
+  std::array<std::string, 4> diffuse;
+  std::array<std::string, 3> specular;
+  std::string glossiness;
+  TextureText diffuse_texture, specgloss_texture;
+};
 
 std::string color_text(const std::array<std::string, 3>& color) {
   return color[0] + " " + color[1] + " " + color[2];
@@ -31,11 +40,9 @@ std::string specgloss_summary(const SpecGlossTexts& texts) {
 class CoreToSpecGloss final : public GltfDirection {
  public:
   explicit CoreToSpecGloss(const DirectionParts& parts)
-      : plain_(make_core_converter("gltf-specgloss", false, parts.options.prior, parts.options.instructions)),
-        dielectric_(
-            make_core_converter("gltf-specgloss", true, parts.options.prior, parts.options.instructions)) {
-    if (parts.textures != nullptr) textures_.emplace(*parts.textures);
-  }
+      : textures_(parts.textures),
+        plain_(converter_of(GltfWorkflow::kMetalRough, "gltf-specgloss", parts.options)),
+        dielectric_(converter_of(GltfWorkflow::kDielectric, "gltf-specgloss", parts.options)) {}
 
   // Unlit materials have no workflow: KHR_materials_unlit reads base color.
   bool takes(SpanValue material) const override {
@@ -49,9 +56,12 @@ class CoreToSpecGloss final : public GltfDirection {
   }
 
   MaterialEdit convert(SpanValue material, AssetMaterial& report) override {
-    CoreMaterial read = read_core_material(material, report.warnings);
-    require_alone(material["extensions"]);
-    const SpecGlossTexts texts = texts_of(read, report);
+    const SpanValue extensions = material["extensions"];
+    const bool has_dielectric = extensions[kSpecularExtension] || extensions[kIorExtension];
+    const GltfWorkflow workflow = has_dielectric ? GltfWorkflow::kDielectric : GltfWorkflow::kMetalRough;
+    GltfMaterial read = read_material(material, workflow, report.warnings);
+    require_alone(extensions);
+    const SpecGlossTexts texts = texts_of(workflow, read, report);
     report.becomes = specgloss_summary(texts);
     MaterialEdit edit;
     edit.material = material;
@@ -62,13 +72,14 @@ class CoreToSpecGloss final : public GltfDirection {
                                {"specularFactor", specular, {}},
                                {"glossinessFactor", texts.glossiness, {}},
                                {"specularGlossinessTexture", "", texts.specgloss_texture}}}};
-    if (read.has_dielectric) {
+    if (has_dielectric) {
       edit.removed_extensions = {kSpecularExtension, kIorExtension};
       report.warnings.emplace_back(
           "viewers without spec-gloss show its fallback with an index of 1.5, because KHR_materials_specular "
           "and _ior must not stand beside spec-gloss");
     }
-    if (read.metallic.value > 0.0) edit.colored = "tinted its reflection and now tint only its diffuse color";
+    if (read.number(GltfInput::kMetallic) > 0.0)
+      edit.colored = "tinted its reflection and now tint only its diffuse color";
     return edit;
   }
 
@@ -86,38 +97,91 @@ class CoreToSpecGloss final : public GltfDirection {
     }
   }
 
-  // Constant maps are factors of `read` from here on.
-  SpecGlossTexts texts_of(CoreMaterial& read, AssetMaterial& report) {
-    const Converter& converter = read.has_dielectric ? *dielectric_ : *plain_;
-    if (read.base_texture || read.metal_rough_texture || read.specular_texture ||
-        read.specular_color_texture) {
-      if (!textures_) throw input_error("has textures, and no library of images is given");
-      const std::optional<SpecGlossTexts> texts = textures_->specgloss(read, converter, report.warnings);
-      if (texts) return *texts;
+  // What became of a set of images, with the numbers of new ones; the pixels are gone.
+  struct Made {
+    SpecGlossMaps maps;
+    std::optional<std::size_t> diffuse_image, specgloss_image;
+  };
+
+  const Converter& converter(GltfWorkflow workflow) const {
+    return workflow == GltfWorkflow::kDielectric ? *dielectric_ : *plain_;
+  }
+
+  // Constant maps become factors of `material`.
+  SpecGlossTexts texts_of(GltfWorkflow workflow, GltfMaterial& material, AssetMaterial& report) {
+    // Diffuse of a dielectric is its base color, by the conventions of both.
+    const bool keeps_base = material.number(GltfInput::kMetallic) == 0.0;
+    std::span<const GltfInput> inputs = inputs_of(workflow);
+    if (has_textures(material, inputs)) {
+      if (keeps_base) inputs = inputs.subspan(1);
+      const auto used = used_textures(textures_, material, inputs, {"specular color", ""}, report.warnings);
+      if (keeps_base) textures_->require_readable(material[GltfInput::kBaseColor].texture);
+      if (used) return texts_of_maps(workflow, material, *used, keeps_base);
     }
-    const MaterialValues values = converted(converter, values_of(read.factors(), read.has_dielectric));
+    return texts_of_factors(workflow, material, report);
+  }
+
+  SpecGlossTexts texts_of_factors(GltfWorkflow workflow, const GltfMaterial& material,
+                                  AssetMaterial& report) const {
+    const MaterialValues values = converted(converter(workflow), values_of(workflow, material));
     const std::vector<float>&diffuse = values.at(Parameter::kDiffuse),
           &specular = values.at(Parameter::kSpecular);
     const float glossiness = 1.0f - values.at(Parameter::kRoughness)[0];
     report.factors = {reported("diffuse", diffuse), reported("specular", specular),
                       reported("glossiness", {glossiness})};
+    const auto &base = material[GltfInput::kBaseColor].factor,
+               &specular_color = material[GltfInput::kSpecularColor].factor;
+    const bool keeps_base = material.number(GltfInput::kMetallic) == 0.0;
     SpecGlossTexts texts;
     for (std::size_t c = 0; c < 3; ++c) {
-      // Diffuse of a dielectric is its base color, by the conventions of both.
-      texts.diffuse[c] =
-          read.metallic.value == 0.0 ? read.base_color[c].text : factor_text(diffuse[c], read.base_color[c]);
-      texts.specular[c] = is_factor(specular[c], read.base_color[c])
-                              ? read.base_color[c].text
-                              : factor_text(specular[c], read.specular_color[c]);
+      texts.diffuse[c] = keeps_base ? base[c].text : factor_text(diffuse[c], base[c]);
+      texts.specular[c] =
+          is_factor(specular[c], base[c]) ? base[c].text : factor_text(specular[c], specular_color[c]);
     }
-    texts.diffuse[3] = read.base_color[3].text;
+    texts.diffuse[3] = base[3].text;
     texts.glossiness = float_text(glossiness);
-    if (read.metallic.value == 0.0) texts.diffuse_texture = {read.base_texture, {}};
+    if (keeps_base) texts.diffuse_texture = {material[GltfInput::kBaseColor].texture, {}};
     return texts;
   }
 
+  SpecGlossTexts texts_of_maps(GltfWorkflow workflow, const GltfMaterial& material, const UsedTextures& used,
+                               bool keeps_base) {
+    GltfMaps maps(workflow, material, used);
+    const auto [place, is_new] = made_.try_emplace(maps.key);
+    Made& made = place->second;
+    if (is_new) {
+      const MaterialValues first = converted(converter(workflow), first_values_of(workflow, material, used));
+      made.maps = specgloss_maps(converter(workflow), std::move(maps.sources), first);
+      if (keeps_base) made.maps.diffuse.reset();
+      if (const auto diffuse = std::exchange(made.maps.diffuse, std::nullopt))
+        made.diffuse_image =
+            textures_->add_color(*diffuse, maps.color_model, used.of(GltfInput::kBaseColor), "_diffuse");
+      if (const auto specgloss = std::exchange(made.maps.specgloss, std::nullopt))
+        made.specgloss_image = textures_->add_data(*specgloss, maps.data_model, "_specularGlossiness");
+    }
+    const auto& base = material[GltfInput::kBaseColor].factor;
+    SpecGlossTexts texts;
+    for (std::size_t c = 0; c < 3; ++c) {
+      texts.diffuse[c] = keeps_base ? base[c].text : factor_text(made.maps.diffuse_factors[c], base[c]);
+      texts.specular[c] = factor_text(made.maps.specular[c], base[c]);
+    }
+    texts.diffuse[3] =
+        made.maps.alpha == 1.0f
+            ? base[3].text
+            : float_text(static_cast<float>(base[3].value * static_cast<double>(made.maps.alpha)));
+    texts.glossiness = float_text(made.maps.glossiness);
+    if (made.diffuse_image)
+      texts.diffuse_texture = textures_->text_of(maps.color_model, *made.diffuse_image);
+    else if (keeps_base || made.maps.keeps_color)
+      texts.diffuse_texture = {material[GltfInput::kBaseColor].texture, {}};
+    if (made.specgloss_image)
+      texts.specgloss_texture = textures_->text_of(maps.data_model, *made.specgloss_image);
+    return texts;
+  }
+
+  MaterialTextures* textures_;  // null where no images can be read
   std::unique_ptr<Converter> plain_, dielectric_;
-  std::optional<CoreTextures> textures_;
+  std::map<std::string, Made> made_;  // by GltfMaps::key
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,24 +11,37 @@
 #include "assets/document/asset.hpp"
 #include "assets/gltf/gltf_direction.hpp"
 #include "assets/gltf/gltf_images.hpp"
+#include "assets/gltf/gltf_inputs.hpp"
 #include "assets/gltf/gltf_new_images.hpp"
 #include "assets/maps/texture_bake.hpp"
 #include "remap/model.hpp"
 
 namespace remap {
 
-// The endings of the names of new images.
-inline constexpr std::string_view kBaseSuffix = "_baseColor", kMetalRoughSuffix = "_metallicRoughness";
-
-// A texture of a material, with its name in messages: `specular-glossiness`.
+// A texture of a material.
 struct UsedTexture {
-  std::string_view name;
+  std::string_view member;              // of the material or an extension: `specularGlossinessTexture`
   Transfer transfer = Transfer::kSrgb;  // of its colors
   TextureInfo info;
   AssetImage image;
   std::string bake;  // how its pixels were resampled; empty where they were not
 
   const ImagePixels& pixels() const { return *image.pixels; }
+  // In messages: `specular glossiness`.
+  std::string name() const;
+};
+
+// The textures of a material that vary, on one grid, in the order of its inputs.
+struct UsedTextures {
+  std::vector<UsedTexture> textures;
+
+  // Null for an input without one.
+  const UsedTexture* of(GltfInput input) const;
+  const ImagePixels* pixels_of(GltfInput input) const;
+  // The first that one of the inputs has. At least one has one.
+  const UsedTexture& first_of(std::span<const GltfInput> inputs) const;
+  // Tells apart what the images hold: their indices, and how they were resampled.
+  std::string key() const;
 };
 
 // Why textures must lie on one grid, for messages.
@@ -44,29 +58,34 @@ class MaterialTextures {
                    GltfNewImages& new_images)
       : options_(options), resources_(resources), images_(images), new_images_(new_images) {}
 
-  const GltfImages& images() const noexcept { return images_; }
-  // None without an info. Throws kInput for an image that cannot be read.
-  std::optional<UsedTexture> load(SpanValue texture_info, std::string_view name,
-                                  Transfer transfer = Transfer::kSrgb);
-  // Gives all one size and one grid, as far as the options allow. Throws kInput otherwise.
-  void align(const std::vector<UsedTexture*>& textures, const GridReason& reason,
-             std::vector<std::string>& warnings) const;
+  // Throws kInput for a texture whose index or transform cannot be read.
+  void require_readable(SpanValue texture_info) const {
+    if (texture_info) (void)images_.info_of(texture_info);
+  }
+  // Throws kInput for an image that cannot be read.
+  UsedTexture load(SpanValue texture_info, GltfInput input);
+  // Those of the inputs, with one size and one grid as far as the options allow. Maps of one value become
+  // factors of `material`. Throws kInput otherwise.
+  UsedTextures load(GltfMaterial& material, std::span<const GltfInput> inputs, const GridReason& reason,
+                    std::vector<std::string>& warnings);
 
-  // Returns the number of the new image. Data is PNG. Color may be JPEG, unless it has alpha or comes from a
-  // map of color, `color`, that is none.
-  std::size_t add_color(const ImagePixels& pixels, const UsedTexture& model,
-                        const std::optional<UsedTexture>& color, std::string_view suffix);
+  // Returns the number of the new image. Data is PNG. Color may be JPEG, unless it has alpha or its source,
+  // `color`, is not JPEG.
+  std::size_t add_color(const ImagePixels& pixels, const UsedTexture& model, const UsedTexture* color,
+                        std::string_view suffix);
   std::size_t add_data(const ImagePixels& pixels, const UsedTexture& model, std::string_view suffix);
   // The info of the model with a texture of a new image.
   TextureText text_of(const UsedTexture& model, std::size_t image);
 
  private:
+  void align(std::vector<UsedTexture>& textures, const GridReason& reason,
+             std::vector<std::string>& warnings) const;
   void require_one_grid(const UsedTexture& first, const UsedTexture& other, const GridReason& reason) const;
   int png_level() const { return options_.png_level.value_or(kUsualPngLevel); }
   // Brings textures with different transforms onto the grid of one of them.
-  void bake(const std::vector<UsedTexture*>& textures, const GridReason& reason,
+  void bake(std::vector<UsedTexture>& textures, const GridReason& reason,
             std::vector<std::string>& warnings) const;
-  void enlarge(const std::vector<UsedTexture*>& textures) const;
+  void enlarge(std::vector<UsedTexture>& textures) const;
   void resample(UsedTexture& texture, const TextureGrid& grid) const;
 
   const AssetOptions& options_;
@@ -75,7 +94,7 @@ class MaterialTextures {
   GltfNewImages& new_images_;
 };
 
-// Tells images apart by their indices and how they were resampled.
-std::string texture_key(const std::optional<UsedTexture>& texture);
+// Multiplies the factors of `material` by the first texel of a texture of its inputs.
+void fold_first_texel(const UsedTexture& texture, std::span<const GltfInput> inputs, GltfMaterial& material);
 
 }  // namespace remap

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "assets/maps/specgloss_factors.hpp"
+#include "assets/maps/workflow_values.hpp"
 
 namespace remap {
 

@@ -13,7 +13,7 @@
 #include "assets/document/mtl_document.hpp"
 #include "assets/document/text_encoding.hpp"
 #include "assets/document/text_splices.hpp"
-#include "assets/gltf/specgloss_material.hpp"
+#include "assets/gltf/gltf_inputs.hpp"
 #include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
 #include "assets/mtl/mtl_images.hpp"

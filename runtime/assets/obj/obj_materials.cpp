@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "assets/document/gltf_extensions.hpp"
-#include "assets/gltf/specgloss_material.hpp"
+#include "assets/gltf/gltf_inputs.hpp"
 #include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
 #include "assets/mtl/mtl_asset.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "assets/maps/specgloss_factors.hpp"
+#include "assets/maps/workflow_values.hpp"
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -272,9 +272,10 @@ void plan_assets(const ConvertOptions& options, const std::optional<TreeManifest
   plan.list = asset_jobs(options, manifest ? &manifest->listing : nullptr);
   require_gltf(options, plan.list);
   plan.work = asset_options(options);
-  plan.conversion = conversion_note("assets", options.to.name, "",
-                                    *specgloss_projection(options.prior, options.instructions),
-                                    result_options_text(options));
+  plan.conversion =
+      conversion_note("assets", options.to.name, "",
+                      *asset_converter("gltf-specgloss", "gltf", options.prior, options.instructions),
+                      result_options_text(options));
 }
 
 // Whether the run converts assets; refuses options of assets where it does not.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "check/color_issue.hpp"
 #include "command_line/interruption.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -157,13 +158,32 @@ class SetWorker final : public JobWorker {
   JournalLookup journals_;  // of the inputs
 };
 
+// Says which colors `check` would report.
+void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport& report) {
+  constexpr std::array kColors = {std::pair(Parameter::kSpecular, Role::kSpecular),
+                                  std::pair(Parameter::kDiffuse, Role::kDiffuse),
+                                  std::pair(Parameter::kBaseColor, Role::kBaseColor)};
+  for (const auto& [parameter, role] : kColors) {
+    const SetParameter* const map = set.map_of(parameter);
+    if (map == nullptr) continue;
+    const auto issue = color_issue(role, map->transfer, sample.rows.at(parameter));
+    if (!issue) continue;
+    std::string text = set.maps[map->channels.front().map].path().string() + ": " + plain_name(parameter) +
+                       ", read as " + std::string(name_of(kTransfers, map->transfer)) + ", " + issue->text;
+    if (issue->transfer)
+      text += " (use --color-space " + plain_name(parameter) + "=" +
+              std::string(name_of(kTransfers, *issue->transfer)) + " in that case)";
+    report.warnings.push_back(text);
+  }
+}
+
 // Samples the maps of a workflow and notes warnings. Returns a converter for this set alone if its dielectric
 // F0 is to be estimated from the maps.
 std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report) const {
   const WorkflowChoice& workflow = chosen_.workflow;
   if (!workflow.is_material()) return nullptr;
   const MaterialSample sample = sample_materials(set);
-  for (std::string& issue : issues_in(sample, set)) report.warnings.push_back(std::move(issue));
+  note_colors(sample, set, report);
   if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
   WorkflowStages stages = stages_of(chosen_.workflow, chosen_.brdf);
   const RoughnessEncoding width = set.convention.value_or(chosen_.info().source.roughness);

@@ -119,6 +119,21 @@ TEST_CASE("rules: greys of metallic count over areas, not at edges") {
         }) == Names{"metallic-greys"});
 }
 
+TEST_CASE("rules: a specular color in another color space, and none at all") {
+  const auto specular = [](Value value, const std::vector<MaterialUse>& others = {}) {
+    std::vector<MaterialUse> uses = others;
+    uses.push_back(use_of(Role::kSpecular));
+    return found(set_of({{map_of("a_Specular.png", {value, value, value}), uses}}));
+  };
+  const Value stored = [](double, double y) { return y < 0.9 ? 0.2195 : 0.9; };  // F0 0.04 in sRGB
+  const Value linear = [](double, double y) { return y < 0.9 ? 0.04 : 0.9; };
+  CHECK(specular(stored) == Names{});
+  CHECK(specular(linear) == Names{"specular-color"});
+  CHECK(specular([](double, double) { return 0.0; }) == Names{"specular-color"});
+  CHECK(specular([](double, double) { return 1.0; }) == Names{"specular-color"});
+  CHECK(specular(linear, {use_of(Role::kMetallic, Channels::kRed)}) == Names{});  // a level, not F0
+}
+
 TEST_CASE("rules: metallic in another channel than the name says") {
   const Value binary = [](double x, double y) {
     return std::sin(8.0 * x) * std::sin(6.0 * y) > 0.3 ? 1.0 : 0.0;

@@ -234,7 +234,7 @@ TEST_CASE("Maps of core that do not lie on one grid are named", "[assets]") {
       {random_pixels(3, 1), random_pixels(3, 2)},
       core_textured(R"("baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1,"texCoord":1})"));
   CHECK(failures_of(bytes, specgloss_target()).front() ==
-        "its base color texture lies on TEXCOORD_0, its metallic-roughness texture on TEXCOORD_1, and both "
+        "its base color texture lies on TEXCOORD_0, its metallic roughness texture on TEXCOORD_1, and both "
         "decide "
         "on specular color (bake them onto one in a modeller)");
 }
@@ -519,7 +519,7 @@ TEST_CASE("Maps with different transforms are converted on request", "[assets]")
                R"("KHR_texture_transform":{"offset":[0.5,0]}}})"));
   CHECK(
       failures_of(bytes).front() ==
-      "its diffuse and specular-glossiness textures have different KHR_texture_transform, and both decide on "
+      "its diffuse and specular glossiness textures have different KHR_texture_transform, and both decide on "
       "metallic (use --bake, or --profile extensions)");
   AssetOptions options = kCoreProfile;
   options.bakes = true;

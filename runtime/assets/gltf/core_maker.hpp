@@ -1,0 +1,60 @@
+// Materials of any workflow become core glTF: as factors, or as images, each set of them once.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/gltf/gltf_direction.hpp"
+#include "assets/gltf/gltf_workflow.hpp"
+
+namespace remap {
+
+// JSON of a material in core glTF, with KHR_materials_specular in the exact form.
+struct CoreTexts {
+  std::array<std::string, 4> base_color;
+  std::string metallic, roughness;
+  TextureText base_texture, metal_rough_texture;
+  TextureText specular_texture;
+  bool has_metal = false;  // whether metallic is above 0 anywhere
+  double residual = 0.0;   // Parameter::kResidual; of maps the root of its mean square
+};
+
+// All members of pbrMetallicRoughness.
+std::vector<MemberText> core_members(const CoreTexts& texts);
+// `base color map times 1 1 1, metallic 0, roughness 1`. `kept`: what it calls the map that it keeps.
+std::string core_summary(const CoreTexts& texts, const std::string& kept);
+
+class CoreMaker {
+ public:
+  // `parts` must outlive it.
+  CoreMaker(const DirectionParts& parts, GltfWorkflow workflow, GridReason reason)
+      : textures_(parts.textures),
+        workflow_(workflow),
+        reason_(reason),
+        converter_(converter_of(workflow, "gltf", parts.options)) {}
+
+  // Constant maps become factors of `material`. Throws kInput for maps that cannot be read or do not lie on
+  // one grid.
+  CoreTexts convert(GltfMaterial& material, AssetMaterial& report);
+
+ private:
+  // What became of a set of images, with the numbers of new ones; the pixels are gone.
+  struct Made {
+    MetalRoughMaps maps;
+    std::optional<std::size_t> base_image, metal_rough_image;
+  };
+
+  CoreTexts of_factors(const GltfMaterial& material, AssetMaterial& report) const;
+  CoreTexts of_maps(const GltfMaterial& material, const UsedTextures& used);
+
+  MaterialTextures* textures_;  // null where no images can be read
+  GltfWorkflow workflow_;
+  GridReason reason_;
+  std::unique_ptr<Converter> converter_;
+  std::map<std::string, Made> made_;  // by GltfMaps::key
+};
+
+}  // namespace remap

@@ -1,0 +1,60 @@
+// Maps of glTF materials, made from maps of another workflow.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "assets/document/image_codec.hpp"
+#include "assets/document/material_values.hpp"
+#include "remap/convert_maps.hpp"
+#include "remap/converter.hpp"
+
+namespace remap {
+
+// The maps that a conversion comes from, of one size. At least one is given.
+struct MapSources {
+  MapConversion conversion;            // with its sources and their encoding of roughness
+  const ImagePixels* color = nullptr;  // diffuse or base color, in sRGB; null for none
+  std::array<double, 3> color_factors = {1.0, 1.0, 1.0};
+  const ImagePixels* color_model = nullptr;  // size and type of the results
+  const ImagePixels* data_model = nullptr;
+};
+
+// Maps of core glTF.
+struct MetalRoughMaps {
+  // sRGB, with the alpha of the map of color; none where base color is that map times its factor within
+  // 1/255.
+  std::optional<ImagePixels> base_color;
+  std::optional<ImagePixels> metal_rough;   // as glTF packs them; none where both are constant
+  float metallic = 1.0f, roughness = 1.0f;  // factors
+  bool has_metal = false;                   // whether metallic is above 0 anywhere
+  double residual = 0.0;                    // root of the mean square of Parameter::kResidual, of a sample
+};
+
+MetalRoughMaps metal_rough_maps(const Converter& converter, MapSources sources);
+
+// Maps of KHR_materials_pbrSpecularGlossiness.
+struct SpecGlossMaps {
+  // sRGB, with the alpha of the map of color. None where diffuse is a factor, or the map of color times one.
+  std::optional<ImagePixels> diffuse;
+  bool keeps_color = false;  // diffuse is the map of color times `diffuse_factors`
+  float alpha = 1.0f;        // of a map of color that a factor replaces
+  std::array<float, 3> diffuse_factors = {1.0f, 1.0f, 1.0f};
+  std::optional<ImagePixels> specgloss;  // specular in sRGB, glossiness as alpha; none where both are factors
+  std::array<float, 3> specular = {1.0f, 1.0f, 1.0f};
+  float glossiness = 1.0f;
+};
+
+// `first`: the converted material of the first texel, from which constant results take their factors.
+SpecGlossMaps specgloss_maps(const Converter& converter, MapSources sources, const MaterialValues& first);
+
+// Roughness as green, of the glossiness in alpha times its factor.
+ImagePixels roughness_map(const ImagePixels& specgloss, double glossiness);
+
+// The F0 of dielectrics (KHR_materials_specular, _ior): min(1, `most` * color) * factor * alpha of
+// `specular`. `most` is the F0 of the index times the factor of the color, which is sRGB. One map may be
+// null. Three channels of linear floats, because no converter multiplies two maps with a limit between.
+ImagePixels f0_map(const ImagePixels* specular, double specular_factor, const ImagePixels* color,
+                   const std::array<double, 3>& most);
+
+}  // namespace remap
