@@ -280,6 +280,11 @@ std::vector<Fault> faults() {
           s.map("in/x.png", normals(false));
           s.gltf(kBaseTexture, {"x.png"});
         }},
+       {"specular-color", "a set", Help::kWords, "in",
+        [](S s) {
+          const auto linear = [](double, double y) { return y < 0.9 ? 0.04 : 0.9; };
+          s.map("in/a_Specular.png", {linear, linear, linear});
+        }},
        {"constant-map", "a set", Help::kWords, "in", [](S s) { s.map("in/a_Roughness.png", {flat(0.5)}); }},
        {"constant-map", "an asset", Help::kWords, "in/a.gltf",
         [](S s) {
