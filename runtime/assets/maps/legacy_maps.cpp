@@ -1,27 +1,21 @@
 #include "assets/maps/legacy_maps.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "assets/maps/gltf_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
+#include "remap/convert_maps.hpp"
 #include "remap/pixels.hpp"
+#include "stages/stage.hpp"
 
 namespace remap {
 namespace {
 
-constexpr float kStepOf8Bits = 1.0f / 255.0f;
-
 using FloatRow = std::vector<float>;
-using ColorRow = std::array<FloatRow, 3>;
-
-ColorRow color_row(std::size_t width) {
-  ColorRow row;
-  row.fill(FloatRow(width));
-  return row;
-}
-
 void load_channel(const ImagePixels& pixels, std::size_t channel, std::size_t y, float* values) {
   const std::size_t texel = pixels.texel_bytes();
   load_values(pixels.type, pixels.bytes.data() + y * pixels.width * texel + channel * byte_count(pixels.type),
@@ -35,180 +29,152 @@ void store_channel(ImagePixels& pixels, std::size_t channel, std::size_t y, cons
                      texel);
 }
 
-// Linear colors of a map times their factors; without a map the factors.
-void load_color(const ImagePixels* pixels, const std::array<double, 3>& factors, std::size_t y,
-                ColorRow& row) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto factor = static_cast<float>(factors[c]);
-    std::ranges::fill(row[c], 1.0f);
-    if (pixels != nullptr) {
-      load_channel(*pixels, pixels->is_grey() ? 0 : c, y, row[c].data());
-      to_linear(Transfer::kSrgb, row[c]);
-    }
-    for (float& value : row[c]) value *= factor;
-  }
-}
-
-struct ValueRange {
-  float least = 1.0f, most = 0.0f;
-  void add(const FloatRow& row) {
-    const auto [low, high] = std::ranges::minmax(row);
-    least = std::min(least, low);
-    most = std::max(most, high);
-  }
-  bool is_constant() const { return most - least < kStepOf8Bits; }
-  float middle() const { return least + (most - least) / 2.0f; }
-};
-
-class LegacyMapPass {
+// Diffuse, specular and an exponent become base color, metallic and roughness; of a dielectric F0 as well.
+class LegacyStage final : public Stage {
  public:
-  explicit LegacyMapPass(const LegacyMaps& maps)
-      : maps_(maps),
-        color_(maps.diffuse != nullptr    ? *maps.diffuse
-               : maps.specular != nullptr ? *maps.specular
-                                          : *maps.exponent),
-        width_(color_.width),
-        base_(blank_like(color_, 3)),
-        data_(blank_like(color_, 3)),
-        specular_(blank_like(color_, maps.as_dielectric ? 4 : 0)),
-        diffuse_row_(color_row(width_)),
-        specular_row_(color_row(width_)),
-        base_row_(color_row(width_)),
-        tint_row_(color_row(width_)),
-        exponent_row_(width_),
-        metallic_row_(width_),
-        roughness_row_(width_),
-        strength_row_(width_) {
-    // The specular map may be of any strength; eight bits of alpha hold shares of the strongest.
-    LegacyMaterial strongest = maps.factors;
-    if (maps.exponent != nullptr) strongest.exponent = LegacyMaterial::kLeastExponent;
-    if (maps.as_dielectric) largest_ = dielectric_of_legacy(strongest).specular;
-  }
+  explicit LegacyStage(bool as_dielectric) : as_dielectric_(as_dielectric) {}
 
-  LegacyMapResult run() {
-    if (maps_.as_dielectric) find_largest();
-    for (std::size_t y = 0; y < color_.height; ++y) {
-      load(y);
-      convert();
-      store(y);
+  std::size_t run(Block& block, std::uint8_t*) const override {
+    const auto diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
+    const float* const exponent = block.row(Parameter::kRoughness);
+    const auto base = block.make_color(Parameter::kBaseColor), f0 = block.make_color(Parameter::kSpecular);
+    float* const metallic = block.make(Parameter::kMetallic);
+    float* const roughness = block.make(Parameter::kRoughness);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      LegacyMaterial material;
+      for (std::size_t c = 0; c < 3; ++c) {
+        material.diffuse[c] = static_cast<double>(diffuse[c][i]);
+        material.specular[c] = static_cast<double>(specular[c][i]);
+      }
+      material.exponent = static_cast<double>(exponent[i]);
+      if (as_dielectric_) {
+        const LegacyDielectric result = dielectric_of_legacy(material);
+        for (std::size_t c = 0; c < 3; ++c) {
+          base[c][i] = static_cast<float>(result.base_color[c]);
+          f0[c][i] = static_cast<float>(result.specular * result.specular_color[c]);
+        }
+        metallic[i] = 0.0f;
+        roughness[i] = static_cast<float>(result.roughness);
+      } else {
+        const MetalRoughFactors result = core_of_legacy(material);
+        for (std::size_t c = 0; c < 3; ++c) base[c][i] = result.base_color[c];
+        metallic[i] = result.metallic;
+        roughness[i] = result.roughness;
+      }
     }
-    return result();
+    return 0;
   }
 
  private:
-  void load(std::size_t y) {
-    load_color(maps_.diffuse, maps_.factors.diffuse, y, diffuse_row_);
-    load_color(maps_.specular, maps_.factors.specular, y, specular_row_);
-    std::ranges::fill(exponent_row_, 1.0f);
-    if (maps_.exponent != nullptr)
-      load_scalar_row(*maps_.exponent, maps_.exponent_channel, y, exponent_row_.data());
-  }
-
-  LegacyMaterial material_at(std::size_t x) const {
-    LegacyMaterial material;
-    for (std::size_t c = 0; c < 3; ++c) {
-      material.diffuse[c] = static_cast<double>(diffuse_row_[c][x]);
-      material.specular[c] = static_cast<double>(specular_row_[c][x]);
-    }
-    material.exponent = maps_.factors.exponent * static_cast<double>(exponent_row_[x]);
-    return material;
-  }
-
-  void find_largest() {
-    double largest = 0.0;
-    for (std::size_t y = 0; y < color_.height && largest < largest_; ++y) {
-      load(y);
-      for (std::size_t x = 0; x < width_; ++x)
-        largest = std::max(largest, dielectric_of_legacy(material_at(x)).specular);
-    }
-    largest_ = std::min(largest, largest_);
-  }
-
-  void convert() {
-    for (std::size_t x = 0; x < width_; ++x) {
-      if (maps_.as_dielectric) {
-        const LegacyDielectric result = dielectric_of_legacy(material_at(x));
-        for (std::size_t c = 0; c < 3; ++c) {
-          base_row_[c][x] = static_cast<float>(result.base_color[c]);
-          tint_row_[c][x] = static_cast<float>(result.specular_color[c]);
-        }
-        strength_row_[x] = largest_ > 0.0 ? static_cast<float>(result.specular / largest_) : 0.0f;
-        roughness_row_[x] = static_cast<float>(result.roughness);
-      } else {
-        const MetalRoughFactors result = core_of_legacy(material_at(x));
-        for (std::size_t c = 0; c < 3; ++c) base_row_[c][x] = result.base_color[c];
-        metallic_row_[x] = result.metallic;
-        roughness_row_[x] = result.roughness;
-      }
-    }
-  }
-
-  void store(std::size_t y) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      from_linear(Transfer::kSrgb, base_row_[c]);
-      base_range_[c].add(base_row_[c]);
-      from_linear(Transfer::kSrgb, diffuse_row_[c]);
-      for (std::size_t x = 0; x < width_; ++x)
-        farthest_ = std::max(farthest_, std::fabs(base_row_[c][x] - diffuse_row_[c][x]));
-      store_channel(base_, c, y, base_row_[c].data());
-      if (maps_.as_dielectric) {
-        from_linear(Transfer::kSrgb, tint_row_[c]);
-        store_channel(specular_, c, y, tint_row_[c].data());
-      }
-    }
-    roughness_range_.add(roughness_row_);
-    metallic_range_.add(metallic_row_);
-    store_channel(data_, 1, y, roughness_row_.data());
-    store_channel(data_, 2, y, metallic_row_.data());
-    if (maps_.as_dielectric) store_channel(specular_, 3, y, strength_row_.data());
-  }
-
-  // Turns a channel that hardly varies into a factor, and fills it.
-  static double collapsed(const ValueRange& range, ImagePixels& pixels, std::size_t channel) {
-    const FloatRow full(pixels.width, 1.0f);
-    for (std::size_t y = 0; y < pixels.height; ++y) store_channel(pixels, channel, y, full.data());
-    return static_cast<double>(range.middle());
-  }
-
-  LegacyMapResult result() {
-    LegacyMapResult result;
-    result.specular_factor = largest_;
-    result.keeps_diffuse = maps_.diffuse != nullptr && farthest_ <= kStepOf8Bits;
-    const bool is_base_constant = std::ranges::all_of(base_range_, &ValueRange::is_constant);
-    if (result.keeps_diffuse)
-      result.base = maps_.factors.diffuse;
-    else if (is_base_constant)
-      for (std::size_t c = 0; c < 3; ++c)
-        result.base[c] = static_cast<double>(linear_of_srgb(base_range_[c].middle()));
-    else
-      result.base_color = std::move(base_);
-    const bool is_rough = roughness_range_.is_constant(), is_metal = metallic_range_.is_constant();
-    if (is_rough) result.roughness = collapsed(roughness_range_, data_, 1);
-    if (is_metal) result.metallic = collapsed(metallic_range_, data_, 2);
-    if (!is_rough || !is_metal) result.metal_rough = std::move(data_);
-    const bool is_specular_constant = maps_.specular == nullptr && maps_.exponent == nullptr;
-    if (maps_.as_dielectric && is_specular_constant)
-      result.specular_color = dielectric_of_legacy(maps_.factors).specular_color;
-    else if (maps_.as_dielectric)
-      result.specular = std::move(specular_);
-    return result;
-  }
-
-  const LegacyMaps& maps_;
-  const ImagePixels& color_;  // whose size and type the results have
-  std::size_t width_;
-  ImagePixels base_, data_, specular_;
-  ColorRow diffuse_row_, specular_row_, base_row_, tint_row_;
-  FloatRow exponent_row_, metallic_row_, roughness_row_, strength_row_;
-  std::array<ValueRange, 3> base_range_;  // as stored
-  ValueRange metallic_range_, roughness_range_;
-  float farthest_ = 0.0f;  // of base color from the diffuse map, as stored
-  double largest_ = 0.0;   // specular of a dielectric
+  bool as_dielectric_;
 };
+
+Converter legacy_converter(bool as_dielectric) {
+  ConverterInfo info;
+  info.source.roughness = RoughnessEncoding::kExponent;
+  info.target.roughness = RoughnessEncoding::kRoughness;
+  std::vector<Parameter> targets = {Parameter::kRoughness, Parameter::kBaseColor, Parameter::kMetallic};
+  if (as_dielectric) targets.insert(targets.begin() + 1, Parameter::kSpecular);
+  return {std::move(info),
+          {Parameter::kRoughness, Parameter::kSpecular, Parameter::kDiffuse},
+          std::move(targets),
+          {std::make_shared<LegacyStage>(as_dielectric)}};
+}
+
+// The channel of a map that holds the exponent, as floats.
+ImagePixels exponents_of(const LegacyMaps& maps) {
+  ImagePixels result{maps.exponent->width, maps.exponent->height, 1, PixelType::kFloat, {}};
+  result.bytes.resize(result.width * result.height * sizeof(float));
+  set_channel(result, 0, *maps.exponent, maps.exponent_channel);
+  return result;
+}
+
+// KHR_materials_specular of an F0: its largest channel as a share of the largest of all texels in alpha, and
+// the rest as a color in sRGB.
+void settle_specular(const ImagePixels& f0, PixelType type, LegacyMapResult& result) {
+  const std::size_t texels = f0.width * f0.height;
+  std::vector<float> values(3 * texels), tints(texels);
+  load_values(f0.type, f0.bytes.data(), sizeof(float), values.size(), values.data());
+  const float largest = *std::ranges::max_element(values);
+  ImagePixels pixels{f0.width, f0.height, 4, type, {}};
+  pixels.bytes.resize(texels * pixels.texel_bytes());
+  const auto store = [&](std::size_t channel) {
+    (void)store_values(type, tints.data(), texels, pixels.bytes.data() + channel * byte_count(type),
+                       pixels.texel_bytes());
+  };
+  const auto strength = [&](std::size_t i) {
+    return std::max({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < texels; ++i)
+      tints[i] = strength(i) > 0.0f ? values[3 * i + c] / strength(i) : 1.0f;
+    from_linear(Transfer::kSrgb, tints);
+    store(c);
+  }
+  for (std::size_t i = 0; i < texels; ++i) tints[i] = largest > 0.0f ? strength(i) / largest : 0.0f;
+  store(3);
+  result.specular_factor = static_cast<double>(largest);
+  result.specular = std::move(pixels);
+}
+
+// A base color that hardly varies becomes a factor.
+void settle_base(const LegacyMaps& maps, std::optional<ImagePixels> base, LegacyMapResult& result) {
+  result.keeps_diffuse = !base;
+  if (!base) {
+    result.base = maps.factors.diffuse;
+  } else if (hardly_varies(*base, 0) && hardly_varies(*base, 1) && hardly_varies(*base, 2)) {
+    const std::array<float, 4> texel = first_texel(*base);
+    for (std::size_t c = 0; c < 3; ++c) result.base[c] = static_cast<double>(linear_of_srgb(texel[c]));
+  } else {
+    result.base_color = std::move(base);
+  }
+}
 
 }  // namespace
 
-LegacyMapResult converted_maps(const LegacyMaps& maps) { return LegacyMapPass(maps).run(); }
+LegacyMapResult converted_maps(const LegacyMaps& maps) {
+  const ImagePixels& model = maps.diffuse != nullptr    ? *maps.diffuse
+                             : maps.specular != nullptr ? *maps.specular
+                                                        : *maps.exponent;
+  ImagePixels opaque, exponents, f0;
+  MapSources sources;
+  sources.color_model = sources.data_model = &model;
+  sources.color = maps.diffuse;
+  sources.color_factors = maps.factors.diffuse;
+  if (maps.diffuse != nullptr && maps.diffuse->has_alpha()) {
+    opaque = with_alpha(maps.diffuse, nullptr, 'l');
+    sources.color = &opaque;
+  }
+  MapConversion& conversion = sources.conversion;
+  conversion.source_convention = RoughnessEncoding::kExponent;
+  conversion.sources[Parameter::kDiffuse] = color_source(sources.color, maps.factors.diffuse, "diffuse");
+  conversion.sources[Parameter::kSpecular] = color_source(maps.specular, maps.factors.specular, "specular");
+  if (maps.exponent != nullptr) exponents = exponents_of(maps);
+  conversion.sources[Parameter::kRoughness] =
+      value_source(maps.exponent != nullptr ? &exponents : nullptr, 0, maps.factors.exponent, "exponent");
+  if (maps.as_dielectric) {
+    f0 = ImagePixels{model.width, model.height, 3, PixelType::kFloat, {}};
+    f0.bytes.resize(f0.width * f0.height * f0.texel_bytes());
+    conversion.targets[Parameter::kSpecular] = color_target(f0);
+    conversion.targets[Parameter::kSpecular].transfer = Transfer::kLinear;
+  }
+  MetalRoughMaps made = metal_rough_maps(legacy_converter(maps.as_dielectric), std::move(sources));
+
+  LegacyMapResult result;
+  settle_base(maps, std::move(made.base_color), result);
+  result.metal_rough = std::move(made.metal_rough);
+  result.metallic = static_cast<double>(made.metallic);
+  result.roughness = static_cast<double>(made.roughness);
+  if (!maps.as_dielectric) return result;
+  if (maps.specular != nullptr || maps.exponent != nullptr) {
+    settle_specular(f0, model.type, result);
+  } else {
+    const LegacyDielectric dielectric = dielectric_of_legacy(maps.factors);
+    result.specular_factor = dielectric.specular;
+    result.specular_color = dielectric.specular_color;
+  }
+  return result;
+}
 
 ImagePixels channel_of(const ImagePixels& pixels, std::size_t channel) {
   ImagePixels grey{pixels.width, pixels.height, 1, pixels.type, {}};
