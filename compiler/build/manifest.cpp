@@ -145,21 +145,21 @@ void read_accepted(const Field& list, std::vector<ManifestItem>* items) {
   });
 }
 
-void require_unique(const std::vector<ManifestItem>& items, const std::string& place) {
+void require_unique(const std::vector<ManifestItem>& items, const std::string& context) {
   std::vector<std::string> ids;
   for (const ManifestItem& item : items) ids.push_back(item.id);
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end()) throw input_error(place + ": " + *twice + " is defined twice");
+  if (twice != ids.end()) throw input_error(context + ": " + *twice + " is defined twice");
   for (const std::string& id : ids)
-    if (!is_valid_id(id)) throw input_error(place + ": id \"" + id + "\" is not " + kIdRule);
+    if (!is_valid_id(id)) throw input_error(context + ": id \"" + id + "\" is not " + kIdRule);
 }
 
 }  // namespace
 
-Manifest manifest_from_json(std::string_view text, const std::string& place) {
-  const Json json = parse_json(text, place);
-  const Field root(json, place);
+Manifest manifest_from_json(std::string_view text, const std::string& context) {
+  const Json json = parse_json(text, context);
+  const Field root(json, context);
   root["format"].require(root["format"].text() == "remap-manifest", "\"remap-manifest\"");
   root["version"].require(root["version"].count() == kManifestVersion,
                           "version " + std::to_string(kManifestVersion));
@@ -190,7 +190,7 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
   if (json.contains("networks"))
     each("networks", [&](const Field& entry) { read_network_item(entry, &items); });
   if (json.contains("accepted_light")) read_accepted(root["accepted_light"], &items);
-  require_unique(items, place);
+  require_unique(items, context);
   return manifest;
 }
 

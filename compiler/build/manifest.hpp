@@ -70,10 +70,10 @@ struct Manifest {
   std::vector<ManifestItem> items;
 };
 
-// Reads the text of a manifest. Throws kInput, opened by `place`, for text that is not a manifest of version
-// kManifestVersion, an id that is defined twice or is not an identifier, and an inverse or chain of an
-// unknown item.
-Manifest manifest_from_json(std::string_view text, const std::string& place);
+// Reads the text of a manifest. Throws kInput, opened by `context`, for text that is not a manifest of
+// version kManifestVersion, an id that is defined twice or is not an identifier, and an inverse or chain of
+// an unknown item.
+Manifest manifest_from_json(std::string_view text, const std::string& context);
 
 // Loads the manifest of a folder, whose path is the place. Throws kInput if it has none, too.
 Manifest load_manifest(const std::filesystem::path& fit_folder);

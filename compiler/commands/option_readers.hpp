@@ -28,7 +28,7 @@ struct ParameterSetting {
   ParameterSetting(const std::string& option, const std::string& word);
   [[noreturn]] void fail(const std::string& reason) const;  // throws kUsage
 
-  std::string place;  // option and word, for messages
+  std::string context;  // option and word, for messages
   std::string name;
   std::vector<double> values;
 };

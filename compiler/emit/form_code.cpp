@@ -30,7 +30,7 @@ std::string form_code(const ConverterData& converter) {
   const ConverterInfo& info = converter.info;
   const FormEnds ends = ends_of(info.source.roughness, info.target.roughness, info.roughness);
   const std::string to_alpha = code_of(alpha_of(info.source.roughness, "own")),
-                    from_alpha = code_of(own_of(info.target.roughness, "alpha"));
+                    from_alpha = code_of(native_of(info.target.roughness, "alpha"));
   const bool is_limited = form.alpha_limit || form.specular_limit;
   return fill_template(
       code_file("form"),

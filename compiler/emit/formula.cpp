@@ -96,7 +96,7 @@ Expression alpha_of(RoughnessEncoding convention, const std::string& parameter) 
   return own;
 }
 
-Expression own_of(RoughnessEncoding convention, const std::string& parameter) {
+Expression native_of(RoughnessEncoding convention, const std::string& parameter) {
   const Expression alpha = name(parameter);
   switch (convention) {
     case RoughnessEncoding::kAlpha:
@@ -163,7 +163,7 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
   if (form.alpha_limit) alpha_out = least(std::move(alpha_out), number(*form.alpha_limit));
   if (info.target.roughness != RoughnessEncoding::kAlpha) {
     add("target", std::move(alpha_out));
-    alpha_out = own_of(info.target.roughness, "target");
+    alpha_out = native_of(info.target.roughness, "target");
   }
   add("width_out", std::move(alpha_out));
   add_color("s", most(name("specular"), number(0.0f)));

@@ -33,7 +33,7 @@ std::vector<Statement> formula_of(const ConverterData& converter);
 
 // Alpha of a model's own width parameter, and the parameter of alpha (runtime/include/remap/converter.hpp).
 Expression alpha_of(RoughnessEncoding convention, const std::string& parameter);
-Expression own_of(RoughnessEncoding convention, const std::string& parameter);
+Expression native_of(RoughnessEncoding convention, const std::string& parameter);
 
 // The factors of a form (converter/compact_form.hpp) as expressions of `alpha` and `t`. Every evaluator has
 // this order of operations.

@@ -88,7 +88,7 @@ Halves& halves(unsigned jobs) {
 using Picture = std::vector<float>;
 
 // A material of the source under each light: display values under environments, linear ones under points.
-struct Shown {
+struct MaterialPictures {
   MappedTexel source;
   std::vector<Picture> pictures;
   std::vector<double> power;  // of the linear ones: their sum of squares
@@ -100,7 +100,7 @@ class Judge {
         const std::vector<MappedTexel>& materials)
       : lights_(lights), target_(target) {
     for (const MappedTexel& material : materials) {
-      Shown& shown = shown_.emplace_back();
+      MaterialPictures& shown = shown_.emplace_back();
       shown.source = material;
       for (std::size_t light = 0; light < lights.count(); ++light) {
         Picture picture = picture_of(source, light, material);
@@ -113,10 +113,10 @@ class Judge {
     }
   }
 
-  const std::vector<Shown>& shown() const { return shown_; }
+  const std::vector<MaterialPictures>& shown() const { return shown_; }
 
   // The error under a light, in percent or relative, with its slopes where `error` is not null.
-  double error_under(std::size_t light, const Shown& shown, const MappedTexel& texel, double unit,
+  double error_under(std::size_t light, const MaterialPictures& shown, const MappedTexel& texel, double unit,
                      TexelError* sum) const {
     const bool is_environment = light < lights_.environment_count();
     const Picture here = picture_of(target_, light, texel);
@@ -169,7 +169,7 @@ class Judge {
 
   const StudyLights& lights_;
   const LobePictures& target_;
-  std::vector<Shown> shown_;
+  std::vector<MaterialPictures> shown_;
 };
 
 // Every other width, and speculars of its own, for each half.
@@ -192,7 +192,7 @@ class BuiltinPair final : public PairPictures {
                   halves(jobs).choosing.of(target), materials(source, domain, true, kChoosingSpeculars)),
         judging_(halves(jobs).judging.lights(), halves(jobs).judging.of(source),
                  halves(jobs).judging.of(target), materials(source, domain, false, kJudgingSpeculars)) {
-    for (const Shown& shown : choosing_.shown()) sources_.push_back(shown.source);
+    for (const MaterialPictures& shown : choosing_.shown()) sources_.push_back(shown.source);
   }
 
   const std::vector<MappedTexel>& sources() const override { return sources_; }
@@ -219,7 +219,7 @@ class BuiltinPair final : public PairPictures {
  private:
   static PictureErrors means(const Judge& judge, const TexelMap& map) {
     PictureErrors errors;
-    for (const Shown& shown : judge.shown()) {
+    for (const MaterialPictures& shown : judge.shown()) {
       const MappedTexel target = map(shown.source.alpha, shown.source.specular);
       for (std::size_t light = 0; light < judge.lights(); ++light)
         (light < judge.environments() ? errors.rmse : errors.relative) +=

@@ -18,20 +18,20 @@ namespace remap {
 std::string fit_to_json(const Fit& fit);
 std::string fit_to_json(const WorkflowFit& fit);
 
-// The fit of alpha and specular in `json`. Messages begin with `place`, a file name. Throws kInput for
+// The fit of alpha and specular in `json`. Messages begin with `context`, a file name. Throws kInput for
 // invalid JSON, another format version, a missing or mistyped field, an unknown kind, an invalid id, an empty
 // domain, a coefficient that is not finite, and for a fit of whole materials.
-Fit fit_from_json(std::string_view json, const std::string& place);
+Fit fit_from_json(std::string_view json, const std::string& context);
 
 // The same for a file. Throws kInput if it cannot be read.
 Fit load_fit(const std::filesystem::path& path);
 
 // The same for fits of all types.
-AnyFit any_fit_from_json(std::string_view json, const std::string& place);
+AnyFit any_fit_from_json(std::string_view json, const std::string& context);
 AnyFit load_any_fit(const std::filesystem::path& path);
 
-// The fit if it is one of alpha and specular. Throws an error of `kind`, which begins with `place`, for a fit
-// of whole materials.
-const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& place);
+// The fit if it is one of alpha and specular. Throws an error of `kind`, which begins with `context`, for a
+// fit of whole materials.
+const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& context);
 
 }  // namespace remap

@@ -311,9 +311,9 @@ Fit read_fit(const Field& root) {
   return fit;
 }
 
-AnyFit any_fit_from_json(std::string_view text, const std::string& place) {
-  const Json json = parse_json(text, place);
-  const Field root(json, place);
+AnyFit any_fit_from_json(std::string_view text, const std::string& context) {
+  const Json json = parse_json(text, context);
+  const Field root(json, context);
   require_fit_file(root);
   if (!is_of_materials(root)) return read_fit(root);
   if (root["mapping"]["kind"].text() == kWarpKind) return read_warp_fit(root);
@@ -324,15 +324,15 @@ AnyFit load_any_fit(const std::filesystem::path& path) {
   return any_fit_from_json(read_file(path), path.string());
 }
 
-const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& place) {
+const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& context) {
   if (const Fit* found = std::get_if<Fit>(&fit)) return *found;
-  throw Error(kind, place +
+  throw Error(kind, context +
                         ": converts whole materials, but this needs a fit of roughness and specular "
                         "(fits of materials can be listed, shown and emitted)");
 }
 
-Fit fit_from_json(std::string_view text, const std::string& place) {
-  return require_width_and_specular(any_fit_from_json(text, place), ErrorKind::kInput, place);
+Fit fit_from_json(std::string_view text, const std::string& context) {
+  return require_width_and_specular(any_fit_from_json(text, context), ErrorKind::kInput, context);
 }
 
 Fit load_fit(const std::filesystem::path& path) { return fit_from_json(read_file(path), path.string()); }

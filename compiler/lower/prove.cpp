@@ -45,10 +45,10 @@ Verdict verdict(const TexelTaylor& error, const Box& box) {
   return {bound, at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};
 }
 
-struct Judged {
+struct JudgedBox {
   Verdict verdict;
   Box box;
-  bool operator<(const Judged& other) const { return verdict.bound < other.verdict.bound; }
+  bool operator<(const JudgedBox& other) const { return verdict.bound < other.verdict.bound; }
 };
 
 // Initial boxes.
@@ -85,7 +85,7 @@ std::array<Box, 2> halves(const Box& box, bool halve_alpha) {
 // Halves the worst box until the worst bound is at most `target`, the budget is spent, or the target turns
 // out to be unreachable.
 double proven_bound(const TexelFunction& error, const Domain& domain, double target, std::size_t budget) {
-  std::priority_queue<Judged> queue;
+  std::priority_queue<JudgedBox> queue;
   double at_least = -INFINITY;
   const auto look_at = [&](const Box& box) {
     const TexelTaylor alpha = TexelTaylor::variable(0, centre(box.alpha), half_width(box.alpha));
@@ -98,7 +98,7 @@ double proven_bound(const TexelFunction& error, const Domain& domain, double tar
   for (const Box& box : boxes) look_at(box);
   for (std::size_t looked = boxes.size();
        queue.top().verdict.bound > target && !(at_least > target) && looked < budget; looked += 2) {
-    const Judged worst = queue.top();
+    const JudgedBox worst = queue.top();
     queue.pop();
     for (const Box& half : halves(worst.box, worst.verdict.halve_alpha)) look_at(half);
   }

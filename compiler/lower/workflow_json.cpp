@@ -103,7 +103,7 @@ WorkflowConversion read_conversion(const Field& fit) {
   const bool to_metallic = conversion.is_to_metallic();
   conversion.specular = read_specular_workflow(fit[to_metallic ? "source" : "target"]);
   conversion.metallic = read_metallic_workflow(fit[to_metallic ? "target" : "source"]);
-  require_valid(conversion, fit.place());
+  require_valid(conversion, fit.context());
   return conversion;
 }
 

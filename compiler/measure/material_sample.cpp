@@ -134,7 +134,7 @@ std::string target_name(const Matching& matching, std::size_t coordinate) {
 
 double target_value(const Matching& matching, std::size_t coordinate, double canonical) {
   if (coordinate == kAlphaCoordinate) return from_alpha(matching.target.model.roughness, canonical);
-  if (coordinate == kSpecularCoordinate) return matching.target.response.own(canonical);
+  if (coordinate == kSpecularCoordinate) return matching.target.response.native(canonical);
   return canonical;
 }
 

@@ -100,7 +100,7 @@ std::vector<float> PictureTaker::take(const ModelDescription& model, const RoleV
 
 std::vector<float> PictureTaker::take(const ProbedModel& probed_model, const RoleValues& role_values) const {
   const Range own = probed_model.model.parameter(ParameterRole::kSpecular).range;
-  const double specular = std::clamp(probed_model.response.own(role_values.specular), own.min, own.max);
+  const double specular = std::clamp(probed_model.response.native(role_values.specular), own.min, own.max);
   std::vector<float> picture = take(
       probed_model.model, RoleValues{role_values.alpha, specular, role_values.diffuse, role_values.others});
   if (probed_model.exposure != 1.0)

@@ -26,7 +26,7 @@ double SpecularResponse::canonical(double own) const {
   return law == SpecularLaw::kIor ? normal_reflectance(own) : own;
 }
 
-double SpecularResponse::own(double canonical) const {
+double SpecularResponse::native(double canonical) const {
   return law == SpecularLaw::kIor ? ior_of_reflectance(canonical) : canonical;
 }
 

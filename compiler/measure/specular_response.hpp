@@ -33,7 +33,7 @@ struct SpecularResponse {
 
   // Converts the parameter to the canonical coordinate and back: F0 for kIor, else the parameter itself.
   double canonical(double own) const;
-  double own(double canonical) const;
+  double native(double canonical) const;
 };
 
 // How the pictures of a model at one width depend on specular, whatever the law: as combinations of a few

@@ -57,11 +57,12 @@ struct Text {
 
 constexpr std::size_t kNetworkInputs = 6, kNetworkOutputs = 4;
 
-void require_network(const LearnedNetwork& learned, const std::string& place) {
+void require_network(const LearnedNetwork& learned, const std::string& context) {
   const std::size_t inputs = learned.network.inputs.size(), outputs = learned.network.outputs.size();
   if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !learned.network.layers.empty()) return;
   throw Error(ErrorKind::kInput,
-              place + ": a network of " + std::to_string(inputs) + " inputs and " + std::to_string(outputs) +
+              context + ": a network of " + std::to_string(inputs) + " inputs and " +
+                  std::to_string(outputs) +
                   " outputs (diffuse and specular are 6 inputs, base color and metallic 4 outputs)");
 }
 
@@ -168,18 +169,18 @@ std::string_view formula_name(const WorkflowFormula& formula) { return std::visi
 
 std::string formula_text(const WorkflowFormula& formula) { return std::visit(Text{}, formula); }
 
-void require_valid(const WorkflowConversion& conversion, const std::string& place) {
-  require_valid(conversion.specular, conversion.metallic, place);
+void require_valid(const WorkflowConversion& conversion, const std::string& context) {
+  require_valid(conversion.specular, conversion.metallic, context);
   if (const auto* projection = std::get_if<Projection>(&conversion.formula))
-    require_prior(projection->prior, place);
+    require_prior(projection->prior, context);
   if (const auto* learned = std::get_if<LearnedNetwork>(&conversion.formula))
-    require_network(*learned, place);
+    require_network(*learned, context);
   if (!std::holds_alternative<KhronosSolver>(conversion.formula)) return;
   const bool scaled = conversion.specular.diffuse == DiffuseConvention::kScaled &&
                       conversion.metallic.diffuse == DiffuseConvention::kScaled;
   if (!scaled || conversion.metallic.dielectric_f0 == 0.0)
     throw Error(ErrorKind::kInput,
-                place +
+                context +
                     ": Khronos' solver requires a dielectric F0 above 0 and scaled diffuse "
                     "on both sides");
 }

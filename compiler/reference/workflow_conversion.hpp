@@ -84,10 +84,10 @@ struct WorkflowConversion {
   bool operator==(const WorkflowConversion&) const = default;
 };
 
-// Throws kInput, beginning with `place`, for a width other than roughness, glossiness or alpha, for F0 or a
+// Throws kInput, beginning with `context`, for a width other than roughness, glossiness or alpha, for F0 or a
 // prior out of range, for Khronos' solver unless diffuse is scaled on both sides and F0 is above 0, and for a
 // network without 6 inputs and 4 outputs.
-void require_valid(const WorkflowConversion& conversion, const std::string& place);
+void require_valid(const WorkflowConversion& conversion, const std::string& context);
 
 // A parameter of a material, with one row of texels per channel.
 struct MaterialParameter {

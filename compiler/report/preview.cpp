@@ -56,7 +56,7 @@ Material material_of(const End& end, double alpha, const std::vector<double>& sp
   std::vector<double>& values = material.parameters[specular.name];
   values.clear();
   for (const double value : speculars)
-    values.push_back(std::clamp(end.response.own(value), specular.range.min, specular.range.max));
+    values.push_back(std::clamp(end.response.native(value), specular.range.min, specular.range.max));
   return material;
 }
 

@@ -31,9 +31,9 @@ std::optional<LightRemark> light_remark(const LightMatch& match) {
   return remark;
 }
 
-void require_light(const LightMatch& match, const std::string& place) {
+void require_light(const LightMatch& match, const std::string& context) {
   const auto remark = light_remark(match);
-  if (remark && remark->is_error) throw input_error(place + ": " + remark->text);
+  if (remark && remark->is_error) throw input_error(context + ": " + remark->text);
 }
 
 LightMatch light_match(const Comments& comments) {

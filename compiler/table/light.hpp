@@ -37,8 +37,8 @@ inline constexpr double kMostLightChange = 0.05;
 // The one rule for sweeps, checks, fits and cards. None for light that matches.
 std::optional<LightRemark> light_remark(const LightMatch& match);
 
-// Throws kInput, beginning with `place`, if the remark is an error.
-void require_light(const LightMatch& match, const std::string& place);
+// Throws kInput, beginning with `context`, if the remark is an error.
+void require_light(const LightMatch& match, const std::string& context);
 
 // The match that comments record; that of equal light for comments without one.
 LightMatch light_match(const Comments& comments);

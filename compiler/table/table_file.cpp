@@ -37,14 +37,14 @@ std::string sha256(std::string_view bytes) {
   return text;
 }
 
-Comments parse_metadata(std::string_view json, const std::string& place) {
-  const Json root = parse_json(json, place);
-  Field(root, place)
+Comments parse_metadata(std::string_view json, const std::string& context) {
+  const Json root = parse_json(json, context);
+  Field(root, context)
       .require(root.fields() != nullptr && root.size() <= kMostCsvComments, "an object of texts");
   Comments comments;
   for (const auto& [key, value] : *root.fields())
     comments.emplace_back(plain(key, kLongestComment),
-                          plain(Field(value, place + "." + key).any_text(), kLongestComment));
+                          plain(Field(value, context + "." + key).any_text(), kLongestComment));
   return comments;
 }
 

@@ -15,8 +15,8 @@ std::string sha256(std::string_view bytes);
 // The text of a file; empty if it is missing.
 std::string file_sha256(const std::filesystem::path& path);
 
-// Parses what a JSON object of texts says of the table `table`. Throws kInput, beginning with `place`.
-Comments parse_metadata(std::string_view json, const std::string& place);
+// Parses what a JSON object of texts says of the table `table`. Throws kInput, beginning with `context`.
+Comments parse_metadata(std::string_view json, const std::string& context);
 
 // Parses the content of the file `path` (parse_csv). A table without comments has those of FILE.json.
 Csv parse_table_file(std::string_view bytes, const std::filesystem::path& path);

@@ -53,7 +53,7 @@ struct ProfileLayout {
   std::vector<std::size_t> columns;  // 3 x radii
 };
 
-ProfileLayout profile_layout(const std::vector<std::string>& names, const std::string& place) {
+ProfileLayout profile_layout(const std::vector<std::string>& names, const std::string& context) {
   std::map<char, std::map<double, std::size_t>> found;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (const auto column = profile_column(names[i], i))
@@ -69,7 +69,7 @@ ProfileLayout profile_layout(const std::vector<std::string>& names, const std::s
       layout.columns.push_back(column);
     }
     if (radii.size() < 2 || radii != layout.radii)
-      throw input_error(place +
+      throw input_error(context +
                         ": requires columns R@<radius>, G@<radius>, B@<radius> (or Y@<radius>) for at least "
                         "two radii, the same for each; the first name is " +
                         (names.empty() ? "missing" : "'" + names.front() + "'"));

@@ -70,10 +70,11 @@ ParameterDescription read_parameter(const Field& field, RoughnessEncoding* conve
   return parameter;
 }
 
-void require_once(const ModelDescription& model, ParameterRole role, bool needed, const std::string& place) {
+void require_once(const ModelDescription& model, ParameterRole role, bool needed,
+                  const std::string& context) {
   const auto count = std::ranges::count(model.parameters, role, &ParameterDescription::role);
   if (count > 1 || (needed && count == 0))
-    throw Error(ErrorKind::kInput, place + ": " + std::to_string(count) + " parameters have the role " +
+    throw Error(ErrorKind::kInput, context + ": " + std::to_string(count) + " parameters have the role " +
                                        std::string(role_word(role)) + " (declare " +
                                        (needed ? "one" : "at most one") + ")");
 }
@@ -106,8 +107,8 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
 }
 
 // Parses an answer. It must have the id of the request. The message for invalid JSON quotes the line.
-Json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
-  const std::string answered = place + ": answered \"" + plain(line, 80) + "\"";
+Json parse_answer(const std::string& line, std::int64_t id, const std::string& context) {
+  const std::string answered = context + ": answered \"" + plain(line, 80) + "\"";
   Json answer;
   try {
     answer = parse_json(line, "JSON");
@@ -121,9 +122,9 @@ Json parse_answer(const std::string& line, std::int64_t id, const std::string& p
 }
 
 // The error text of the worker, on one line and truncated.
-std::optional<std::string> complaint_of(const Json& answer, const std::string& place) {
+std::optional<std::string> complaint_of(const Json& answer, const std::string& context) {
   if (!answer.contains("error")) return std::nullopt;
-  std::string complaint = Field(answer, place)["error"].any_text();
+  std::string complaint = Field(answer, context)["error"].any_text();
   std::ranges::replace(complaint, '\n', ' ');
   return plain(complaint);
 }
@@ -165,16 +166,16 @@ std::string quit_line(std::int64_t id) { return Json{{"id", id}, {"request", "qu
 
 bool is_answer(const std::string& line) { return line.starts_with('{'); }
 
-std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& place) {
-  return complaint_of(parse_answer(line, id, place), place);
+std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& context) {
+  return complaint_of(parse_answer(line, id, context), context);
 }
 
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
-                                   const std::string& place) {
-  const Json answer = parse_answer(line, id, place);
-  if (const auto complaint = complaint_of(answer, place))
-    throw Error(ErrorKind::kInput, place + ": " + *complaint);
-  const Field field(answer, place);
+                                   const std::string& context) {
+  const Json answer = parse_answer(line, id, context);
+  if (const auto complaint = complaint_of(answer, context))
+    throw Error(ErrorKind::kInput, context + ": " + *complaint);
+  const Field field(answer, context);
   if (field["protocol"].count() != kWorkerProtocol)
     field["protocol"].fail("is version " + field["protocol"].json().dump() + " (must be " +
                            std::to_string(kWorkerProtocol) + ")");

@@ -41,11 +41,11 @@ std::string quit_line(std::int64_t id);
 // Whether a line is meant as an answer; lines before the first answer are banners.
 bool is_answer(const std::string& line);
 
-// Returns the error that an answer reports, if it does. Throws kInput, opened by `place`, if the line is not
-// the answer to request `id`.
-std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& place);
+// Returns the error that an answer reports, if it does. Throws kInput, opened by `context`, if the line is
+// not the answer to request `id`.
+std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& context);
 // `prefix`: the part of every model's name before the `/`; empty accepts any.
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
-                                   const std::string& place);
+                                   const std::string& context);
 
 }  // namespace remap

@@ -58,7 +58,7 @@ class Worker {
   bool is_usable() const { return usable_; }
 
  private:
-  std::string place(const std::string& shown) const;
+  std::string context(const std::string& shown) const;
   // Sends a line and waits for the answer to it.
   std::string ask(const std::string& line, const std::string& shown);
   std::string next_answer(const std::string& shown);

@@ -79,10 +79,10 @@ std::string taken(std::int32_t bytes, std::int32_t count) {
 // An image says its size before its texels are read. More is a mistake or an attack.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 28;
 
-ImagePixels decoded(std::string_view bytes, const std::string& place) {
+ImagePixels decoded(std::string_view bytes, const std::string& context) {
   DecodedByHost image{};
   if (char* message = remap_host_decode(bytes.data(), static_cast<int>(bytes.size()), &image))
-    throw input_error(place + ": cannot be read: " + taken(message));
+    throw input_error(context + ": cannot be read: " + taken(message));
   const std::string texels = taken(image.bytes, image.byte_count);
   ImagePixels pixels;
   pixels.width = static_cast<std::size_t>(image.width);
@@ -91,7 +91,7 @@ ImagePixels decoded(std::string_view bytes, const std::string& place) {
   pixels.type = image.bits == 16 ? PixelType::kUint16 : PixelType::kUint8;
   if (image.channels < 1 || image.channels > 4 ||
       texels.size() != pixels.width * pixels.height * pixels.texel_bytes())
-    throw input_error(place + ": cannot be read: the image is damaged");
+    throw input_error(context + ": cannot be read: the image is damaged");
   const auto* const first = reinterpret_cast<const std::byte*>(texels.data());
   pixels.bytes.assign(first, first + texels.size());
   return pixels;
@@ -99,13 +99,13 @@ ImagePixels decoded(std::string_view bytes, const std::string& place) {
 
 // `setting`: the level of PNG, the quality of JPEG.
 std::string encoded(const std::string& format, const ImagePixels& pixels, int setting,
-                    const std::string& place) {
+                    const std::string& context) {
   EncodedByHost file{};
   char* const message = remap_host_encode(
       format.c_str(), pixels.bytes.data(), static_cast<int>(pixels.bytes.size()),
       static_cast<int>(pixels.width), static_cast<int>(pixels.height), static_cast<int>(pixels.channels),
       pixels.type == PixelType::kUint16 ? 16 : 8, setting, &file);
-  if (message != nullptr) throw output_error(place + ": cannot be encoded: " + taken(message));
+  if (message != nullptr) throw output_error(context + ": cannot be encoded: " + taken(message));
   return taken(file.bytes, file.byte_count);
 }
 
@@ -170,13 +170,14 @@ std::string big_endian(std::uint32_t number) {
 constexpr std::size_t kPngSignature = 8;
 constexpr std::size_t kPngHeader = kPngSignature + 25;  // with IHDR
 
-std::vector<PngChunk> png_chunks(std::string_view file, const std::string& place) {
+std::vector<PngChunk> png_chunks(std::string_view file, const std::string& context) {
   std::vector<PngChunk> chunks;
   for (std::size_t at = kPngSignature; at + 12 <= file.size();) {
     const std::size_t length = big_endian(file.substr(at, 4));
     const std::string name(file.substr(at + 4, 4));
     if (length > file.size() - at - 12)
-      throw input_error(place + ": is damaged: chunk " + plain(name) + " claims to be longer than the file");
+      throw input_error(context + ": is damaged: chunk " + plain(name) +
+                        " claims to be longer than the file");
     if (name != "IDAT") chunks.push_back({name, std::string(file.substr(at + 8, length))});
     at += 12 + length;
   }
@@ -246,11 +247,11 @@ std::vector<std::string> usual_names(std::size_t count) {
 }
 
 // Size and channels of a PNG file by its header.
-void read_png_header(std::string_view file, const std::vector<PngChunk>& chunks, const std::string& place,
+void read_png_header(std::string_view file, const std::vector<PngChunk>& chunks, const std::string& context,
                      ImageLayout& layout) {
   const PngChunk* header = find_chunk(chunks, "IHDR");
   if (header == nullptr || header->data.size() < 13 || file.size() < kPngHeader)
-    throw input_error(place + ": cannot be read as an image: the header is damaged");
+    throw input_error(context + ": cannot be read as an image: the header is damaged");
   layout.width = static_cast<int>(big_endian(std::string_view(header->data).substr(0, 4)));
   layout.height = static_cast<int>(big_endian(std::string_view(header->data).substr(4, 4)));
   const int kind = header->data[9];
@@ -456,9 +457,9 @@ class NewByNode final : public NewImage {
 
 class NodeCodec final : public ImageCodec {
  public:
-  ImagePixels decode(std::string_view bytes, const std::string& place) const override {
-    if (format_of(bytes).empty()) throw input_error(place + ": " + refusal_of(bytes));
-    return decoded(bytes, place);
+  ImagePixels decode(std::string_view bytes, const std::string& context) const override {
+    if (format_of(bytes).empty()) throw input_error(context + ": " + refusal_of(bytes));
+    return decoded(bytes, context);
   }
   std::string encode_png(const ImagePixels& pixels, int level) const override {
     return encoded("png", pixels, level, "png image");

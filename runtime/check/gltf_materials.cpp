@@ -166,7 +166,7 @@ class GltfMaterials {
   void add(SpanValue entry, std::size_t index) {
     CheckedMaterial material;
     material.kind = MaterialKind::kGltf;
-    material.place = file_;
+    material.path = file_;
     const std::optional<std::string> name = entry["name"].text();
     material.name =
         display_path(file_) + ": material " + (name ? "\"" + plain(*name) + "\"" : std::to_string(index));

@@ -152,7 +152,7 @@ Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vec
     values[c] *= static_cast<float>(use.factors[c]);
   const std::string number = list_text(values);
   if (material.kind == MaterialKind::kGltf)
-    return "set " + use.factor_name + " to " + number + " in " + material.place.filename().string() +
+    return "set " + use.factor_name + " to " + number + " in " + material.path.filename().string() +
            ", and remove the map";
   return "remove the map, and use the number " + number + (values.size() > 1 ? " (linear)" : "") +
          " instead of it";
@@ -441,7 +441,7 @@ void wrong_texture(const CheckedMaterial& material, const GltfConsumer*, const R
                         use.slot.empty()
                             ? "give the map a name that says what it holds, or replace it by a map of " +
                                   std::string(role_name(use.role))
-                            : "point " + use.slot + " in " + material.place.filename().string() +
+                            : "point " + use.slot + " in " + material.path.filename().string() +
                                   " to the image of " + std::string(role_name(use.role))});
   };
   std::set<std::size_t> named;

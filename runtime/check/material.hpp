@@ -82,7 +82,7 @@ enum class MaterialKind { kFolder, kGltf, kMtl };
 struct CheckedMaterial {
   MaterialKind kind = MaterialKind::kFolder;
   std::string name;             // `assets/robot`, `model.glb: material "Paint"`
-  std::filesystem::path place;  // the folder or the asset file
+  std::filesystem::path path;   // the folder or the asset file
   std::filesystem::path below;  // its folder as seen from the checked path; empty for that itself
   std::vector<MaterialMap> maps;
   std::vector<MaterialUse> uses;

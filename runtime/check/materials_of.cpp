@@ -28,7 +28,7 @@ void add_asset(const fs::path& file, FoundMaterials& found) {
 // The tiles of a map are images of their own.
 void add_set(const fs::path& root, const FoundSet& set, FoundMaterials& found) {
   CheckedMaterial material;
-  material.place = root / set.folder;
+  material.path = root / set.folder;
   material.below = set.folder;
   material.name = display_path(root / set.folder / set.name);
   for (const FoundMap& map : set.maps) {
@@ -54,8 +54,7 @@ void add_neighbours(FoundMaterials& found) {
   for (CheckedMaterial& material : found.materials) {
     if (material.kind != MaterialKind::kGltf) continue;
     for (const CheckedMaterial& set : found.materials) {
-      if (set.kind != MaterialKind::kFolder || !same_folder(set.place, material.place.parent_path()))
-        continue;
+      if (set.kind != MaterialKind::kFolder || !same_folder(set.path, material.path.parent_path())) continue;
       for (const MaterialUse& use : set.uses) {
         const MaterialMap& map = set.maps[use.map];
         const bool is_own = std::ranges::any_of(material.maps, [&](const MaterialMap& own) {
@@ -125,7 +124,7 @@ FoundMaterials materials_of(const fs::path& path, const Naming& naming) {
           display_path(path) +
           ": its name does not tell what it holds (give the folder of its set, or --names FILE)");
     CheckedMaterial material;
-    material.place = path;
+    material.path = path;
     material.name = display_path(path);
     for (const ChannelMeaning& entry : readings.front().meaning)
       material.uses.push_back({entry.role, 0, entry.channels, "", {}, "", false});

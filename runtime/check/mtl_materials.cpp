@@ -55,7 +55,7 @@ bool has_highlight(const MtlSurface& surface) {
 }
 
 void add_map(const MtlMap& map, std::string_view word, Role role, bool is_read, CheckedMaterial& material) {
-  const fs::path path = material.place.parent_path() / fs::path(map.file).relative_path();
+  const fs::path path = material.path.parent_path() / fs::path(map.file).relative_path();
   std::vector<MaterialUse>& uses = is_read ? material.uses : material.unread;
   uses.push_back({role, material.maps.size(), channels_of(map), std::string(word), {}, "", false});
   material.maps.push_back({path, path.string(), path.filename().string()});
@@ -101,7 +101,7 @@ void add_mtl(const fs::path& file, FoundMaterials& found) {
     CheckedMaterial& material = found.materials.emplace_back();
     const std::string name = "material \"" + plain(block.name) + "\"";
     material.kind = MaterialKind::kMtl;
-    material.place = file;
+    material.path = file;
     material.name = display_path(file) + ": " + name;
     const MtlSurface surface = read_block(document, block, maker, material);
     const bool shines = maker != MtlMaker::kText || has_highlight(surface);

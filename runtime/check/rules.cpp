@@ -99,9 +99,10 @@ std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const 
   // Rules about values do not apply if the map holds something else.
   std::set<std::string> misread;
   for (const MaterialFinding& finding : findings)
-    if (finding.rule == "wrong-texture" || finding.rule == "channel-order") misread.insert(finding.place);
+    if (finding.rule == "wrong-texture" || finding.rule == "channel-order") misread.insert(finding.context);
   std::erase_if(findings, [&](const MaterialFinding& finding) {
-    return misread.contains(finding.place) && (finding.rule == "metallic-greys" || finding.rule == "banding");
+    return misread.contains(finding.context) &&
+           (finding.rule == "metallic-greys" || finding.rule == "banding");
   });
   return findings;
 }
@@ -136,7 +137,7 @@ Fix image_fix(const CheckedMaterial& material, const MaterialMap& map, const std
               const std::string& changes) {
   if (map.is_embedded) return words + " (the image is part of the asset)";
   const std::filesystem::path home =
-      material.kind == MaterialKind::kFolder ? material.place : material.place.parent_path();
+      material.kind == MaterialKind::kFolder ? material.path : material.path.parent_path();
   std::filesystem::path name = map.file.lexically_relative(home.empty() ? "." : home);
   if (name.empty() || name == "." || *name.begin() == "..") name = map.name;
   const std::filesystem::path result = fixed_folder(material) / name;

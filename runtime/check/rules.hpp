@@ -42,7 +42,7 @@ struct Fix {
 struct MaterialFinding {
   std::string_view rule;  // name of the rule
   Confidence confidence = Confidence::kLikely;
-  std::string place;    // the map or material, as messages show it
+  std::string context;  // the map or material, as messages show it
   std::string channel;  // `G`; empty for the whole map
   std::string message;  // what is seen
   Fix fix;
@@ -61,7 +61,7 @@ std::span<const GltfConsumer> gltf_consumers();
 
 struct Rule {
   std::string_view name;
-  std::string_view sees;  // the pattern, in words
+  std::string_view detects;  // the pattern, in words
   void (*look)(const CheckedMaterial& material, const GltfConsumer* reader, const Rule& rule,
                std::vector<MaterialFinding>& findings);
 };

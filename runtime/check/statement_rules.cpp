@@ -14,7 +14,7 @@
 namespace remap::look {
 namespace {
 
-std::string file_of(const CheckedMaterial& material) { return material.place.filename().string(); }
+std::string file_of(const CheckedMaterial& material) { return material.path.filename().string(); }
 
 // Metal reflects by its base color, and transmits nothing.
 bool is_of_dielectrics(std::string_view extension) {
@@ -48,7 +48,7 @@ Fix asset_fix(const CheckedMaterial& material, const std::string& words, std::ve
   if (!all_agree([&](const auto& a, const auto& b) { return material.same_size(a, b); }))
     options.emplace_back("--resample");
   Fix fix = words;
-  fix.asset = material.place.string();
+  fix.asset = material.path.string();
   fix.output = fixed_folder(material).string();
   fix.options = std::move(options);
   return fix;
@@ -182,14 +182,14 @@ void exponent_range(const CheckedMaterial& material, const GltfConsumer*, const 
     whole_tens += exponent.value > 0.0 && std::fmod(exponent.value, 5.0) == 0.0;
   }
   if (below_zero > 0)
-    findings.push_back({rule.name, Confidence::kLikely, material.place.string(), "",
+    findings.push_back({rule.name, Confidence::kLikely, material.path.string(), "",
                         std::to_string(below_zero) + (below_zero == 1 ? " exponent is" : " exponents are") +
                             " below 0, which convert reads as no highlight",
                         "write the exponent of the highlight as Ns, or 0 for none"});
   if (above_zero == 0) return;
-  const std::string place = material.place.string(), all = std::to_string(above_zero) +
-                                                           (above_zero == 1 ? " exponent" : " exponents") +
-                                                           " (Ns) up to " + number_text(largest);
+  const std::string place = material.path.string(), all = std::to_string(above_zero) +
+                                                          (above_zero == 1 ? " exponent" : " exponents") +
+                                                          " (Ns) up to " + number_text(largest);
   const auto add = [&](Confidence confidence, const std::string& what, const std::string& fix) {
     findings.push_back({rule.name, confidence, place, "", all + ": " + what, fix});
   };

@@ -35,7 +35,7 @@ struct ConverterData {
 // A file of converters, in the order given: the same converters give the same bytes, and floats are read back
 // exactly.
 std::string converters_to_json(const std::vector<ConverterData>& converters);
-// Throws kInput, opened by `place`, for anything else than such a file.
-std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& place);
+// Throws kInput, opened by `context`, for anything else than such a file.
+std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& context);
 
 }  // namespace remap

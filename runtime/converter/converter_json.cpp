@@ -164,9 +164,9 @@ std::string converters_to_json(const std::vector<ConverterData>& converters) {
   return text + "\n  ]\n}\n";
 }
 
-std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& place) {
-  const Json json = parse_json(text, place);
-  const Field root(json, place);
+std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& context) {
+  const Json json = parse_json(text, context);
+  const Field root(json, context);
   root["format"].require(root["format"].text() == "remap-converters", "remap-converters");
   root["version"].require(root["version"].count() == kFormatVersion, std::to_string(kFormatVersion));
   return root["converters"].list(0, read_converter);

@@ -16,9 +16,9 @@ constexpr std::size_t kExcerpt = 40;
 // The wording of errors about texts that may become comments in generated code.
 constexpr const char* kPlainText = "a text of one line without control characters";
 
-Json value_of(SpanValue span, const std::string& place);
+Json value_of(SpanValue span, const std::string& context);
 
-Json number_of(std::string_view text, const std::string& place) {
+Json number_of(std::string_view text, const std::string& context) {
   const char* const end = text.data() + text.size();
   const auto is_read_as = [&](auto& value) {
     const auto read = std::from_chars(text.data(), end, value);
@@ -29,16 +29,16 @@ Json number_of(std::string_view text, const std::string& place) {
   if (is_read_as(whole)) return whole;
   if (is_read_as(large)) return large;
   const std::optional<double> number = parse_number(text);
-  if (!number) throw input_error(place + ": a number that is too large: " + plain(text, kExcerpt));
+  if (!number) throw input_error(context + ": a number that is too large: " + plain(text, kExcerpt));
   return *number;
 }
 
-Json object_of(SpanValue span, const std::string& place) {
+Json object_of(SpanValue span, const std::string& context) {
   Json::Object fields;
   std::unordered_map<std::string, std::size_t> places;
   for (const SpanValue member : span.children()) {
     const auto [found, is_new] = places.try_emplace(member.key(), fields.size());
-    Json value = value_of(member, place);
+    Json value = value_of(member, context);
     if (is_new)
       fields.emplace_back(found->first, std::move(value));
     else
@@ -47,47 +47,47 @@ Json object_of(SpanValue span, const std::string& place) {
   return fields;
 }
 
-Json value_of(SpanValue span, const std::string& place) {
+Json value_of(SpanValue span, const std::string& context) {
   switch (span.kind()) {
     case SpanKind::kNull:
       return {};
     case SpanKind::kBoolean:
       return span.raw() == "true";
     case SpanKind::kNumber:
-      return number_of(span.raw(), place);
+      return number_of(span.raw(), context);
     case SpanKind::kText:
       return *span.text();
     case SpanKind::kObject:
-      return object_of(span, place);
+      return object_of(span, context);
     case SpanKind::kList:
       break;
   }
   Json::List entries;
   entries.reserve(span.size());
-  for (const SpanValue entry : span.children()) entries.push_back(value_of(entry, place));
+  for (const SpanValue entry : span.children()) entries.push_back(value_of(entry, context));
   return entries;
 }
 
 }  // namespace
 
-Json parse_json(std::string_view text, const std::string& place) {
+Json parse_json(std::string_view text, const std::string& context) {
   if (text.size() > kLongestJson)
-    throw input_error(place + ": has " + std::to_string(text.size() >> 20) + " MB of JSON; at most " +
+    throw input_error(context + ": has " + std::to_string(text.size() >> 20) + " MB of JSON; at most " +
                       std::to_string(kLongestJson >> 20) + " MB are read");
-  return value_of(SpannedJson(text, place).root(), place);
+  return value_of(SpannedJson(text, context).root(), context);
 }
 
 Field Field::operator[](const std::string& key) const {
   require(value_.fields() != nullptr, "an object");
   const Json* found = value_.find(key);
   if (found == nullptr) fail("has no field \"" + key + "\"");
-  return Field(*found, place_ + "." + key);
+  return Field(*found, context_ + "." + key);
 }
 
 Field Field::at(std::size_t index, std::size_t count) const {
   const Json::List* entries = value_.entries();
   require(entries != nullptr && entries->size() == count, "a list of " + std::to_string(count));
-  return Field((*entries)[index], place_ + "[" + std::to_string(index) + "]");
+  return Field((*entries)[index], context_ + "[" + std::to_string(index) + "]");
 }
 
 std::size_t Field::entry_count(std::size_t fewest, std::size_t most) const {
@@ -164,7 +164,7 @@ void Field::require(bool condition, const std::string& expected) const {
 }
 
 void Field::fail(const std::string& what) const {
-  throw Error(ErrorKind::kInput, plain(place_ + ": " + what));
+  throw Error(ErrorKind::kInput, plain(context_ + ": " + what));
 }
 
 }  // namespace remap

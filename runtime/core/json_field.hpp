@@ -19,14 +19,15 @@ inline constexpr std::size_t kLongestJson = std::size_t{64} << 20;
 inline constexpr std::size_t kMostEntries = 100'000;
 // Remarks, methods and comments are read by people, and become comments of headers.
 inline constexpr std::size_t kMostLines = 1000, kLongestLine = 10'000;
-// The values of a JSON text. Throws as SpannedJson (json_spans.hpp); also kInput, beginning with `place`, for
-// a text beyond the limit above and a number that no double holds. Of fields with one key the last counts.
-Json parse_json(std::string_view text, const std::string& place);
+// The values of a JSON text. Throws as SpannedJson (json_spans.hpp); also kInput, beginning with `context`,
+// for a text beyond the limit above and a number that no double holds. Of fields with one key the last
+// counts.
+Json parse_json(std::string_view text, const std::string& context);
 
 // A JSON value and its place, such as `fit.json.domain.alpha`, which every error begins with.
 class Field {
  public:
-  Field(const Json& value, std::string place) : value_(value), place_(std::move(place)) {}
+  Field(const Json& value, std::string context) : value_(value), context_(std::move(context)) {}
 
   Field operator[](const std::string& key) const;
   bool contains(std::string_view key) const { return value_.contains(key); }
@@ -45,7 +46,7 @@ class Field {
   // A text that is short.
   std::string line() const;
   const Json& json() const { return value_; }
-  const std::string& place() const { return place_; }
+  const std::string& context() const { return context_; }
   std::string text() const;
   // A text of any characters: a name of a file, or what plain() makes fit to be shown.
   const std::string& any_text() const;
@@ -64,7 +65,7 @@ class Field {
   template <typename Value, typename Read>
   std::map<std::string, Value> dictionary(Read read) const {
     std::map<std::string, Value> entries;
-    for (const auto& [key, value] : entry_fields()) entries[key] = read(Field(value, place_ + "." + key));
+    for (const auto& [key, value] : entry_fields()) entries[key] = read(Field(value, context_ + "." + key));
     return entries;
   }
   std::map<std::string, std::string> text_dictionary() const;
@@ -77,7 +78,7 @@ class Field {
   const Json::Object& entry_fields() const;
 
   const Json& value_;
-  std::string place_;
+  std::string context_;
 };
 
 }  // namespace remap

@@ -88,8 +88,8 @@ std::string unescaped(std::string_view raw) {
 // Scans a text once, value by value; a level of nesting is a call.
 class SpanScanner {
  public:
-  SpanScanner(SpannedJson& json, const std::string& place)
-      : json_(json), text_(json.text_), place_(place), at_(text_.starts_with(kByteOrderMark) ? 3 : 0) {}
+  SpanScanner(SpannedJson& json, const std::string& context)
+      : json_(json), text_(json.text_), context_(context), at_(text_.starts_with(kByteOrderMark) ? 3 : 0) {}
 
   void scan() {
     skip_space();
@@ -106,7 +106,7 @@ class SpanScanner {
     const std::size_t line = static_cast<std::size_t>(std::ranges::count(before, '\n')) + 1;
     const std::size_t start = before.rfind('\n');
     const std::size_t column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
-    throw input_error(place_ + ": invalid JSON at line " + std::to_string(line) + ", column " +
+    throw input_error(context_ + ": invalid JSON at line " + std::to_string(line) + ", column " +
                       std::to_string(column) + ": " + reason);
   }
 
@@ -256,16 +256,16 @@ class SpanScanner {
 
   SpannedJson& json_;
   std::string_view text_;
-  const std::string& place_;
+  const std::string& context_;
   std::size_t at_;
 };
 
-SpannedJson::SpannedJson(std::string_view text, const std::string& place) : text_(text) {
+SpannedJson::SpannedJson(std::string_view text, const std::string& context) : text_(text) {
   if (text.size() > kLongestSpannedText)
-    throw input_error(place + ": has " + std::to_string(text.size() >> 20) + " MB of JSON; at most " +
+    throw input_error(context + ": has " + std::to_string(text.size() >> 20) + " MB of JSON; at most " +
                       std::to_string(kLongestSpannedText >> 20) +
                       " MB are read (keep buffers and images in files of their own)");
-  SpanScanner(*this, place).scan();
+  SpanScanner(*this, context).scan();
 }
 
 SpanValue SpannedJson::root() const noexcept { return value(0); }

@@ -32,9 +32,9 @@ inline constexpr std::size_t kLongestSpannedText = std::size_t{1} << 30,
 // The values of a JSON text (RFC 8259), which may begin with a byte order mark. `text` must outlive it.
 class SpannedJson {
  public:
-  // Throws kInput, beginning with `place`, for a text that is not valid JSON or not UTF-8, with line and
+  // Throws kInput, beginning with `context`, for a text that is not valid JSON or not UTF-8, with line and
   // column, for one nested deeper than kDeepestJson, and beyond the limits above.
-  SpannedJson(std::string_view text, const std::string& place);
+  SpannedJson(std::string_view text, const std::string& context);
 
   std::string_view text() const noexcept { return text_; }
   SpanValue root() const noexcept;

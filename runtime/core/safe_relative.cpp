@@ -9,8 +9,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path checked(const std::string& text, const std::string& place, std::string fault) {
-  if (!fault.empty()) throw input_error(place + ": \"" + plain(text) + "\" " + fault);
+fs::path checked(const std::string& text, const std::string& context, std::string fault) {
+  if (!fault.empty()) throw input_error(context + ": \"" + plain(text) + "\" " + fault);
   return text;
 }
 
@@ -24,13 +24,13 @@ std::string fault_of_relative(const std::string& text) {
   return std::ranges::any_of(text, is_control) ? "has control characters" : "";
 }
 
-fs::path safe_relative(const std::string& text, const std::string& place) {
-  return checked(text, place, fault_of_relative(text));
+fs::path safe_relative(const std::string& text, const std::string& context) {
+  return checked(text, context, fault_of_relative(text));
 }
 
-fs::path safe_name(const std::string& text, const std::string& place) {
+fs::path safe_name(const std::string& text, const std::string& context) {
   const std::string fault = fault_of_relative(text);
-  return checked(text, place, fault.empty() && fs::path(text).has_parent_path() ? "is not a name" : fault);
+  return checked(text, context, fault.empty() && fs::path(text).has_parent_path() ? "is not a name" : fault);
 }
 
 bool is_own_name(const fs::path& name) {

@@ -11,10 +11,10 @@ namespace remap {
 std::string fault_of_relative(const std::string& text);
 
 // The path below a folder that `text` means; empty for the folder itself. Throws kInput, beginning with
-// `place`.
-std::filesystem::path safe_relative(const std::string& text, const std::string& place);
+// `context`.
+std::filesystem::path safe_relative(const std::string& text, const std::string& context);
 // The same of a single name, which may be empty.
-std::filesystem::path safe_name(const std::string& text, const std::string& place);
+std::filesystem::path safe_name(const std::string& text, const std::string& context);
 
 // The name of a file of this program in an output folder (`.texremap*`), which nothing else may have.
 bool is_own_name(const std::filesystem::path& name);

@@ -9,9 +9,9 @@
 
 namespace remap {
 
-FittedConverter fitted_converter_from_json(std::string_view text, const std::string& place) {
-  const Json json = parse_json(text, place);
-  const Field root(json, place);
+FittedConverter fitted_converter_from_json(std::string_view text, const std::string& context) {
+  const Json json = parse_json(text, context);
+  const Field root(json, context);
   require_fit_file(root);
   read_id(root["id"]);
   if (is_of_materials(root)) {

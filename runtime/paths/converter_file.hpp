@@ -16,9 +16,9 @@ struct UnusedFit {};
 
 using FittedConverter = std::variant<ConverterData, WarpMapFit, UnusedFit>;
 
-// The converter in a fit file. Messages begin with `place`, a file name. Throws kInput for anything else than
-// a fit file, and for a fit without a converter.
-FittedConverter fitted_converter_from_json(std::string_view text, const std::string& place);
+// The converter in a fit file. Messages begin with `context`, a file name. Throws kInput for anything else
+// than a fit file, and for a fit without a converter.
+FittedConverter fitted_converter_from_json(std::string_view text, const std::string& context);
 
 // The same for a file. Throws kInput if it cannot be read.
 FittedConverter load_fitted_converter(const std::filesystem::path& path);

@@ -205,7 +205,7 @@ const Naming& built_in_naming();
 // wrong.
 Naming read_naming(const std::filesystem::path& file);
 
-// The same for the text of a naming file. Errors begin with `place`.
-Naming parse_naming(std::string_view text, const std::string& place);
+// The same for the text of a naming file. Errors begin with `context`.
+Naming parse_naming(std::string_view text, const std::string& context);
 
 }  // namespace remap

@@ -104,9 +104,9 @@ struct NamingTables {
   std::vector<std::string> ignored_words;
 };
 
-NamingTables read_tables(std::string_view text, const std::string& place) {
-  const Json json = parse_json(text, place);
-  const Field field(json, place);
+NamingTables read_tables(std::string_view text, const std::string& context) {
+  const Json json = parse_json(text, context);
+  const Field field(json, context);
   refuse_unknown_fields(field, {"habits", "ignored_words"});
   NamingTables tables;
   tables.habits = field["habits"].list(1, read_habit);
@@ -125,8 +125,8 @@ const Naming& built_in_naming() {
   return naming;
 }
 
-Naming parse_naming(std::string_view text, const std::string& place) {
-  NamingTables tables = read_tables(text, place);
+Naming parse_naming(std::string_view text, const std::string& context) {
+  NamingTables tables = read_tables(text, context);
   const Naming& built_in = built_in_naming();
   tables.habits.insert(tables.habits.end(), built_in.habits().begin(), built_in.habits().end());
   tables.ignored_words.insert(tables.ignored_words.end(), built_in.ignored_words().begin(),

@@ -43,8 +43,8 @@ std::size_t power(std::size_t base, std::size_t exponent) noexcept {
   return result;
 }
 
-void require(bool holds, const std::string& place, const char* found_and_expected) {
-  if (!holds) throw Error(ErrorKind::kInput, place + ": " + found_and_expected);
+void require(bool holds, const std::string& context, const char* found_and_expected) {
+  if (!holds) throw Error(ErrorKind::kInput, context + ": " + found_and_expected);
 }
 
 using Position = std::array<double, kLargestWarpDimension>;
@@ -120,41 +120,41 @@ std::size_t entry_bytes(const CopiedNodes& entries) noexcept {
   return entries.palette.size() * sizeof(WarpTexel) + entries.indices.size() * sizeof(std::uint16_t);
 }
 
-void require_entries(const BlendedNodes& entries, std::size_t count, const std::string& place) {
-  require(entries.codes.size() == count * kWarpParameters, place,
+void require_entries(const BlendedNodes& entries, std::size_t count, const std::string& context) {
+  require(entries.codes.size() == count * kWarpParameters, context,
           "the table has the wrong size (seven codes per node)");
   for (std::size_t p = 0; p < kWarpParameters; ++p)
     require(std::isfinite(entries.least[p]) && std::isfinite(entries.largest[p]) &&
                 entries.least[p] <= entries.largest[p] && entries.least[p] >= 0.0f,
-            place, "the range of a parameter is empty (both ends must be finite and 0 or more)");
+            context, "the range of a parameter is empty (both ends must be finite and 0 or more)");
 }
 
-void require_entries(const CopiedNodes& entries, std::size_t count, const std::string& place) {
-  require(entries.indices.size() == count, place, "the table has the wrong size (one index per node)");
-  require(!entries.palette.empty() && entries.palette.size() <= kLargestPalette, place,
+void require_entries(const CopiedNodes& entries, std::size_t count, const std::string& context) {
+  require(entries.indices.size() == count, context, "the table has the wrong size (one index per node)");
+  require(!entries.palette.empty() && entries.palette.size() <= kLargestPalette, context,
           "the palette has the wrong size (1 to 65536 texels)");
   for (const WarpTexel& texel : entries.palette)
     for (const float value : texel)
-      require(std::isfinite(value) && value >= 0.0f, place,
+      require(std::isfinite(value) && value >= 0.0f, context,
               "the palette holds an invalid value (all must be finite and 0 or more)");
   for (const std::uint16_t index : entries.indices)
-    require(index < entries.palette.size(), place, "an index is beyond the end of the palette");
+    require(index < entries.palette.size(), context, "an index is beyond the end of the palette");
 }
 
 void require_terms(const AppearanceCoordinates& space, const SeparableTerms& terms,
-                   const std::string& place) {
+                   const std::string& context) {
   const std::size_t n = space.dimension, nodes = width_node_count(space, terms);
-  require(terms.diffuse.size() == 3 * n && all_finite(terms.diffuse), place,
+  require(terms.diffuse.size() == 3 * n && all_finite(terms.diffuse), context,
           "the weights of diffuse are invalid (three finite numbers per dimension)");
-  require(nodes >= 2 && terms.offset.size() == n * nodes && all_finite(terms.offset), place,
+  require(nodes >= 2 && terms.offset.size() == n * nodes && all_finite(terms.offset), context,
           "the offsets are invalid (a finite number per node and dimension, two nodes or more)");
-  require(terms.specular.size() == 3 * terms.offset.size() && all_finite(terms.specular), place,
+  require(terms.specular.size() == 3 * terms.offset.size() && all_finite(terms.specular), context,
           "the weights of specular are invalid (three finite numbers per node and dimension)");
 }
 
 void require_terms(const AppearanceCoordinates& space, const QuadraticTerms& terms,
-                   const std::string& place) {
-  require(terms.weights.size() == space.dimension * kQuadraticTerms && all_finite(terms.weights), place,
+                   const std::string& context) {
+  require(terms.weights.size() == space.dimension * kQuadraticTerms && all_finite(terms.weights), context,
           "the weights of quadratic terms are invalid (36 finite numbers per dimension)");
 }
 
@@ -229,21 +229,22 @@ std::size_t byte_count(const CompiledWarp& warp) noexcept {
   return (terms + warp.table.low.size() + warp.table.high.size() + 2) * sizeof(float) + entries;
 }
 
-void require_valid(const CompiledWarp& warp, const std::string& place) {
+void require_valid(const CompiledWarp& warp, const std::string& context) {
   const AppearanceCoordinates& space = warp.coordinates;
   const ParameterTable& table = warp.table;
   const std::size_t n = space.dimension;
-  require(n >= 1 && n <= kLargestWarpDimension, place, "the number of dimensions is invalid (1 to 3)");
+  require(n >= 1 && n <= kLargestWarpDimension, context, "the number of dimensions is invalid (1 to 3)");
   require(space.least_alpha > 0.0f && space.largest_alpha > space.least_alpha && space.largest_alpha <= 1.0f,
-          place, "the range of alpha is invalid (it must lie within 0 and 1, and not be empty)");
-  std::visit([&](const auto& terms) { require_terms(space, terms, place); }, space.terms);
+          context, "the range of alpha is invalid (it must lie within 0 and 1, and not be empty)");
+  std::visit([&](const auto& terms) { require_terms(space, terms, context); }, space.terms);
   require(table.low.size() == n && table.high.size() == n && all_finite(table.low) && all_finite(table.high),
-          place, "the box of coordinates is invalid (two finite corners)");
+          context, "the box of coordinates is invalid (two finite corners)");
   for (std::size_t k = 0; k < n; ++k)
-    require(table.low[k] < table.high[k], place, "the box of coordinates is empty (low must be below high)");
-  require(table.nodes >= 2 && table.nodes <= 4096 && power(table.nodes, n) <= kMostNodes, place,
+    require(table.low[k] < table.high[k], context,
+            "the box of coordinates is empty (low must be below high)");
+  require(table.nodes >= 2 && table.nodes <= 4096 && power(table.nodes, n) <= kMostNodes, context,
           "the number of nodes is invalid (2 to 4096 per dimension, at most 2^24 in all)");
-  std::visit([&](const auto& entries) { require_entries(entries, power(table.nodes, n), place); },
+  std::visit([&](const auto& entries) { require_entries(entries, power(table.nodes, n), context); },
              table.entries);
 }
 

@@ -43,17 +43,17 @@ std::vector<InstructionSet> instruction_sets(InstructionSet best) {
   return sets;
 }
 
-InstructionSet instruction_set_from_name(const std::string& place, const std::string& name,
+InstructionSet instruction_set_from_name(const std::string& context, const std::string& name,
                                          InstructionSet best) {
   std::vector<std::string> names;
   for (const InstructionSet set : kSets) names.emplace_back(instruction_set_name(set));
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
     throw Error(ErrorKind::kUsage,
-                place + ": unknown instruction set '" + name + "'" + suggestion(name, names));
+                context + ": unknown instruction set '" + name + "'" + suggestion(name, names));
   const InstructionSet set = kSets[static_cast<std::size_t>(found - names.begin())];
   if (set > best)
-    throw Error(ErrorKind::kUsage, place + ": this processor does not support " + name + " (choose " +
+    throw Error(ErrorKind::kUsage, context + ": this processor does not support " + name + " (choose " +
                                        std::string(instruction_set_name(best)) + " or less)");
   return set;
 }

@@ -174,7 +174,7 @@ WarpMapFit read_warp_fit(const Field& root) {
   fit.source_model = read_model(root["source"]["model"]);
   fit.template_model = read_model(root["target"]["model"]);
   fit.warp = read_compiled(root["mapping"]);
-  require_valid(fit.warp, root.place());
+  require_valid(fit.warp, root.context());
   fit.copy_rms_error = root["copy_rms_error"].number();
   root["copy_rms_error"].require(fit.copy_rms_error >= 0.0 || fit.copy_rms_error == -1.0,
                                  "a share from 0, or -1 where it is not known");

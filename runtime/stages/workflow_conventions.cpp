@@ -10,11 +10,11 @@ namespace code = workflow_code;
 
 constexpr double kLargestDielectricF0 = 0.9;
 
-void require_width(RoughnessEncoding width, const std::string& place) {
+void require_width(RoughnessEncoding width, const std::string& context) {
   if (width == RoughnessEncoding::kRoughness || width == RoughnessEncoding::kGlossiness ||
       width == RoughnessEncoding::kAlpha)
     return;
-  throw Error(ErrorKind::kInput, place + ": a workflow cannot hold its roughness as " +
+  throw Error(ErrorKind::kInput, context + ": a workflow cannot hold its roughness as " +
                                      std::string(encoding_name(width)) +
                                      " (choose roughness, glossiness or alpha)");
 }
@@ -22,18 +22,18 @@ void require_width(RoughnessEncoding width, const std::string& place) {
 }  // namespace
 
 void require_valid(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
-                   const std::string& place) {
-  require_width(specular.width, place);
-  require_width(metallic.width, place);
+                   const std::string& context) {
+  require_width(specular.width, context);
+  require_width(metallic.width, context);
   const double f0 = metallic.dielectric_f0;
   if (!(f0 >= 0.0 && f0 <= kLargestDielectricF0))
-    throw Error(ErrorKind::kInput, place + ": dielectric F0 " + number_text(f0) + " is out of range (0 to " +
-                                       number_text(kLargestDielectricF0) + ")");
+    throw Error(ErrorKind::kInput, context + ": dielectric F0 " + number_text(f0) +
+                                       " is out of range (0 to " + number_text(kLargestDielectricF0) + ")");
 }
 
-void require_prior(double prior, const std::string& place) {
+void require_prior(double prior, const std::string& context) {
   if (!(prior >= 0.0 && prior <= kLargestPrior))
-    throw Error(ErrorKind::kInput, place + ": prior " + number_text(prior) + " is out of range (0 to " +
+    throw Error(ErrorKind::kInput, context + ": prior " + number_text(prior) + " is out of range (0 to " +
                                        number_text(kLargestPrior) + ")");
 }
 

@@ -8,12 +8,12 @@
 
 namespace remap {
 
-// Throws kInput, beginning with `place`, for a width other than roughness, glossiness or alpha, and for a
+// Throws kInput, beginning with `context`, for a width other than roughness, glossiness or alpha, and for a
 // dielectric F0 out of range.
 void require_valid(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
-                   const std::string& place);
+                   const std::string& context);
 // The same for a prior out of range.
-void require_prior(double prior, const std::string& place);
+void require_prior(double prior, const std::string& context);
 
 workflow_code::WidthParameter width_parameter(RoughnessEncoding width);
 // The conventions of a conversion to metallic, or to specular.

@@ -217,10 +217,10 @@ bool tells_alpha(RoughnessEncoding width) {
 // Between a metallic workflow and the specular one between the stages; both have the width of the block.
 workflow_code::Conventions conventions_between(MetallicWorkflow metallic, DiffuseConvention diffuse,
                                                RoughnessEncoding width, bool to_metallic,
-                                               const std::string& place) {
+                                               const std::string& context) {
   metallic.width = width;
   const SpecularWorkflow specular{"specular", diffuse, width};
-  require_valid(specular, metallic, place);
+  require_valid(specular, metallic, context);
   return conventions_of(specular, metallic, to_metallic);
 }
 
@@ -242,8 +242,8 @@ std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
 
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
                                             RoughnessEncoding width, InstructionSet set,
-                                            const std::string& place) {
-  return std::make_shared<ToSpecular>(conventions_between(source, diffuse, width, false, place), set);
+                                            const std::string& context) {
+  return std::make_shared<ToSpecular>(conventions_between(source, diffuse, width, false, context), set);
 }
 
 std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stages, InstructionSet set) {

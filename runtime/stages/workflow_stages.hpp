@@ -12,10 +12,10 @@
 namespace remap {
 
 // Base color and metallic to diffuse and specular by equation (2); the width stays. `diffuse`, `width`: what
-// diffuse becomes, and what the width is. Throws kInput, beginning with `place`, as require_valid() does.
+// diffuse becomes, and what the width is. Throws kInput, beginning with `context`, as require_valid() does.
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
                                             RoughnessEncoding width, InstructionSet set,
-                                            const std::string& place);
+                                            const std::string& context);
 
 // As make_workflow_converter() without BRDF, from a metallic workflow whose dielectrics have an F0 for each
 // texel: kSpecular of the source (KHR_materials_specular). The F0 of `stages.source` does not count; diffuse

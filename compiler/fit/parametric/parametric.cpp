@@ -65,7 +65,7 @@ double specular_derivative(const Parametric& form, double alpha, double specular
   return sum;
 }
 
-std::string place(const Least& least, bool with_specular) {
+std::string context(const Least& least, bool with_specular) {
   std::string text = number_text(least.value) + " at alpha1 " + number_text(least.alpha);
   if (with_specular) text += ", specular1 " + number_text(least.specular);
   return text;
@@ -79,7 +79,7 @@ void require_rising_alpha(const Parametric& form, const Domain& domain) {
       domain, flat, [&](double alpha, double specular) { return alpha_derivative(form, alpha, specular); });
   if (least.value > 0.0) return;
   throw numeric_error("fit: the roughness curve does not increase from " + number_text(domain.alpha.min) +
-                      " to " + number_text(domain.alpha.max) + ": its slope is " + place(least, !flat));
+                      " to " + number_text(domain.alpha.max) + ": its slope is " + context(least, !flat));
 }
 
 void require_rising_specular(const Parametric& form, const Domain& domain, double least_specular) {
@@ -91,10 +91,10 @@ void require_rising_specular(const Parametric& form, const Domain& domain, doubl
       least_over({domain.alpha, {least_specular, least_specular}}, true,
                  [&](double alpha, double specular) { return target_specular(form, alpha, specular); });
   if (!(slope.value > 0.0))
-    throw numeric_error(proportional ? "fit: k(alpha) is not positive: it is " + place(slope, false)
+    throw numeric_error(proportional ? "fit: k(alpha) is not positive: it is " + context(slope, false)
                                      : "fit: specular2 does not increase with specular1: its slope is " +
-                                           place(slope, true));
-  if (!(value.value >= 0.0)) throw numeric_error("fit: specular2 is negative: it is " + place(value, true));
+                                           context(slope, true));
+  if (!(value.value >= 0.0)) throw numeric_error("fit: specular2 is negative: it is " + context(value, true));
 }
 
 double least_positive_specular(const std::vector<TableRow>& rows) {

@@ -66,13 +66,13 @@ class MapSize {
 };
 
 // What is copied from Python, so that the work needs no lock of the interpreter.
-struct Prepared {
+struct PreparedMaps {
   MapConversion maps;
   std::vector<Buffer> held;
   int threads = 1;
 };
 
-void add_sources(const nb::dict& sources, const nb::dict& transfers, MapSize& size, Prepared& prepared) {
+void add_sources(const nb::dict& sources, const nb::dict& transfers, MapSize& size, PreparedMaps& prepared) {
   for (const auto& [key, value] : sources) {
     const std::string name = text_of(key);
     SourceParameter& source = prepared.maps.sources[parameter_named(name)];
@@ -88,7 +88,7 @@ void add_sources(const nb::dict& sources, const nb::dict& transfers, MapSize& si
   }
 }
 
-void add_targets(const nb::dict& targets, const nb::dict& transfers, MapSize& size, Prepared& prepared) {
+void add_targets(const nb::dict& targets, const nb::dict& transfers, MapSize& size, PreparedMaps& prepared) {
   for (const auto& [key, value] : targets) {
     const std::string name = text_of(key);
     const Buffer& buffer = prepared.held.emplace_back(value, Buffer::Access::kWrite, name);
@@ -184,7 +184,7 @@ MaterialConversion MaterialConversion::load(const std::string& path,
 
 nb::dict MaterialConversion::convert(const nb::dict& sources, const nb::dict& targets,
                                      const nb::dict& options) const {
-  Prepared prepared;
+  PreparedMaps prepared;
   MapConversion& maps = prepared.maps;
   MapSize size;
   const auto transfers = [&](const char* name) {

@@ -221,9 +221,9 @@ class PythonCodec : public ImageCodec {
  public:
   explicit PythonCodec(const nb::object& images) : images_(images) {}
 
-  ImagePixels decode(std::string_view bytes, const std::string& place) const override {
+  ImagePixels decode(std::string_view bytes, const std::string& context) const override {
     return in_python(ErrorKind::kInput, [&] {
-      const nb::object answer = images_->attr("decode")(copy_of(bytes.data(), bytes.size()), place);
+      const nb::object answer = images_->attr("decode")(copy_of(bytes.data(), bytes.size()), context);
       const auto [width, height, channels, type, texels] =
           nb::cast<std::tuple<std::size_t, std::size_t, std::size_t, std::string, nb::bytes>>(answer);
       ImagePixels pixels;
@@ -234,7 +234,7 @@ class PythonCodec : public ImageCodec {
       const auto* const first = static_cast<const std::byte*>(texels.data());
       pixels.bytes.assign(first, first + texels.size());
       if (pixels.bytes.size() != width * height * pixels.texel_bytes())
-        throw input_error(place + ": decodes to " + std::to_string(texels.size()) + " bytes");
+        throw input_error(context + ": decodes to " + std::to_string(texels.size()) + " bytes");
       return pixels;
     });
   }

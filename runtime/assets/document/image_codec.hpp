@@ -35,8 +35,9 @@ inline constexpr int kUsualPngLevel = 3, kSmallestPngLevel = 9;
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
-  // Palettes are expanded. Throws kInput, beginning with `place`, for bytes that are no image that it reads.
-  virtual ImagePixels decode(std::string_view bytes, const std::string& place) const = 0;
+  // Palettes are expanded. Throws kInput, beginning with `context`, for bytes that are no image that it
+  // reads.
+  virtual ImagePixels decode(std::string_view bytes, const std::string& context) const = 0;
   // A PNG file. `level`: 1 (fast) to 9 (small). Throws kOutput.
   virtual std::string encode_png(const ImagePixels& pixels, int level) const = 0;
   // A JPEG file, of 8 bits and without alpha. `quality`: 1 to 100. Throws kOutput.

@@ -19,16 +19,16 @@ std::string in_lower_case(std::string_view text) {
   return result;
 }
 
-MtlDocument::MtlDocument(std::string_view text, const std::string& place) : text_(text) {
+MtlDocument::MtlDocument(std::string_view text, const std::string& context) : text_(text) {
   if (text.size() > kLongestMtl)
-    throw input_error(place + ": has " + std::to_string(text.size()) + " bytes; at most " +
+    throw input_error(context + ": has " + std::to_string(text.size()) + " bytes; at most " +
                       std::to_string(kLongestMtl) + " are read");
   std::size_t at = text.starts_with(kMarkOfUtf8) ? kMarkOfUtf8.size() : 0;
   while (at < text.size()) {
     const std::size_t end = end_of_line(at);
     add_line(at, end);
     if (statements_.size() > kMostMtlStatements)
-      throw input_error(place + ": has more than " + std::to_string(kMostMtlStatements) + " statements");
+      throw input_error(context + ": has more than " + std::to_string(kMostMtlStatements) + " statements");
     at = end + ending_length(end);
   }
   if (!materials_.empty()) materials_.back().last = statements_.size();

@@ -30,8 +30,8 @@ struct MtlBlock {
 
 class MtlDocument {
  public:
-  // `text` must outlive it. Throws kInput, beginning with `place`, beyond the limits above.
-  MtlDocument(std::string_view text, const std::string& place);
+  // `text` must outlive it. Throws kInput, beginning with `context`, beyond the limits above.
+  MtlDocument(std::string_view text, const std::string& context);
 
   std::string_view text() const noexcept { return text_; }
   std::string_view raw(TextSpan span) const noexcept {

@@ -67,21 +67,21 @@ void TextReader::add_unit(std::uint32_t unit, std::uint64_t begin, std::string& 
 }
 
 void TextReader::refuse(std::uint64_t begin) const {
-  throw input_error(place_ + ": has half a character of UTF-16 at byte " + std::to_string(begin) +
+  throw input_error(context_ + ": has half a character of UTF-16 at byte " + std::to_string(begin) +
                     " (save it as UTF-8)");
 }
 
-std::string utf8_text(const ByteSource& source, const std::string& place) {
-  TextReader reader(source, place);
+std::string utf8_text(const ByteSource& source, const std::string& context) {
+  TextReader reader(source, context);
   std::string text;
   for (std::string block = reader.next(); !block.empty(); block = reader.next()) text += block;
   return text;
 }
 
-std::string encoded(const std::string& text, TextEncoding encoding, const std::string& place) {
+std::string encoded(const std::string& text, TextEncoding encoding, const std::string& context) {
   if (encoding == TextEncoding::kBytes) return text;
   if (!is_utf8(text))
-    throw input_error(place + ": names a file whose name UTF-16 cannot hold (rename the file)");
+    throw input_error(context + ": names a file whose name UTF-16 cannot hold (rename the file)");
   std::string bytes;
   bytes.reserve(2 * text.size());
   for (std::size_t at = 0; at < text.size();) {

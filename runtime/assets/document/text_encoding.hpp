@@ -20,11 +20,11 @@ TextEncoding encoding_of(const ByteSource& source);
 class TextReader {
  public:
   // Both must outlive it.
-  TextReader(const ByteSource& source, const std::string& place)
-      : source_(source), place_(place), encoding_(encoding_of(source)) {}
+  TextReader(const ByteSource& source, const std::string& context)
+      : source_(source), context_(context), encoding_(encoding_of(source)) {}
 
   // The next block, with a byte order mark as UTF-8 has it; empty at the end. Throws kInput, beginning with
-  // `place`, for UTF-16 with half a character.
+  // `context`, for UTF-16 with half a character.
   std::string next();
 
  private:
@@ -32,17 +32,17 @@ class TextReader {
   [[noreturn]] void refuse(std::uint64_t begin) const;
 
   const ByteSource& source_;
-  const std::string& place_;
+  const std::string& context_;
   TextEncoding encoding_;
   std::uint64_t at_ = 0;
   std::uint32_t first_half_ = 0;  // of a character, the surrogate before this place; 0 for none
 };
 
 // The whole text. As TextReader::next().
-std::string utf8_text(const ByteSource& source, const std::string& place);
+std::string utf8_text(const ByteSource& source, const std::string& context);
 
-// A text as it is written: utf8_text() of the bytes is the text again. Throws kInput, beginning with `place`,
-// where UTF-16 is asked of what is not UTF-8.
-std::string encoded(const std::string& text, TextEncoding encoding, const std::string& place);
+// A text as it is written: utf8_text() of the bytes is the text again. Throws kInput, beginning with
+// `context`, where UTF-16 is asked of what is not UTF-8.
+std::string encoded(const std::string& text, TextEncoding encoding, const std::string& context);
 
 }  // namespace remap

@@ -51,9 +51,9 @@ std::vector<AssetResource> resources_of(const SpannedJson& json) {
 }
 
 // A file that only replaced images named is no longer one of the asset.
-void drop_unnamed(AssetConversion& conversion, const std::string& place) {
+void drop_unnamed(AssetConversion& conversion, const std::string& context) {
   std::set<std::string> named;
-  for (const AssetResource& resource : resources_of(SpannedJson(conversion.text, place)))
+  for (const AssetResource& resource : resources_of(SpannedJson(conversion.text, context)))
     named.insert(resource.path);
   std::erase_if(conversion.resources,
                 [&](const AssetResource& resource) { return !named.contains(resource.path); });
@@ -62,15 +62,15 @@ void drop_unnamed(AssetConversion& conversion, const std::string& place) {
 // Views lie within their buffers, and the first buffer of a container within its binary chunk.
 class ViewCheck {
  public:
-  ViewCheck(const SpannedJson& json, const GltfContainer& container, const std::string& place)
-      : root_(json.root()), container_(container), place_(place) {}
+  ViewCheck(const SpannedJson& json, const GltfContainer& container, const std::string& context)
+      : root_(json.root()), container_(container), context_(context) {}
 
   // Returns warnings.
   std::vector<std::string> run() {
     for (const SpanValue& buffer : root_["buffers"].entries()) {
       const std::optional<std::size_t> length = buffer["byteLength"].whole();
       if (!length)
-        throw input_error(place_ + ": /buffers/" + std::to_string(lengths_.size()) +
+        throw input_error(context_ + ": /buffers/" + std::to_string(lengths_.size()) +
                           ": its byteLength is not a whole number");
       lengths_.push_back(*length);
     }
@@ -88,14 +88,14 @@ class ViewCheck {
     if (buffers.front()["uri"]) return {};
     const std::uint64_t size = chunk->content_size(), length = lengths_.front();
     if (length > size)
-      throw input_error(place_ + ": /buffers/0 has " + std::to_string(length) +
+      throw input_error(context_ + ": /buffers/0 has " + std::to_string(length) +
                         " bytes, but the binary chunk has " + std::to_string(size));
     if (size - length <= kMostPadding) return {};
     return {"its binary chunk is " + std::to_string(size - length) + " bytes longer than its buffer"};
   }
 
   void check_view(SpanValue view, std::size_t index) const {
-    const std::string name = place_ + ": /bufferViews/" + std::to_string(index);
+    const std::string name = context_ + ": /bufferViews/" + std::to_string(index);
     const std::optional<std::size_t> buffer = view["buffer"].whole(), length = view["byteLength"].whole();
     const SpanValue offset_value = view["byteOffset"];
     const std::optional<std::size_t> offset = offset_value ? offset_value.whole() : std::size_t{0};
@@ -111,29 +111,29 @@ class ViewCheck {
 
   SpanValue root_;
   const GltfContainer& container_;
-  const std::string& place_;
+  const std::string& context_;
   std::vector<std::size_t> lengths_;  // of the buffers
 };
 
 }  // namespace
 
-std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& place) {
-  const GltfContainer container = read_container(source, place);
-  return resources_of(SpannedJson(container.json, place));
+std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& context) {
+  const GltfContainer container = read_container(source, context);
+  return resources_of(SpannedJson(container.json, context));
 }
 
-AssetConversion convert_gltf(const ByteSource& source, const std::string& place, const AssetOptions& options,
-                             const AssetResources* resources) {
-  const GltfContainer container = read_container(source, place);
-  const SpannedJson json(container.json, place);
+AssetConversion convert_gltf(const ByteSource& source, const std::string& context,
+                             const AssetOptions& options, const AssetResources* resources) {
+  const GltfContainer container = read_container(source, context);
+  const SpannedJson json(container.json, context);
   std::vector<std::string> warnings = container.notes;
-  for (const std::string& warning : ViewCheck(json, container, place).run()) warnings.push_back(warning);
-  GltfResult result = convert_materials({json, container, source, place}, options, resources);
+  for (const std::string& warning : ViewCheck(json, container, context).run()) warnings.push_back(warning);
+  GltfResult result = convert_materials({json, container, source, context}, options, resources);
   AssetConversion& conversion = result.asset;
   conversion.warnings.insert(conversion.warnings.begin(), warnings.begin(), warnings.end());
   conversion.resources = resources_of(json);
-  if (options.compacts && conversion.changed) drop_unnamed(conversion, place);
-  if (conversion.changed) conversion.pieces = with_json(container, conversion.text, result.tail, place);
+  if (options.compacts && conversion.changed) drop_unnamed(conversion, context);
+  if (conversion.changed) conversion.pieces = with_json(container, conversion.text, result.tail, context);
   return std::move(conversion);
 }
 

@@ -9,12 +9,12 @@
 namespace remap {
 
 // The files that an asset names. Throws as convert_gltf().
-std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& place);
+std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& context);
 
-// Reads and converts a file of either form. Throws kInput, beginning with `place`, for a container or a text
-// that cannot be read, and for views that lie outside of their buffers; kOutput as with_json(). Without
+// Reads and converts a file of either form. Throws kInput, beginning with `context`, for a container or a
+// text that cannot be read, and for views that lie outside of their buffers; kOutput as with_json(). Without
 // `resources`, materials with textures fail.
-AssetConversion convert_gltf(const ByteSource& source, const std::string& place,
+AssetConversion convert_gltf(const ByteSource& source, const std::string& context,
                              const AssetOptions& options = {}, const AssetResources* resources = nullptr);
 
 }  // namespace remap

@@ -30,29 +30,30 @@ struct Chunk {
   std::uint64_t begin = 0, end = 0;  // of the content
 };
 
-Chunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string& place) {
+Chunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string& context) {
   const std::uint64_t left = source.size() - at;
   if (left < kChunkHeaderSize)
-    throw input_error(place + ": is cut off in the header of a chunk at byte " + std::to_string(at));
+    throw input_error(context + ": is cut off in the header of a chunk at byte " + std::to_string(at));
   const std::string header = source.read(at, kChunkHeaderSize);
   const std::uint64_t length = number_in(header, 0);
   if (length > left - kChunkHeaderSize)
-    throw input_error(place + ": the chunk at byte " + std::to_string(at) + " states " +
+    throw input_error(context + ": the chunk at byte " + std::to_string(at) + " states " +
                       std::to_string(length) + " bytes, but the file has " +
                       std::to_string(left - kChunkHeaderSize) + " more (it is cut off or damaged)");
   return {number_in(header, 4), at + kChunkHeaderSize, at + kChunkHeaderSize + length};
 }
 
 // The file must be as long as its header says.
-void require_header(const ByteSource& source, const std::string& place) {
-  if (source.size() < kHeaderSize) throw input_error(place + ": is cut off in its header");
+void require_header(const ByteSource& source, const std::string& context) {
+  if (source.size() < kHeaderSize) throw input_error(context + ": is cut off in its header");
   const std::string header = source.read(0, kHeaderSize);
   if (const std::uint32_t version = number_in(header, 4); version != 2)
-    throw input_error(place + ": is a glTF container of version " + std::to_string(version) +
+    throw input_error(context + ": is a glTF container of version " + std::to_string(version) +
                       "; version 2 is read");
   if (const std::uint64_t length = number_in(header, 8); length != source.size())
-    throw input_error(place + ": its header states " + std::to_string(length) + " bytes, but the file has " +
-                      std::to_string(source.size()) + " (it is cut off or damaged)");
+    throw input_error(context + ": its header states " + std::to_string(length) +
+                      " bytes, but the file has " + std::to_string(source.size()) +
+                      " (it is cut off or damaged)");
 }
 
 std::string without_padding(std::string json, GltfContainer& container) {
@@ -64,30 +65,30 @@ std::string without_padding(std::string json, GltfContainer& container) {
   return json;
 }
 
-void require_short(std::uint64_t size, const std::string& place) {
+void require_short(std::uint64_t size, const std::string& context) {
   if (size > kLongestSpannedText)
-    throw input_error(place + ": has " + std::to_string(size >> 20) + " MB of JSON; at most " +
+    throw input_error(context + ": has " + std::to_string(size >> 20) + " MB of JSON; at most " +
                       std::to_string(kLongestSpannedText >> 20) +
                       " MB are read (keep buffers and images in files of their own)");
 }
 
 }  // namespace
 
-GltfContainer read_container(const ByteSource& source, const std::string& place) {
+GltfContainer read_container(const ByteSource& source, const std::string& context) {
   GltfContainer container;
   container.is_binary = source.size() >= kMagic.size() && source.read(0, kMagic.size()) == kMagic;
   if (!container.is_binary) {
-    require_short(source.size(), place);
+    require_short(source.size(), context);
     container.json = source.read(0, source.size());
     return container;
   }
-  require_header(source, place);
-  if (source.size() == kHeaderSize) throw input_error(place + ": has no JSON chunk");
-  const Chunk json = chunk_at(source, kHeaderSize, place);
-  if (json.type != kJsonChunk) throw input_error(place + ": its first chunk is not JSON");
-  require_short(json.end - json.begin, place);
+  require_header(source, context);
+  if (source.size() == kHeaderSize) throw input_error(context + ": has no JSON chunk");
+  const Chunk json = chunk_at(source, kHeaderSize, context);
+  if (json.type != kJsonChunk) throw input_error(context + ": its first chunk is not JSON");
+  require_short(json.end - json.begin, context);
   for (std::uint64_t at = json.end; at < source.size();) {
-    const Chunk chunk = chunk_at(source, at, place);
+    const Chunk chunk = chunk_at(source, at, context);
     container.chunks.push_back({chunk.type, at, chunk.end});
     at = chunk.end;
   }
@@ -117,7 +118,7 @@ void add_chunk(const GlbChunk& chunk, const BinaryTail& tail, std::vector<AssetP
 }  // namespace
 
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
-                                  const BinaryTail& tail, const std::string& place) {
+                                  const BinaryTail& tail, const std::string& context) {
   if (!container.is_binary) return {{json, 0, 0}};
   std::vector<AssetPiece> pieces(1);
   std::string padded = json;
@@ -129,7 +130,7 @@ std::vector<AssetPiece> with_json(const GltfContainer& container, const std::str
       pieces.push_back({"", chunk.begin, chunk.end});
   const std::uint64_t size = kHeaderSize + kChunkHeaderSize + padded.size() + size_of(pieces);
   if (size > std::numeric_limits<std::uint32_t>::max())
-    throw output_error(place + ": would have " + std::to_string(size) +
+    throw output_error(context + ": would have " + std::to_string(size) +
                        " bytes; a .glb holds less than 4 GiB (convert it as .gltf with a .bin)");
   pieces.front().bytes = std::string(kMagic) + bytes_of(2) + bytes_of(static_cast<std::uint32_t>(size)) +
                          bytes_of(static_cast<std::uint32_t>(padded.size())) + bytes_of(kJsonChunk) + padded;

@@ -39,8 +39,8 @@ struct GltfContainer {
 };
 
 // Reads a file of either form. Every length is compared with the file before anything is allocated. Throws
-// kInput, beginning with `place`, for a container that is cut off or whose lengths contradict each other.
-GltfContainer read_container(const ByteSource& source, const std::string& place);
+// kInput, beginning with `context`, for a container that is cut off or whose lengths contradict each other.
+GltfContainer read_container(const ByteSource& source, const std::string& context);
 
 // The new end of the binary chunk.
 struct BinaryTail {
@@ -49,9 +49,9 @@ struct BinaryTail {
 };
 
 // The file with other JSON: chunks stay in their order, the binary one with another tail. Throws kOutput,
-// beginning with `place`, for 4 GiB or more, which a container cannot hold.
+// beginning with `context`, for 4 GiB or more, which a container cannot hold.
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
-                                  const BinaryTail& tail, const std::string& place);
+                                  const BinaryTail& tail, const std::string& context);
 
 // The length of a result.
 std::uint64_t size_of(const std::vector<AssetPiece>& pieces);

@@ -41,7 +41,7 @@ struct ImageParts {
   ImageParts(const GltfSource& source, const AssetOptions& options, const AssetResources& resources)
       : bytes(source.json, source.container, source.bytes, resources),
         images(source.json, bytes, resources),
-        added(source.json, source.container, resources, source.place),
+        added(source.json, source.container, resources, source.context),
         textures(options, resources, images, added) {}
 
   GltfBytes bytes;
@@ -78,9 +78,9 @@ class GltfConversion {
  private:
   void require_gltf() {
     const std::optional<std::string> version = root_["asset"]["version"].text();
-    if (!version) throw input_error(source_.place + ": has no asset.version (it is not a glTF file)");
+    if (!version) throw input_error(source_.context + ": has no asset.version (it is not a glTF file)");
     if (!version->starts_with("2."))
-      throw input_error(source_.place + ": is glTF " + plain(*version, 20) + "; version 2 is read");
+      throw input_error(source_.context + ": is glTF " + plain(*version, 20) + "; version 2 is read");
     for (const SpanValue& entry : root_["extensionsRequired"].children())
       if (const std::string name = entry.text().value_or(""); !is_known_extension(name))
         result_.asset.warnings.push_back(
@@ -105,7 +105,8 @@ class GltfConversion {
 
   void convert_all() {
     const SpanValue list = root_["materials"];
-    if (list && !list.is(SpanKind::kList)) throw input_error(source_.place + ": materials: expected a list");
+    if (list && !list.is(SpanKind::kList))
+      throw input_error(source_.context + ": materials: expected a list");
     const std::vector<SpanValue> all = list.children();
     result_.asset.materials.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -140,7 +141,7 @@ class GltfConversion {
     std::vector<MaterialEdit> edits;
     for (const auto& [index, edit] : edits_) edits.push_back(edit);
     TextEdits text(source_.json);
-    GltfMaterialWriter writer(source_.json, source_.place, parts_ ? &parts_->added : nullptr, text);
+    GltfMaterialWriter writer(source_.json, source_.context, parts_ ? &parts_->added : nullptr, text);
     std::set<std::size_t> removed;  // values of extensions of textures
     std::set<std::string> formats;
     if (parts_) {

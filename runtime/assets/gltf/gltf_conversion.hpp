@@ -15,7 +15,7 @@ struct GltfSource {
   const SpannedJson& json;
   const GltfContainer& container;
   const ByteSource& bytes;
-  const std::string& place;
+  const std::string& context;
 };
 
 struct GltfResult {

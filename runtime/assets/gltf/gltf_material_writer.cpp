@@ -122,7 +122,7 @@ void GltfMaterialWriter::update_list(std::string_view name, const std::set<std::
                                      std::vector<std::string> added) {
   const SpanValue list = root_[name];
   if (list && !list.is(SpanKind::kList))
-    throw input_error(place_ + ": " + std::string(name) + ": expected a list");
+    throw input_error(context_ + ": " + std::string(name) + ": expected a list");
   std::vector<SpanValue> removed;
   for (const SpanValue& entry : list.children()) {
     const std::string text = entry.text().value_or("");

@@ -16,9 +16,9 @@ namespace remap {
 class GltfMaterialWriter {
  public:
   // All must outlive it. `images`: written already; null where there are none.
-  GltfMaterialWriter(const SpannedJson& json, const std::string& place, const GltfNewImages* images,
+  GltfMaterialWriter(const SpannedJson& json, const std::string& context, const GltfNewImages* images,
                      TextEdits& edits)
-      : json_(json), root_(json.root()), place_(place), images_(images), edits_(edits) {}
+      : json_(json), root_(json.root()), context_(context), images_(images), edits_(edits) {}
 
   void write(const MaterialEdit& edit, AssetMaterial& report);
   // Adds new extensions to extensionsUsed. Of `goers` and of those that materials lost, removes from both
@@ -38,7 +38,7 @@ class GltfMaterialWriter {
 
   const SpannedJson& json_;
   SpanValue root_;
-  const std::string& place_;
+  const std::string& context_;
   const GltfNewImages* images_;
   TextEdits& edits_;
   std::set<std::size_t> removed_;   // values of extensions that go

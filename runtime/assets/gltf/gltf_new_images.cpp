@@ -29,11 +29,11 @@ std::optional<std::size_t> take_spare(std::vector<std::size_t>& spares, std::opt
 }  // namespace
 
 GltfNewImages::GltfNewImages(const SpannedJson& json, const GltfContainer& container,
-                             const AssetResources& resources, const std::string& place)
+                             const AssetResources& resources, const std::string& context)
     : root_(json.root()),
       container_(container),
       resources_(resources),
-      place_(place),
+      context_(context),
       textures_(root_["textures"].entries()),
       images_(root_["images"].entries()),
       views_(root_["bufferViews"].entries()),
@@ -85,7 +85,7 @@ void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
   if (tail_.appended.empty() && *tail_.kept == 0) tail_.kept = 1;
   const std::uint64_t length = tail_.appended.empty() ? *tail_.kept : chunk_start_ + tail_.appended.size();
   if (length > std::numeric_limits<std::uint32_t>::max())
-    throw output_error(place_ + ": would have a binary chunk of " + std::to_string(length) +
+    throw output_error(context_ + ": would have a binary chunk of " + std::to_string(length) +
                        " bytes; a .glb holds less than 4 GiB (convert it as .gltf with a .bin)");
   edits.replace(buffers_.front()["byteLength"], std::to_string(length));
 }

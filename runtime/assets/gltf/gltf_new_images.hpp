@@ -31,7 +31,7 @@ class GltfNewImages {
  public:
   // All must outlive it.
   GltfNewImages(const SpannedJson& json, const GltfContainer& container, const AssetResources& resources,
-                const std::string& place);
+                const std::string& context);
 
   // Adds an image beside its model, an image of the file. `suffix` goes to names: `_baseColor`.
   // Returns its number among the new ones, of one that was added before where their bytes are equal.
@@ -80,7 +80,7 @@ class GltfNewImages {
   SpanValue root_;
   const GltfContainer& container_;
   const AssetResources& resources_;
-  const std::string& place_;
+  const std::string& context_;
   std::vector<SpanValue> textures_, images_, views_, buffers_;
   std::vector<NewImage> new_images_;
   std::vector<NewTexture> new_textures_;

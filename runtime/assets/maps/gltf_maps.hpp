@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "assets/document/image_codec.hpp"
-#include "assets/document/material_values.hpp"
+#include "assets/maps/workflow_values.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/converter.hpp"
 

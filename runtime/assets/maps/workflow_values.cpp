@@ -1,8 +1,28 @@
 #include "assets/maps/workflow_values.hpp"
 
+#include <cstddef>
+
 #include "stages/workflow_stages.hpp"
 
 namespace remap {
+
+MaterialValues converted(const Converter& converter, const MaterialValues& material) {
+  MaterialRows<const float> in;
+  for (const auto& [parameter, values] : material) {
+    in[parameter].count = values.size();
+    for (std::size_t c = 0; c < values.size(); ++c) in[parameter].row[c] = &values[c];
+  }
+  MaterialValues result;
+  MaterialRows<float> out;
+  for (const Parameter parameter : converter.targets()) {
+    std::vector<float>& values = result[parameter];
+    values.resize(is_color(parameter) ? 3 : 1);
+    out[parameter].count = values.size();
+    for (std::size_t c = 0; c < values.size(); ++c) out[parameter].row[c] = &values[c];
+  }
+  converter.convert(1, in, out);
+  return result;
+}
 
 std::unique_ptr<Converter> asset_converter(const char* source, const char* target, double prior,
                                            InstructionSet set, bool has_dielectric) {

@@ -2,13 +2,19 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
+#include <vector>
 
-#include "assets/document/material_values.hpp"
 #include "remap/converter.hpp"
 #include "remap/workflow.hpp"
 
 namespace remap {
+
+using MaterialValues = std::map<Parameter, std::vector<float>>;  // one value, or red, green and blue
+
+// All targets of the converter, of all its sources, as the texels of maps are converted.
+MaterialValues converted(const Converter& converter, const MaterialValues& material);
 
 // Between workflow models (`gltf`, `gltf-specgloss`), with roughness at both ends. With `has_dielectric` the
 // source takes the F0 of its dielectrics as kSpecular.

@@ -333,28 +333,28 @@ bool is_mtl_map(const std::string& word) {
   return word.starts_with("map_") || std::ranges::find(kOthers, word) != kOthers.end();
 }
 
-std::string mtl_text(const ByteSource& source, const std::string& place) {
+std::string mtl_text(const ByteSource& source, const std::string& context) {
   if (source.size() > kLongestMtl)
-    throw input_error(place + ": has " + std::to_string(source.size()) + " bytes; at most " +
+    throw input_error(context + ": has " + std::to_string(source.size()) + " bytes; at most " +
                       std::to_string(kLongestMtl) + " are read");
-  return utf8_text(source, place);
+  return utf8_text(source, context);
 }
 
-std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& place,
+std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& context,
                                          const AssetResources* resources) {
-  const std::string text = mtl_text(source, place);
-  const MtlDocument document(text, place);
+  const std::string text = mtl_text(source, context);
+  const MtlDocument document(text, context);
   MtlImages images(resources, "");
   return named_images(document, images);
 }
 
-AssetConversion convert_mtl(const ByteSource& source, const std::string& place, const AssetOptions& options,
+AssetConversion convert_mtl(const ByteSource& source, const std::string& context, const AssetOptions& options,
                             const AssetResources* resources) {
-  const std::string text = mtl_text(source, place);
-  const MtlDocument document(text, place);
+  const std::string text = mtl_text(source, context);
+  const MtlDocument document(text, context);
   AssetConversion conversion = MtlEditor(document, options, resources).result();
   if (conversion.changed)
-    conversion.pieces.push_back({encoded(conversion.text, encoding_of(source), place), 0, 0});
+    conversion.pieces.push_back({encoded(conversion.text, encoding_of(source), context), 0, 0});
   return conversion;
 }
 

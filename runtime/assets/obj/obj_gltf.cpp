@@ -149,13 +149,13 @@ void add_list(Json& file, const char* name, Json list) {
 }
 
 // The header, the JSON and the binary chunk (glTF 2.0, section 4).
-std::vector<AssetPiece> glb_pieces(std::string json, GltfBuffer& buffer, const std::string& place) {
+std::vector<AssetPiece> glb_pieces(std::string json, GltfBuffer& buffer, const std::string& context) {
   constexpr std::uint64_t kHeader = 12;
   json.append((4 - json.size() % 4) % 4, ' ');
   const std::uint64_t binary = buffer.padded_size(),
                       size = kHeader + 2 * kChunkHeaderSize + json.size() + binary;
   if (size > std::numeric_limits<std::uint32_t>::max())
-    throw output_error(place + ": would have " + std::to_string(size) +
+    throw output_error(context + ": would have " + std::to_string(size) +
                        " bytes; a .glb holds less than 4 GiB (convert it to .gltf, which has a .bin)");
   const auto number = [](std::uint64_t value) { return little_endian(static_cast<std::uint32_t>(value)); };
   std::vector<AssetPiece> pieces(2);
@@ -167,17 +167,17 @@ std::vector<AssetPiece> glb_pieces(std::string json, GltfBuffer& buffer, const s
 
 }  // namespace
 
-AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, const AssetOptions& options,
+AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& context, const AssetOptions& options,
                             const AssetResources& resources, const GltfOutput& output) {
-  ObjScene scene = read_obj(obj, place);
-  if (scene.shapes.empty()) throw input_error(place + ": has no faces");
+  ObjScene scene = read_obj(obj, context);
+  if (scene.shapes.empty()) throw input_error(context + ": has no faces");
   AssetConversion conversion;
   conversion.warnings = scene.warnings;
   GltfBuffer buffer;
   GltfTextures textures(options, resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles,
                         buffer, conversion);
   MtlLibraries libraries(resources, options.mtl_maker);
-  libraries.read(scene.libraries, place, conversion.warnings);
+  libraries.read(scene.libraries, context, conversion.warnings);
   for (const std::string& path : libraries.image_paths()) textures.take(path);
   ObjMaterials converter(options, resources, libraries, textures, conversion);
   const std::vector<SceneMaterial> materials = converter.converted(scene.materials);
@@ -199,22 +199,22 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& place, con
   conversion.text = file.dump();
   conversion.changed = true;
   if (output.as_glb) {
-    conversion.pieces = glb_pieces(conversion.text, buffer, place);
+    conversion.pieces = glb_pieces(conversion.text, buffer, context);
     return conversion;
   }
   if (buffer.size() > std::numeric_limits<std::uint32_t>::max())
-    throw output_error(place + ": its buffer would have " + std::to_string(buffer.size()) +
+    throw output_error(context + ": its buffer would have " + std::to_string(buffer.size()) +
                        " bytes; at most 4 GiB are written (split the file)");
   conversion.pieces.push_back({conversion.text, 0, 0});
   conversion.files.push_back({buffer_name, buffer.take(buffer.size())});
   return conversion;
 }
 
-std::vector<AssetResource> obj_resources(const ByteSource& obj, const std::string& place,
+std::vector<AssetResource> obj_resources(const ByteSource& obj, const std::string& context,
                                          const AssetResources& resources) {
   MtlLibraries libraries(resources, std::nullopt);
   std::vector<std::string> ignored;
-  libraries.read(obj_libraries(obj, place), place, ignored);
+  libraries.read(obj_libraries(obj, context), context, ignored);
   std::vector<AssetResource> named;
   for (const std::set<std::string>* paths : {&libraries.paths(), &libraries.image_paths()})
     for (const std::string& path : *paths) named.push_back({"", path, UriKind::kFile});

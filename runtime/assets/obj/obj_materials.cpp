@@ -59,8 +59,8 @@ struct ObjMaterials::ConvertedImages {
 };
 
 // A material on its way into the file.
-struct ObjMaterials::Planned {
-  Planned(MtlLibrary& own_library, const MtlBlock& own_block, AssetMaterial& own_report)
+struct ObjMaterials::MaterialDraft {
+  MaterialDraft(MtlLibrary& own_library, const MtlBlock& own_block, AssetMaterial& own_report)
       : library(own_library), block(own_block), report(own_report) {}
 
   MtlLibrary& library;
@@ -133,125 +133,125 @@ Json ObjMaterials::material_of(const ObjMaterialName& name, AssetMaterial& repor
 }
 
 Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, AssetMaterial& report) {
-  Planned planned(library, block, report);
+  MaterialDraft draft(library, block, report);
   report.state = MaterialState::kConverted;
-  if (!block.name.empty()) planned.material["name"] = utf8_name(block.name);
-  planned.attempt(
-      [&] { read_mtl_surface(library.document, block, library.maker, planned.surface, report.warnings); });
-  planned.attempt(
-      [&] { planned.cover = read_mtl_cover(library.document, block, library.maker, report.warnings); });
-  set_reflection(planned);
+  if (!block.name.empty()) draft.material["name"] = utf8_name(block.name);
+  draft.attempt(
+      [&] { read_mtl_surface(library.document, block, library.maker, draft.surface, report.warnings); });
+  draft.attempt(
+      [&] { draft.cover = read_mtl_cover(library.document, block, library.maker, report.warnings); });
+  set_reflection(draft);
   // Do not share a base image whose opacity map failed.
-  if (!planned.attempt([&] { set_opacity(planned); })) planned.shared_image = nullptr;
-  Json color = numbers_of(planned.base);
-  color.push_back(float_value(planned.alpha));
+  if (!draft.attempt([&] { set_opacity(draft); })) draft.shared_image = nullptr;
+  Json color = numbers_of(draft.base);
+  color.push_back(float_value(draft.alpha));
   Json factors = Json::object();
   factors["baseColorFactor"] = std::move(color);
-  const bool has_base = planned.attempt([&] {
-    if (planned.base_map == nullptr) return;
-    const std::size_t image = base_image_of(planned);
-    factors["baseColorTexture"] = textures_.info(image, *planned.base_map);
+  const bool has_base = draft.attempt([&] {
+    if (draft.base_map == nullptr) return;
+    const std::size_t image = base_image_of(draft);
+    factors["baseColorTexture"] = textures_.info(image, *draft.base_map);
   });
-  if (!has_base) planned.base_map = nullptr;
-  factors["metallicFactor"] = float_value(planned.metallic);
-  factors["roughnessFactor"] = float_value(planned.roughness);
-  factors.update(planned.core);
-  planned.material["pbrMetallicRoughness"] = factors;
-  planned.attempt([&] { set_normals(planned); });
-  planned.attempt([&] { set_emission(planned); });
-  if (planned.blends) planned.material["alphaMode"] = "BLEND";
-  if (planned.cover.has_displacement)
+  if (!has_base) draft.base_map = nullptr;
+  factors["metallicFactor"] = float_value(draft.metallic);
+  factors["roughnessFactor"] = float_value(draft.roughness);
+  factors.update(draft.core);
+  draft.material["pbrMetallicRoughness"] = factors;
+  draft.attempt([&] { set_normals(draft); });
+  draft.attempt([&] { set_emission(draft); });
+  if (draft.blends) draft.material["alphaMode"] = "BLEND";
+  if (draft.cover.has_displacement)
     report.warnings.push_back("loses its map of displacement (disp), which glTF does not have");
-  describe(planned);
-  return std::move(planned.material);
+  describe(draft);
+  return std::move(draft.material);
 }
 
-void ObjMaterials::describe(const Planned& planned) {
-  AssetMaterial& report = planned.report;
-  report.becomes = "base color " + std::string(planned.base_map != nullptr ? "map times " : "") +
-                   numbers_text(planned.base);
-  if (planned.alpha != 1.0 || planned.blends) report.becomes += ", alpha " + number_text(planned.alpha);
-  const bool has_map = planned.core.contains("metallicRoughnessTexture");
-  report.becomes += ", metallic " + number_text(float_value(planned.metallic)) + ", roughness " +
-                    number_text(float_value(planned.roughness)) + (has_map ? ", both times map" : "");
-  if (!has_map && planned.base_map == nullptr)
-    report.factors = {{"base_color", {planned.base.begin(), planned.base.end()}},
-                      {"metallic", {planned.metallic}},
-                      {"roughness", {planned.roughness}}};
+void ObjMaterials::describe(const MaterialDraft& draft) {
+  AssetMaterial& report = draft.report;
+  report.becomes =
+      "base color " + std::string(draft.base_map != nullptr ? "map times " : "") + numbers_text(draft.base);
+  if (draft.alpha != 1.0 || draft.blends) report.becomes += ", alpha " + number_text(draft.alpha);
+  const bool has_map = draft.core.contains("metallicRoughnessTexture");
+  report.becomes += ", metallic " + number_text(float_value(draft.metallic)) + ", roughness " +
+                    number_text(float_value(draft.roughness)) + (has_map ? ", both times map" : "");
+  if (!has_map && draft.base_map == nullptr)
+    report.factors = {{"base_color", {draft.base.begin(), draft.base.end()}},
+                      {"metallic", {draft.metallic}},
+                      {"roughness", {draft.roughness}}};
 }
 
-std::size_t ObjMaterials::base_image_of(Planned& planned) {
-  if (planned.keeps_file)
-    return textures_.add_file(planned.library.images, *planned.base_map, planned.report.warnings);
-  if (planned.base_image == kNoImage)
-    planned.base_image =
-        textures_.add_pixels(planned.library.images, *planned.base_pixels, *planned.base_map, "_baseColor");
-  if (planned.shared_image != nullptr) *planned.shared_image = planned.base_image;
-  return planned.base_image;
+std::size_t ObjMaterials::base_image_of(MaterialDraft& draft) {
+  if (draft.keeps_file)
+    return textures_.add_file(draft.library.images, *draft.base_map, draft.report.warnings);
+  if (draft.base_image == kNoImage)
+    draft.base_image =
+        textures_.add_pixels(draft.library.images, *draft.base_pixels, *draft.base_map, "_baseColor");
+  if (draft.shared_image != nullptr) *draft.shared_image = draft.base_image;
+  return draft.base_image;
 }
 
 // A map that fails leaves the factors, and that of diffuse.
-void ObjMaterials::set_reflection(Planned& planned) {
-  const bool is_done = planned.attempt([&] {
-    if (planned.surface.is_metal_rough) return set_metal_rough(planned);
-    if (is_glass(planned)) return set_glass(planned);
-    const MtlReflection reflection = reflection_of(planned.surface, planned.report.warnings);
+void ObjMaterials::set_reflection(MaterialDraft& draft) {
+  const bool is_done = draft.attempt([&] {
+    if (draft.surface.is_metal_rough) return set_metal_rough(draft);
+    if (is_glass(draft)) return set_glass(draft);
+    const MtlReflection reflection = reflection_of(draft.surface, draft.report.warnings);
     if (options_.profile == MaterialProfile::kExtensions)
-      set_dielectric(planned, reflection);
+      set_dielectric(draft, reflection);
     else
-      set_core(planned, reflection);
+      set_core(draft, reflection);
   });
   if (is_done) return;
-  planned.base = planned.surface.diffuse.value_or(kWhite);
-  planned.metallic = 0.0;
-  keep_diffuse_map(planned);
+  draft.base = draft.surface.diffuse.value_or(kWhite);
+  draft.metallic = 0.0;
+  keep_diffuse_map(draft);
 }
 
-void ObjMaterials::keep_diffuse_map(Planned& planned) {
-  if (!planned.surface.diffuse_map) return;
-  planned.base_map = &*planned.surface.diffuse_map;
-  planned.keeps_file = true;
+void ObjMaterials::keep_diffuse_map(MaterialDraft& draft) {
+  if (!draft.surface.diffuse_map) return;
+  draft.base_map = &*draft.surface.diffuse_map;
+  draft.keeps_file = true;
 }
 
 // Later tools' lines say what glTF does. A map of them stands in the place of the number.
-void ObjMaterials::set_metal_rough(Planned& planned) {
-  const MtlSurface& surface = planned.surface;
+void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
+  const MtlSurface& surface = draft.surface;
   const MetalRoughNumbers numbers = metal_rough_of(surface, options_.profile == MaterialProfile::kCore);
-  planned.base = numbers.base;
-  keep_diffuse_map(planned);
-  planned.metallic = numbers.metallic;
-  planned.roughness = numbers.roughness;
-  set_specular_level(planned);
+  draft.base = numbers.base;
+  keep_diffuse_map(draft);
+  draft.metallic = numbers.metallic;
+  draft.roughness = numbers.roughness;
+  set_specular_level(draft);
   if (!surface.roughness && !surface.roughness_map)
-    planned.report.warnings.push_back("has metallic (Pm) but no roughness (Pr), which then counts as 1");
+    draft.report.warnings.push_back("has metallic (Pm) but no roughness (Pr), which then counts as 1");
   const MtlMap* model = nullptr;
-  if (const auto pixels = packed_metal_rough(planned, &model))
-    planned.core["metallicRoughnessTexture"] = textures_.info(
-        textures_.add_pixels(planned.library.images, *pixels, *model, "_metallicRoughness"), *model);
+  if (const auto pixels = packed_metal_rough(draft, &model))
+    draft.core["metallicRoughnessTexture"] = textures_.info(
+        textures_.add_pixels(draft.library.images, *pixels, *model, "_metallicRoughness"), *model);
 }
 
 // A level of 1 is glTF's own F0 of 0.04, and a metal has none.
-void ObjMaterials::set_specular_level(Planned& planned) {
+void ObjMaterials::set_specular_level(MaterialDraft& draft) {
   constexpr double kSeen = 0.25;  // F0 0.03 to 0.05 look alike
-  const double level = planned.surface.specular_level.value_or(1.0);
-  if (std::fabs(level - 1.0) < kSeen || planned.metallic == 1.0) return;
+  const double level = draft.surface.specular_level.value_or(1.0);
+  if (std::fabs(level - 1.0) < kSeen || draft.metallic == 1.0) return;
   if (options_.profile == MaterialProfile::kCore) {
     if (level > 0.0)
-      planned.report.warnings.push_back("loses its specular level Ks " + number_text(0.5 * level) +
-                                        " (--profile extensions keeps it)");
+      draft.report.warnings.push_back("loses its specular level Ks " + number_text(0.5 * level) +
+                                      " (--profile extensions keeps it)");
     return;
   }
-  set_extension(planned, kSpecularExtension,
+  set_extension(draft, kSpecularExtension,
                 level <= 1.0 ? Json{{"specularFactor", float_value(level)}}
                              : Json{{"specularColorFactor", numbers_of({level, level, level})}});
 }
 
 // illum 4, 6, 7 and 9 refract. Maya writes illum 4 with an index of 1 for every opaque material.
-bool ObjMaterials::is_glass(Planned& planned) const {
-  const MtlCover& cover = planned.cover;
-  if (!cover.refracts || is_transparent(planned) || cover.refraction.value_or(2.0) <= 1.0) return false;
+bool ObjMaterials::is_glass(MaterialDraft& draft) const {
+  const MtlCover& cover = draft.cover;
+  if (!cover.refracts || is_transparent(draft) || cover.refraction.value_or(2.0) <= 1.0) return false;
   if (cover.refraction && options_.profile == MaterialProfile::kExtensions) return true;
-  planned.report.warnings.push_back(
+  draft.report.warnings.push_back(
       cover.refraction
           ? "is glass by illum and Ni " + number_text(*cover.refraction) +
                 ", and becomes opaque (--profile extensions keeps it)"
@@ -260,20 +260,20 @@ bool ObjMaterials::is_glass(Planned& planned) const {
 }
 
 // The index gives the strength of reflection, Tf the color of what comes through.
-void ObjMaterials::set_glass(Planned& planned) {
-  const MtlReflection reflection = reflection_of(planned.surface, planned.report.warnings);
-  planned.base = planned.cover.filter;
-  planned.roughness = reflection.has_highlight ? ggx_lobe(reflection.factors).roughness : 0.0;
-  set_extension(planned, kTransmissionExtension, Json{{"transmissionFactor", 1}});
-  set_extension(planned, kIorExtension, Json{{"ior", float_value(*planned.cover.refraction)}});
+void ObjMaterials::set_glass(MaterialDraft& draft) {
+  const MtlReflection reflection = reflection_of(draft.surface, draft.report.warnings);
+  draft.base = draft.cover.filter;
+  draft.roughness = reflection.has_highlight ? ggx_lobe(reflection.factors).roughness : 0.0;
+  set_extension(draft, kTransmissionExtension, Json{{"transmissionFactor", 1}});
+  set_extension(draft, kIorExtension, Json{{"ior", float_value(*draft.cover.refraction)}});
 }
 
-std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(Planned& planned, const MtlMap** model) {
+std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(MaterialDraft& draft,
+                                                                    const MtlMap** model) {
   std::shared_ptr<ImagePixels> packed;
   const auto add = [&](const std::optional<MtlMap>& map, std::size_t channel) {
     if (!map) return;
-    const std::shared_ptr<const ImagePixels> pixels =
-        planned.library.images.load(*map, planned.report.warnings);
+    const std::shared_ptr<const ImagePixels> pixels = draft.library.images.load(*map, draft.report.warnings);
     if (packed && (packed->width != pixels->width || packed->height != pixels->height))
       throw input_error("map_Pr and map_Pm differ in size (make them equal)");
     if (*model != nullptr && !(*model)->lies_like(*map))
@@ -284,95 +284,96 @@ std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(Planned& pla
     }
     set_channel(*packed, channel, *pixels, map->channel);
   };
-  add(planned.surface.roughness_map, 1);
-  add(planned.surface.metallic_map, 2);
+  add(draft.surface.roughness_map, 1);
+  add(draft.surface.metallic_map, 2);
   return packed;
 }
 
-void ObjMaterials::set_core(Planned& planned, const MtlReflection& reflection) {
-  const MtlSurface& surface = planned.surface;
+void ObjMaterials::set_core(MaterialDraft& draft, const MtlReflection& reflection) {
+  const MtlSurface& surface = draft.surface;
   const bool has_maps = surface.diffuse_map || surface.specular_map || surface.exponent_map;
-  planned.base = reflection.factors.diffuse;
-  if (has_maps && reflection.has_highlight) return set_converted_maps(planned, reflection, false);
+  draft.base = reflection.factors.diffuse;
+  if (has_maps && reflection.has_highlight) return set_converted_maps(draft, reflection, false);
   const MetalRoughFactors core = reflection.has_highlight ? core_of_legacy(reflection.factors)
                                                           : core_of_diffuse(reflection.factors.diffuse);
-  for (std::size_t c = 0; c < 3; ++c) planned.base[c] = static_cast<double>(core.base_color[c]);
-  planned.metallic = static_cast<double>(core.metallic);
-  planned.roughness = static_cast<double>(core.roughness);
-  keep_diffuse_map(planned);
+  for (std::size_t c = 0; c < 3; ++c) draft.base[c] = static_cast<double>(core.base_color[c]);
+  draft.metallic = static_cast<double>(core.metallic);
+  draft.roughness = static_cast<double>(core.roughness);
+  keep_diffuse_map(draft);
 }
 
-void ObjMaterials::set_dielectric(Planned& planned, const MtlReflection& reflection) {
-  const MtlSurface& surface = planned.surface;
-  planned.base = reflection.factors.diffuse;
+void ObjMaterials::set_dielectric(MaterialDraft& draft, const MtlReflection& reflection) {
+  const MtlSurface& surface = draft.surface;
+  draft.base = reflection.factors.diffuse;
   if (!reflection.has_highlight) {
-    keep_diffuse_map(planned);
-    return set_extension(planned, kSpecularExtension, Json{{"specularFactor", 0}});
+    keep_diffuse_map(draft);
+    return set_extension(draft, kSpecularExtension, Json{{"specularFactor", 0}});
   }
   // A map of diffuse alone is divided by 1 - F as a factor is.
   const LegacyDielectric result = dielectric_of_legacy(reflection.factors);
   const bool is_factor = std::ranges::none_of(result.base_color, [](double value) { return value >= 1.0; });
   if (surface.specular_map || surface.exponent_map || (surface.diffuse_map && !is_factor))
-    return set_converted_maps(planned, reflection, true);
-  planned.base = result.base_color;
-  planned.roughness = result.roughness;
-  keep_diffuse_map(planned);
-  set_extension(planned, kSpecularExtension, specular_of(result.specular, result.specular_color));
+    return set_converted_maps(draft, reflection, true);
+  draft.base = result.base_color;
+  draft.roughness = result.roughness;
+  keep_diffuse_map(draft);
+  set_extension(draft, kSpecularExtension, specular_of(result.specular, result.specular_color));
 }
 
-void ObjMaterials::set_extension(Planned& planned, std::string_view name, Json value) {
+void ObjMaterials::set_extension(MaterialDraft& draft, std::string_view name, Json value) {
   extensions_.emplace(name);
-  if (!planned.material.contains("extensions")) planned.material["extensions"] = Json::object();
-  planned.material["extensions"][std::string(name)] = std::move(value);
+  if (!draft.material.contains("extensions")) draft.material["extensions"] = Json::object();
+  draft.material["extensions"][std::string(name)] = std::move(value);
 }
 
-void ObjMaterials::set_converted_maps(Planned& planned, const MtlReflection& reflection, bool as_dielectric) {
-  const MtlSurface& surface = planned.surface;
+void ObjMaterials::set_converted_maps(MaterialDraft& draft, const MtlReflection& reflection,
+                                      bool as_dielectric) {
+  const MtlSurface& surface = draft.surface;
   const MtlMap& data_map = surface.specular_map   ? *surface.specular_map
                            : surface.exponent_map ? *surface.exponent_map
                                                   : *surface.diffuse_map;
-  if (surface.exponent_map) planned.report.warnings.push_back(exponent_warning(surface));
-  ConvertedImages& images = converted_images(planned, reflection, as_dielectric, data_map);
+  if (surface.exponent_map) draft.report.warnings.push_back(exponent_warning(surface));
+  ConvertedImages& images = converted_images(draft, reflection, as_dielectric, data_map);
   const LegacyMapResult& result = images.result;
-  planned.base = result.base;
-  planned.metallic = as_dielectric ? 0.0 : result.metallic;
-  planned.roughness = result.roughness;
-  if (result.keeps_diffuse) keep_diffuse_map(planned);
+  draft.base = result.base;
+  draft.metallic = as_dielectric ? 0.0 : result.metallic;
+  draft.roughness = result.roughness;
+  if (result.keeps_diffuse) keep_diffuse_map(draft);
   if (images.has_own_base) {
-    planned.base_map = surface.diffuse_map ? &*surface.diffuse_map : &data_map;
-    planned.base_image = images.base;
-    planned.shared_image = &images.base;
+    draft.base_map = surface.diffuse_map ? &*surface.diffuse_map : &data_map;
+    draft.base_image = images.base;
+    draft.shared_image = &images.base;
   }
   if (images.metal_rough != kNoImage)
-    planned.core["metallicRoughnessTexture"] = textures_.info(images.metal_rough, data_map);
+    draft.core["metallicRoughnessTexture"] = textures_.info(images.metal_rough, data_map);
   if (!as_dielectric) return;
   Json specular = specular_of(result.specular_factor, result.specular_color);
   if (images.specular != kNoImage) {
     specular["specularTexture"] = textures_.info(images.specular, data_map);
     specular["specularColorTexture"] = textures_.info(images.specular, data_map);
   }
-  set_extension(planned, kSpecularExtension, std::move(specular));
+  set_extension(draft, kSpecularExtension, std::move(specular));
 }
 
 // Materials with the same maps, factors and opacity share what they become. The base color of a first one is
-// in `planned`, so that opacity is added before it goes into the file.
-ObjMaterials::ConvertedImages& ObjMaterials::converted_images(Planned& planned,
+// in `draft`, so that opacity is added before it goes into the file.
+ObjMaterials::ConvertedImages& ObjMaterials::converted_images(MaterialDraft& draft,
                                                               const MtlReflection& reflection,
                                                               bool as_dielectric, const MtlMap& data_map) {
-  MtlImages& images = planned.library.images;
-  const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
+  MtlImages& images = draft.library.images;
+  const std::optional<MtlMap>& opacity_map = draft.cover.opacity_map;
   const std::string opacity = opacity_map ? opacity_map->file + '\0' + opacity_map->options : "";
-  const std::string key = images.folder() + '\0' + opacity + '\0' + (is_transparent(planned) ? "1" : "0") +
-                          key_of(planned.surface, reflection.factors);
+  const std::string key = images.folder() + '\0' + opacity + '\0' + (is_transparent(draft) ? "1" : "0") +
+                          key_of(draft.surface, reflection.factors);
   std::shared_ptr<ConvertedImages>& known = converted_[key];
   if (known && (!known->has_own_base || known->base != kNoImage)) return *known;
-  const SurfaceMaps maps = load_maps(planned.surface, images, options_, planned.report.warnings);
+  const SurfaceMaps maps = load_maps(draft.surface, images, options_, draft.report.warnings);
   auto made = std::make_shared<ConvertedImages>();
-  made->result = converted_maps(maps.with(reflection.factors, planned.surface, as_dielectric));
+  made->result = converted_maps(maps.with(reflection.factors, draft.surface, as_dielectric));
   LegacyMapResult& result = made->result;
   made->has_own_base = result.base_color.has_value();
   if (result.base_color)
-    planned.base_pixels = std::make_shared<const ImagePixels>(*std::move(result.base_color));
+    draft.base_pixels = std::make_shared<const ImagePixels>(*std::move(result.base_color));
   if (result.metal_rough)
     made->metal_rough = textures_.add_pixels(images, *result.metal_rough, data_map, "_metallicRoughness");
   if (result.specular) made->specular = textures_.add_pixels(images, *result.specular, data_map, "_specular");
@@ -388,50 +389,50 @@ double ObjMaterials::alpha_of(const MtlCover& cover) const {
   return reads_tr_ ? 1.0 - cover.transparency.value_or(0.0) : 1.0;
 }
 
-bool ObjMaterials::is_transparent(const Planned& planned) const {
-  return planned.cover.opacity_map || alpha_of(planned.cover) < 1.0;
+bool ObjMaterials::is_transparent(const MaterialDraft& draft) const {
+  return draft.cover.opacity_map || alpha_of(draft.cover) < 1.0;
 }
 
 // Opacity is the alpha of base color. Without it, the alpha of an image says nothing.
-void ObjMaterials::set_opacity(Planned& planned) {
-  const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
-  planned.alpha = alpha_of(planned.cover);
-  planned.blends = is_transparent(planned);
-  const bool has_map = planned.base_map != nullptr || opacity_map;
-  if (!planned.blends || planned.base_image != kNoImage || !has_map) return;
-  if (planned.base_pixels == nullptr) {
+void ObjMaterials::set_opacity(MaterialDraft& draft) {
+  const std::optional<MtlMap>& opacity_map = draft.cover.opacity_map;
+  draft.alpha = alpha_of(draft.cover);
+  draft.blends = is_transparent(draft);
+  const bool has_map = draft.base_map != nullptr || opacity_map;
+  if (!draft.blends || draft.base_image != kNoImage || !has_map) return;
+  if (draft.base_pixels == nullptr) {
     // Other materials may have the same two files.
     const std::string key =
-        planned.library.images.folder() + '\0' +
-        (planned.base_map != nullptr ? planned.base_map->file + '\0' + planned.base_map->options : "") +
-        '\0' + (opacity_map ? opacity_map->file + '\0' + opacity_map->options : "");
-    planned.shared_image = &composed_.try_emplace(key, kNoImage).first->second;
-    planned.base_image = *planned.shared_image;
+        draft.library.images.folder() + '\0' +
+        (draft.base_map != nullptr ? draft.base_map->file + '\0' + draft.base_map->options : "") + '\0' +
+        (opacity_map ? opacity_map->file + '\0' + opacity_map->options : "");
+    draft.shared_image = &composed_.try_emplace(key, kNoImage).first->second;
+    draft.base_image = *draft.shared_image;
   }
-  const bool is_new = planned.base_image != kNoImage || add_opacity(planned);
+  const bool is_new = draft.base_image != kNoImage || add_opacity(draft);
   if (!is_new) return;
-  planned.keeps_file = false;
-  if (planned.base_map == nullptr) planned.base_map = &*opacity_map;
+  draft.keeps_file = false;
+  if (draft.base_map == nullptr) draft.base_map = &*opacity_map;
 }
 
 // Returns whether there are other pixels than those of the file.
-bool ObjMaterials::add_opacity(Planned& planned) {
-  const std::optional<MtlMap>& opacity_map = planned.cover.opacity_map;
-  MtlImages& images = planned.library.images;
-  std::vector<std::string>& warnings = planned.report.warnings;
-  std::shared_ptr<const ImagePixels> color = planned.base_pixels, opacity;
-  if (planned.keeps_file) color = images.load(*planned.base_map, warnings);
+bool ObjMaterials::add_opacity(MaterialDraft& draft) {
+  const std::optional<MtlMap>& opacity_map = draft.cover.opacity_map;
+  MtlImages& images = draft.library.images;
+  std::vector<std::string>& warnings = draft.report.warnings;
+  std::shared_ptr<const ImagePixels> color = draft.base_pixels, opacity;
+  if (draft.keeps_file) color = images.load(*draft.base_map, warnings);
   char channel = 'l';
   if (opacity_map) {
     opacity = images.load(*opacity_map, warnings);
     channel = opacity_channel(*opacity_map, *opacity);
-    if (planned.base_map != nullptr && !planned.base_map->lies_like(*opacity_map))
+    if (draft.base_map != nullptr && !draft.base_map->lies_like(*opacity_map))
       throw input_error("map_Kd and map_d lie on the surface in different places (-s, -o, -clamp)");
-  } else if (!planned.keeps_file || !color->has_alpha()) {
-    return !planned.keeps_file;
+  } else if (!draft.keeps_file || !color->has_alpha()) {
+    return !draft.keeps_file;
   }
   // Many materials name one file for both.
-  if (planned.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
+  if (draft.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
     if (!options_.enlarges)
       throw input_error(plain(opacity_map->file, kLongestShown) +
@@ -441,40 +442,39 @@ bool ObjMaterials::add_opacity(Planned& planned) {
     color = std::make_shared<const ImagePixels>(resources_.enlarged(*color, width, height));
     opacity = std::make_shared<const ImagePixels>(resources_.enlarged(*opacity, width, height));
   }
-  planned.base_pixels = std::make_shared<const ImagePixels>(with_alpha(color.get(), opacity.get(), channel));
+  draft.base_pixels = std::make_shared<const ImagePixels>(with_alpha(color.get(), opacity.get(), channel));
   return true;
 }
 
-void ObjMaterials::set_emission(Planned& planned) {
-  const MtlCover& cover = planned.cover;
+void ObjMaterials::set_emission(MaterialDraft& draft) {
+  const MtlCover& cover = draft.cover;
   std::array<double, 3> factor = cover.emissive;
   const bool is_dark = std::ranges::all_of(factor, [](double value) { return value <= 0.0; });
   if (cover.emissive_map) {
     if (cover.has_emissive && is_dark)
-      planned.report.warnings.push_back("Ke is 0 beside map_Ke, and counts as 1");
+      draft.report.warnings.push_back("Ke is 0 beside map_Ke, and counts as 1");
     if (is_dark) factor = kWhite;
     const std::size_t image =
-        textures_.add_file(planned.library.images, *cover.emissive_map, planned.report.warnings);
-    planned.material["emissiveTexture"] = textures_.info(image, *cover.emissive_map);
+        textures_.add_file(draft.library.images, *cover.emissive_map, draft.report.warnings);
+    draft.material["emissiveTexture"] = textures_.info(image, *cover.emissive_map);
   }
-  if (cover.emissive_map || !is_dark) planned.material["emissiveFactor"] = numbers_of(factor);
+  if (cover.emissive_map || !is_dark) draft.material["emissiveFactor"] = numbers_of(factor);
 }
 
 // Most exporters write a map of normals as map_Bump, because MTL has no statement for it that all readers
 // know.
-void ObjMaterials::set_normals(Planned& planned) {
-  const std::optional<MtlMap>&bump = planned.cover.bump_map,
-        &map = planned.cover.normal_map ? planned.cover.normal_map : bump;
+void ObjMaterials::set_normals(MaterialDraft& draft) {
+  const std::optional<MtlMap>&bump = draft.cover.bump_map,
+        &map = draft.cover.normal_map ? draft.cover.normal_map : bump;
   if (!map) return;
-  if (!planned.cover.normal_map &&
-      !holds_normals(*planned.library.images.load(*bump, planned.report.warnings))) {
-    planned.report.warnings.push_back(
+  if (!draft.cover.normal_map && !holds_normals(*draft.library.images.load(*bump, draft.report.warnings))) {
+    draft.report.warnings.push_back(
         "loses its bump map: it is a map of heights, and glTF has maps of normals");
     return;
   }
-  Json info = textures_.info(textures_.add_file(planned.library.images, *map, planned.report.warnings), *map);
+  Json info = textures_.info(textures_.add_file(draft.library.images, *map, draft.report.warnings), *map);
   if (map->strength != 1.0) info["scale"] = float_value(map->strength);
-  planned.material["normalTexture"] = std::move(info);
+  draft.material["normalTexture"] = std::move(info);
 }
 
 }  // namespace remap

@@ -35,32 +35,32 @@ class ObjMaterials {
   const std::set<std::string>& extensions() const noexcept { return extensions_; }
 
  private:
-  struct Planned;
+  struct MaterialDraft;
   struct ConvertedImages;
 
   Json material_of(const ObjMaterialName& name, AssetMaterial& report);
   Json converted_block(MtlLibrary& library, const MtlBlock& block, AssetMaterial& report);
-  static void describe(const Planned& planned);
-  void set_reflection(Planned& planned);
-  void set_metal_rough(Planned& planned);
-  void set_specular_level(Planned& planned);
-  bool is_glass(Planned& planned) const;
-  void set_glass(Planned& planned);
-  void set_core(Planned& planned, const MtlReflection& reflection);
-  void set_dielectric(Planned& planned, const MtlReflection& reflection);
-  void set_converted_maps(Planned& planned, const MtlReflection& reflection, bool as_dielectric);
-  ConvertedImages& converted_images(Planned& planned, const MtlReflection& reflection, bool as_dielectric,
+  static void describe(const MaterialDraft& draft);
+  void set_reflection(MaterialDraft& draft);
+  void set_metal_rough(MaterialDraft& draft);
+  void set_specular_level(MaterialDraft& draft);
+  bool is_glass(MaterialDraft& draft) const;
+  void set_glass(MaterialDraft& draft);
+  void set_core(MaterialDraft& draft, const MtlReflection& reflection);
+  void set_dielectric(MaterialDraft& draft, const MtlReflection& reflection);
+  void set_converted_maps(MaterialDraft& draft, const MtlReflection& reflection, bool as_dielectric);
+  ConvertedImages& converted_images(MaterialDraft& draft, const MtlReflection& reflection, bool as_dielectric,
                                     const MtlMap& data_map);
-  void set_extension(Planned& planned, std::string_view name, Json value);
-  void keep_diffuse_map(Planned& planned);
+  void set_extension(MaterialDraft& draft, std::string_view name, Json value);
+  void keep_diffuse_map(MaterialDraft& draft);
   double alpha_of(const MtlCover& cover) const;
-  bool is_transparent(const Planned& planned) const;
-  void set_opacity(Planned& planned);
-  bool add_opacity(Planned& planned);
-  void set_emission(Planned& planned);
-  void set_normals(Planned& planned);
-  std::shared_ptr<const ImagePixels> packed_metal_rough(Planned& planned, const MtlMap** model);
-  std::size_t base_image_of(Planned& planned);
+  bool is_transparent(const MaterialDraft& draft) const;
+  void set_opacity(MaterialDraft& draft);
+  bool add_opacity(MaterialDraft& draft);
+  void set_emission(MaterialDraft& draft);
+  void set_normals(MaterialDraft& draft);
+  std::shared_ptr<const ImagePixels> packed_metal_rough(MaterialDraft& draft, const MtlMap** model);
+  std::size_t base_image_of(MaterialDraft& draft);
 
   const AssetOptions& options_;
   const AssetResources& resources_;

@@ -32,9 +32,9 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; 
 // them. A backslash joins lines.
 class ObjLines {
  public:
-  ObjLines(const ByteSource& source, const std::string& place) : reader_(source, place) {
+  ObjLines(const ByteSource& source, const std::string& context) : reader_(source, context) {
     if (source.size() > kLongestObj)
-      throw input_error(place + ": has " + std::to_string(source.size()) + " bytes; at most " +
+      throw input_error(context + ": has " + std::to_string(source.size()) + " bytes; at most " +
                         std::to_string(kLongestObj) + " are read");
     constexpr std::string_view kMark = "\xef\xbb\xbf";
     if (!is_at_end() && block_.starts_with(kMark)) at_ = kMark.size();
@@ -95,8 +95,8 @@ class ObjLines {
 class ObjStream final : public std::streambuf {
  public:
   // `take` is called before more lines are made, so that what the importer has made of earlier ones can go.
-  ObjStream(const ByteSource& source, const std::string& place, ObjScene& scene, std::function<void()> take)
-      : lines_(source, place), place_(place), scene_(scene), take_(std::move(take)) {
+  ObjStream(const ByteSource& source, const std::string& context, ObjScene& scene, std::function<void()> take)
+      : lines_(source, context), context_(context), scene_(scene), take_(std::move(take)) {
     materials_.push_back({"", false});
     groups_.emplace_back();
     begin_group();
@@ -174,7 +174,7 @@ class ObjStream final : public std::streambuf {
       digits = is_digit_of_exponent ? digits + 1 : 0;
       is_exponent = c == 'e' || c == 'E' || (is_exponent && (is_digit_of_exponent || c == '-' || c == '+'));
       if (digits > kMostDigits)
-        throw input_error(place_ + ": " + plain(line, 80) + ": its exponent is too large");
+        throw input_error(context_ + ": " + plain(line, 80) + ": its exponent is too large");
     }
     return line;
   }
@@ -210,7 +210,7 @@ class ObjStream final : public std::streambuf {
       int index = 0;
       const auto result = std::from_chars(corner.data() + at, corner.data() + corner.size(), index);
       if (result.ec == std::errc::result_out_of_range)
-        throw input_error(place_ + ": " + plain(lines_.line(), 80) + ": an index is too large");
+        throw input_error(context_ + ": " + plain(lines_.line(), 80) + ": an index is too large");
     }
   }
 
@@ -233,7 +233,7 @@ class ObjStream final : public std::streambuf {
   void pass(std::string_view line) { (made_ += line) += '\n'; }
 
   ObjLines lines_;
-  const std::string& place_;
+  const std::string& context_;
   ObjScene& scene_;
   std::function<void()> take_;
   std::string made_, text_;  // lines to come, and those that are being read
@@ -419,8 +419,8 @@ class PrimitiveMaker {
 
 class ObjReader {
  public:
-  ObjReader(const ByteSource& source, const std::string& place)
-      : place_(place), stream_(source, place, scene_, [this] { take_shapes(); }) {}
+  ObjReader(const ByteSource& source, const std::string& context)
+      : context_(context), stream_(source, context, scene_, [this] { take_shapes(); }) {}
 
   ObjScene scene() {
     load();
@@ -452,13 +452,14 @@ class ObjReader {
     const bool is_read =
         tinyobj::LoadObj(&attributes_, &shapes_, &none, &warning, &fault, &stream, &materials, true, false);
     if (!is_read)
-      throw input_error(place_ + ": a face cannot be read (its indices must be whole numbers other than 0)");
+      throw input_error(context_ +
+                        ": a face cannot be read (its indices must be whole numbers other than 0)");
     if (warning.find("invalid vertex index") != std::string::npos ||
         warning.find("out of bounds") != std::string::npos)
-      throw input_error(place_ + ": a face names a vertex, normal or texture coordinate that is not there");
+      throw input_error(context_ + ": a face names a vertex, normal or texture coordinate that is not there");
     for (const auto* values : {&attributes_.vertices, &attributes_.texcoords, &attributes_.colors})
       if (!std::ranges::all_of(*values, [](float value) { return std::isfinite(value); }))
-        throw input_error(place_ + ": a coordinate is too large for a number of 32 bits");
+        throw input_error(context_ + ": a coordinate is too large for a number of 32 bits");
     take_shapes();
     finish_group();
   }
@@ -512,11 +513,11 @@ class ObjReader {
   void require_within(int index, std::size_t count, bool may_be_missing, const char* name,
                       const std::string& shape) const {
     if (index >= 0 ? static_cast<std::size_t>(index) < count : may_be_missing && index == -1) return;
-    throw input_error(place_ + ": a face" + (shape.empty() ? "" : " of \"" + plain(shape, 80) + "\"") +
+    throw input_error(context_ + ": a face" + (shape.empty() ? "" : " of \"" + plain(shape, 80) + "\"") +
                       " names a " + name + " that is not there; there are " + std::to_string(count));
   }
 
-  const std::string& place_;
+  const std::string& context_;
   ObjScene scene_;
   std::map<int, std::size_t> used_;  // materials of the file by their numbers
   tinyobj::attrib_t attributes_;
@@ -528,15 +529,15 @@ class ObjReader {
 
 }  // namespace
 
-std::vector<std::string> obj_libraries(const ByteSource& source, const std::string& place) {
+std::vector<std::string> obj_libraries(const ByteSource& source, const std::string& context) {
   std::vector<std::string> libraries;
-  for (ObjLines lines(source, place); lines.next();)
+  for (ObjLines lines(source, context); lines.next();)
     if (lines.word() == "mtllib" && !lines.rest().empty()) libraries.emplace_back(lines.rest());
   return libraries;
 }
 
-ObjScene read_obj(const ByteSource& source, const std::string& place) {
-  return ObjReader(source, place).scene();
+ObjScene read_obj(const ByteSource& source, const std::string& context) {
+  return ObjReader(source, context).scene();
 }
 
 }  // namespace remap

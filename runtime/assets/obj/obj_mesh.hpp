@@ -48,10 +48,10 @@ struct ObjScene {
 };
 
 // ObjScene::libraries alone, which takes less time.
-std::vector<std::string> obj_libraries(const ByteSource& source, const std::string& place);
+std::vector<std::string> obj_libraries(const ByteSource& source, const std::string& context);
 
-// Throws kInput, beginning with `place`, beyond the limit, for UTF-16 with half a character, for coordinates
-// that are no numbers and for faces that name vertices which are not there.
-ObjScene read_obj(const ByteSource& source, const std::string& place);
+// Throws kInput, beginning with `context`, beyond the limit, for UTF-16 with half a character, for
+// coordinates that are no numbers and for faces that name vertices which are not there.
+ObjScene read_obj(const ByteSource& source, const std::string& context);
 
 }  // namespace remap

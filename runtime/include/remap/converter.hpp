@@ -36,9 +36,9 @@ InstructionSet best_instruction_set();
 // All up to `best`, from the baseline.
 std::vector<InstructionSet> instruction_sets(InstructionSet best = best_instruction_set());
 
-// The set of that name. Throws kUsage, with `place` at the start of the message, if the name is unknown or
+// The set of that name. Throws kUsage, with `context` at the start of the message, if the name is unknown or
 // the set is beyond `best`.
-InstructionSet instruction_set_from_name(const std::string& place, const std::string& name,
+InstructionSet instruction_set_from_name(const std::string& context, const std::string& name,
                                          InstructionSet best = best_instruction_set());
 
 // The parameters of materials, and materials as rows of planar floats.

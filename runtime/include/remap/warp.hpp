@@ -120,9 +120,9 @@ WarpTexel evaluate_warp(const CompiledWarp& warp, const WarpTexel& texel) noexce
 // The size of the converter's numbers.
 std::size_t byte_count(const CompiledWarp& warp) noexcept;
 
-// Throws kInput, beginning with `place`, for inconsistent counts, an empty box, or numbers that are not
+// Throws kInput, beginning with `context`, for inconsistent counts, an empty box, or numbers that are not
 // finite.
-void require_valid(const CompiledWarp& warp, const std::string& place);
+void require_valid(const CompiledWarp& warp, const std::string& context);
 
 // A fit of kind `warp`: a compiled appearance warp and its provenance.
 

@@ -34,7 +34,7 @@ void fields(Archive& archive, Fix& fix) {
 }
 template <typename Archive>
 void fields(Archive& archive, MaterialFinding& finding) {
-  archive(finding.rule, finding.confidence, finding.place, finding.channel, finding.message, finding.fix);
+  archive(finding.rule, finding.confidence, finding.context, finding.channel, finding.message, finding.fix);
 }
 
 namespace {
@@ -63,30 +63,30 @@ Reader<std::vector<std::string>> rule_names() {
 }
 
 // The findings in one material, and messages about files that cannot be read.
-struct Looked {
+struct MaterialReport {
   std::vector<MaterialFinding> findings;
   std::vector<std::string> problems;
   std::size_t map_count = 0;
 };
 
 template <typename Archive>
-void fields(Archive& archive, Looked& looked) {
-  archive(looked.findings, looked.problems, looked.map_count);
+void fields(Archive& archive, MaterialReport& report) {
+  archive(report.findings, report.problems, report.map_count);
 }
 
-Looked look_at(CheckedMaterial material, const CheckOptions& options) {
-  Looked looked;
-  looked.problems = material.read_maps();
-  looked.map_count = material.maps.size();
-  looked.findings = findings_in(material, options.reader);
-  std::erase_if(looked.findings, [&](const MaterialFinding& finding) {
+MaterialReport look_at(CheckedMaterial material, const CheckOptions& options) {
+  MaterialReport report;
+  report.problems = material.read_maps();
+  report.map_count = material.maps.size();
+  report.findings = findings_in(material, options.reader);
+  std::erase_if(report.findings, [&](const MaterialFinding& finding) {
     return std::ranges::find(options.ignored, finding.rule) != options.ignored.end();
   });
-  return looked;
+  return report;
 }
 
 void print(const MaterialFinding& finding) {
-  const std::string place = finding.place + (finding.channel.empty() ? "" : ":" + finding.channel);
+  const std::string place = finding.context + (finding.channel.empty() ? "" : ":" + finding.channel);
   std::cout << plain(place + ": " + finding.message) << " [" << finding.rule << ", "
             << name_of(kConfidences, finding.confidence) << "]\n"
             << "    " << plain(finding.fix.text()) << '\n';
@@ -94,7 +94,7 @@ void print(const MaterialFinding& finding) {
 
 Json finding_json(const MaterialFinding& finding) {
   return {{"rule", finding.rule},          {"confidence", name_of(kConfidences, finding.confidence)},
-          {"path", finding.place},         {"channel", finding.channel},
+          {"path", finding.context},       {"channel", finding.channel},
           {"message", finding.message},    {"fix", finding.fix.text()},
           {"command", finding.fix.command}};
 }
@@ -114,40 +114,40 @@ void check(const CheckOptions& options) {
     throw usage_error(options.paths.front().string() +
                       ": no map found by file names, and no glTF or MTL file (use --names "
                       "FILE for other names)");
-  std::vector<Looked> looked(found.materials.size());
-  Progress progress("materials", looked.size(), !options.quiet);
+  std::vector<MaterialReport> reports(found.materials.size());
+  Progress progress("materials", reports.size(), !options.quiet);
   const std::size_t threads =
       options.thread_count > 0 ? options.thread_count : std::max(1u, std::thread::hardware_concurrency());
   set_image_limits({0, memory_limit(options.memory_megabytes) / threads});
   ApartJobs apart;
-  apart.count = looked.size();
+  apart.count = reports.size();
   apart.at_once = static_cast<unsigned>(threads);
   apart.work = [&](std::size_t i, const std::function<void(double)>&) {
     if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted");
     return packed(look_at(std::move(found.materials[i]), options));
   };
   apart.finished = [&](std::size_t i, std::string result) {
-    looked[i] = unpacked<Looked>(std::move(result));
+    reports[i] = unpacked<MaterialReport>(std::move(result));
     progress.advance();
   };
   apart.crashed = [&](std::size_t i, const std::string& reason) {
-    looked[i].problems.push_back(found.materials[i].name + ": " + reason);
+    reports[i].problems.push_back(found.materials[i].name + ": " + reason);
     progress.advance();
   };
   run_apart(apart);
   progress.hide();
   std::vector<MaterialFinding*> findings;
-  for (Looked& one : looked)
+  for (MaterialReport& one : reports)
     for (MaterialFinding& finding : one.findings) findings.push_back(&finding);
   unite_conversions(findings);
   Json json = {{"version", 1},
                {"for", options.reader != nullptr ? Json(options.reader->name) : Json()},
-               {"materials", looked.size()},
+               {"materials", reports.size()},
                {"maps", 0},
                {"findings", Json::list()},
                {"problems", Json::list()}};
   std::size_t count = 0, failing = 0, maps = 0;
-  for (const Looked& one : looked) {
+  for (const MaterialReport& one : reports) {
     std::ranges::copy(one.problems, std::back_inserter(found.problems));
     maps += one.map_count;
     count += one.findings.size();
@@ -163,7 +163,7 @@ void check(const CheckOptions& options) {
   }
   json["maps"] = maps;
   if (options.json) std::cout << json.dump(2) << '\n';
-  const std::string all = counted(looked.size(), "material") + ", " + counted(maps, "map");
+  const std::string all = counted(reports.size(), "material") + ", " + counted(maps, "map");
   if (failing > 0 || !problems.empty())
     throw input_error(all + ": " + counted(count, "finding") +
                       (problems.empty() ? "" : ", " + counted(problems.size(), "file") + " not read"));
@@ -196,7 +196,7 @@ void add_check_command(Command& app) {
   command->add_flag("--quiet", options.quiet, "Print nothing but findings and errors");
   std::string text = "The exit code is 1 if something certain is wrong (--fail-on). Rules:\n";
   for (const Rule& rule : rules())
-    text += "  " + std::string(rule.name) + "\n      " + wrapped(rule.sees, 6) + "\n";
+    text += "  " + std::string(rule.name) + "\n      " + wrapped(rule.detects, 6) + "\n";
   command->footer(text + "\nExample:\n  texremap check assets\n  texremap check model.glb --for godot");
 }
 

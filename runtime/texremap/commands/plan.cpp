@@ -40,7 +40,7 @@ constexpr std::size_t kMostParts = 1000;
 constexpr std::size_t kMeasuredEntries = 8;
 
 // Time and memory of a conversion on this machine.
-struct Measured {
+struct Measurement {
   double seconds_a_cost = 0.0;  // on one thread
   double memory_bytes = 0.0;
 };
@@ -63,7 +63,7 @@ Listing sample_of(const TreeManifest& manifest) {
   return sample;
 }
 
-Measured measured(const TreeManifest& manifest, ConvertOptions options) {
+Measurement measured(const TreeManifest& manifest, ConvertOptions options) {
   const ScratchFolder scratch("texremap-plan");
   options.manifest = scratch.file("sets.jsonl");
   options.output = scratch.file("out");
@@ -155,7 +155,7 @@ void plan(const PlanOptions& options) {
                    words_of_jobs(asked)};
   require_writable(options.kind, farm);
   const bool is_given = options.parts > 0 && options.minutes > 0 && options.memory_megabytes > 0;
-  const Measured one = is_given ? Measured() : measured(manifest, conversion);
+  const Measurement one = is_given ? Measurement() : measured(manifest, conversion);
   const double threads = std::max(options.threads, 1u);
   const double seconds = one.seconds_a_cost * static_cast<double>(manifest.head.cost);
   farm.threads = options.threads;

@@ -34,7 +34,7 @@ bool is_read(const FoundMap& map) {
 
 // A set or an asset, and what stands in its line.
 template <class Entry>
-struct Listed {
+struct ListedEntry {
   const Entry& entry;
   std::vector<std::uintmax_t> sizes;  // of its files, in order
   std::uintmax_t bytes = 0;
@@ -63,8 +63,8 @@ void require_listable(const fs::path& path) {
 fs::path place_of(const FoundSet& set) { return set.folder / set.name; }
 const fs::path& place_of(const ListedAsset& asset) { return asset.path; }
 
-Listed<FoundSet> listed(const fs::path& root, const FoundSet& set) {
-  Listed<FoundSet> all{set, {}};
+ListedEntry<FoundSet> listed(const fs::path& root, const FoundSet& set) {
+  ListedEntry<FoundSet> all{set, {}};
   require_listable(place_of(set));
   for (const FoundMap& map : set.maps) {
     require_listable(map.path);
@@ -74,8 +74,8 @@ Listed<FoundSet> listed(const fs::path& root, const FoundSet& set) {
   return all;
 }
 
-Listed<ListedAsset> listed(const fs::path& root, const ListedAsset& asset) {
-  Listed<ListedAsset> all{asset, {}};
+ListedEntry<ListedAsset> listed(const fs::path& root, const ListedAsset& asset) {
+  ListedEntry<ListedAsset> all{asset, {}};
   require_listable(asset.path);
   all.add_file(root, asset.path, true);
   for (const fs::path& file : asset.files) {
@@ -85,7 +85,7 @@ Listed<ListedAsset> listed(const fs::path& root, const ListedAsset& asset) {
   return all;
 }
 
-std::string line_of(const Listed<FoundSet>& listed) {
+std::string line_of(const ListedEntry<FoundSet>& listed) {
   const FoundSet& set = listed.entry;
   Json maps = Json::list();
   auto size = listed.sizes.begin();
@@ -103,7 +103,7 @@ std::string line_of(const Listed<FoundSet>& listed) {
   return json.dump() + '\n';
 }
 
-std::string line_of(const Listed<ListedAsset>& listed) {
+std::string line_of(const ListedEntry<ListedAsset>& listed) {
   const ListedAsset& asset = listed.entry;
   Json files = Json::list();
   auto size = listed.sizes.begin();
@@ -302,9 +302,9 @@ void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, Conten
 
 // Lists the entries that can be listed; the others become problems.
 template <class Entry>
-std::vector<Listed<Entry>> listed_all(const fs::path& root, const std::vector<Entry>& entries,
-                                      ManifestHead& head, std::vector<WalkProblem>& problems) {
-  std::vector<Listed<Entry>> all;
+std::vector<ListedEntry<Entry>> listed_all(const fs::path& root, const std::vector<Entry>& entries,
+                                           ManifestHead& head, std::vector<WalkProblem>& problems) {
+  std::vector<ListedEntry<Entry>> all;
   for (const Entry& entry : entries) {
     try {
       all.push_back(listed(root, entry));
@@ -333,12 +333,12 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
   if (!is_utf8(head.root.string()))
     throw input_error(display_path(head.root) +
                       ": the name is not UTF-8, which a manifest cannot hold (rename it)");
-  const std::vector<Listed<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
-  const std::vector<Listed<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
+  const std::vector<ListedEntry<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
+  const std::vector<ListedEntry<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
   // The hash stands before the lines, which are made twice rather than kept: a manifest may have gigabytes.
   const auto make_lines = [&](const auto& take) {
-    for (const Listed<FoundSet>& set : sets) take(line_of(set));
-    for (const Listed<ListedAsset>& asset : assets) take(line_of(asset));
+    for (const ListedEntry<FoundSet>& set : sets) take(line_of(set));
+    for (const ListedEntry<ListedAsset>& asset : assets) take(line_of(asset));
     for (const fs::path& image : found.unrecognised)
       take(Json({{"unrecognised", image.string()}}).dump() + '\n');
     for (const WalkProblem& problem : found.problems)

@@ -31,32 +31,32 @@ std::vector<MapUse> those(const std::vector<MapUse>& found, Wanted wanted) {
 }
 
 // The one use that is kept, with the reason for it; an empty reason where somebody asked for it.
-struct Kept {
+struct KeptUse {
   MapUse use;
   std::string reason;
 };
-std::optional<Kept> kept_of(const FoundSet& set, std::vector<MapUse> found,
-                            const std::vector<std::string>& prefer, std::optional<RoughnessEncoding> own) {
+std::optional<KeptUse> kept_of(const FoundSet& set, std::vector<MapUse> found,
+                               const std::vector<std::string>& prefer, std::optional<RoughnessEncoding> own) {
   for (const std::string& word : prefer)
     if (const auto named = those(found, [&](const MapUse& use) { return names(word, set, use); });
         !named.empty())
       found = named;
-  if (found.size() == 1) return Kept{found.front(), ""};
+  if (found.size() == 1) return KeptUse{found.front(), ""};
   const auto is_own = [&](const MapUse& use) {
     return encoding_of(use.role).value_or(RoughnessEncoding::kRoughness) == *own;
   };
   if (own && is_roughness(found.front().role))
     if (const auto same = those(found, is_own); !same.empty()) found = same;
-  if (found.size() == 1) return Kept{found.front(), "the parameter of the model"};
+  if (found.size() == 1) return KeptUse{found.front(), "the parameter of the model"};
   const auto whole = those(found, [](const MapUse& use) {
     return use.channels == Channels::kWhole || use.channels == Channels::kRgb;
   });
-  if (whole.size() == 1) return Kept{whole.front(), "a map of its own"};
+  if (whole.size() == 1) return KeptUse{whole.front(), "a map of its own"};
   const auto role_count = [&](const MapUse& use) { return set.maps[use.map].meaning.size(); };
   std::size_t most = 0;
   for (const MapUse& use : found) most = std::max(most, role_count(use));
   const auto fullest = those(found, [&](const MapUse& use) { return role_count(use) == most; });
-  if (fullest.size() == 1) return Kept{fullest.front(), "which holds more of the material"};
+  if (fullest.size() == 1) return KeptUse{fullest.front(), "which holds more of the material"};
   return std::nullopt;
 }
 
@@ -112,7 +112,7 @@ std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>
   for (const Parameter parameter : parameters) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     if (found.size() < 2) continue;
-    const std::optional<Kept> kept = kept_of(set, found, prefer, own);
+    const std::optional<KeptUse> kept = kept_of(set, found, prefer, own);
     if (!kept) continue;
     std::string others;
     for (const MapUse& use : found) {

@@ -117,7 +117,7 @@ class SetJobs {
   // Whether a set without a map of width has one by an option, and other maps of the material.
   bool has_given_width(const FoundSet& set) const;
   void fail(const std::string& message) { jobs_.skipped.push_back({message, true}); }
-  std::string place(const FoundSet& set) const { return display_path(root_ / set.folder / set.name); }
+  std::string context(const FoundSet& set) const { return display_path(root_ / set.folder / set.name); }
   std::string owner(const FoundSet& set) const { return display_path(root_ / set.maps.front().path); }
 
   const ConvertOptions& options_;
@@ -211,7 +211,7 @@ void SetJobs::add(FoundSet set) {
   const bool is_metallic =
       !uses(set, is<Role::kMetallic>).empty() && !uses(set, is<Role::kBaseColor>).empty();
   if (is_metallic && !workflow_.is_material())
-    notes.push_back(place(set) + ": has base color and metallic, which " + workflow_.source_brdf +
+    notes.push_back(context(set) + ": has base color and metallic, which " + workflow_.source_brdf +
                     " does not take: its specular is not the specular of the material (--from metallic "
                     "converts it whole)");
   if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
@@ -226,12 +226,12 @@ void SetJobs::add(FoundSet set) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name = plain_name(parameter);
     if (!found.empty() && workflow_.constants.contains(parameter))
-      return fail(place(set) + ": has a " + std::string(role_name(found.front().role)) +
+      return fail(context(set) + ": has a " + std::string(role_name(found.front().role)) +
                   " map, but the warp converts only a diffuse map (use a warp of all its maps, or "
                   "--diffuse MAP instead of the folder)");
-    if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
+    if (found.size() > 1) return fail(context(set) + ": " + too_many_text(set, found, name));
     if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))
-      return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
+      return fail(context(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
                   " VALUE for such sets)");
   }
   if (!takes_names(set)) return;
@@ -249,7 +249,7 @@ bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::s
   if (const MapName* given = given_map(parameter)) {
     const fs::path file = file_of_set(given->file, set, number);
     if (!is_file(file)) {
-      fail(place(set) + ": no " + display_path(file.filename()) + ", which " + option + " names");
+      fail(context(set) + ": no " + display_path(file.filename()) + ", which " + option + " names");
       return false;
     }
     asked.source = MapName{file, given->channels};
@@ -262,7 +262,7 @@ bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::s
   const FoundMap& map = set.maps[use.map];
   const std::optional<fs::path> file = file_of(map, tile);
   if (!file) {
-    fail(place(set) + (number.empty() ? "" : ", tile " + number) + ": no " +
+    fail(context(set) + (number.empty() ? "" : ", tile " + number) + ": no " +
          std::string(role_name(use.role)) + " map found (" + display_path(map.path.filename()) +
          " lacks this tile)");
     return false;

@@ -68,13 +68,13 @@ double f0_of(const ChosenConverter& chosen, const DielectricF0& estimated) {
 }
 
 // Prints what metal-rough cannot express where it is visible, with `verbose` also how reliable metallic is.
-void print_confidence(const std::string& place, const ChosenConverter& chosen, const JobReport& report,
+void print_confidence(const std::string& context, const ChosenConverter& chosen, const JobReport& report,
                       bool verbose) {
   const MapStatistics& counts = report.statistics;
   const MetallicStatistics& metallic = counts.metallic;
   if (const auto& f0 = report.estimated_f0;
       f0 && (verbose || chosen.workflow.estimates_f0 || report.name.empty()))
-    print_message(kProgram, place + "dielectric F0 estimated from the maps: " + number_text(used_f0(*f0)) +
+    print_message(kProgram, context + "dielectric F0 estimated from the maps: " + number_text(used_f0(*f0)) +
                                 (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
                                 number_text(f0_of(chosen, *f0)) + " is used");
   if (metallic.texel_count == 0) return;
@@ -82,24 +82,26 @@ void print_confidence(const std::string& place, const ChosenConverter& chosen, c
   const auto percent = [](double share, int decimals) { return fixed(100.0 * share, decimals) + " %"; };
   if (difference >= kVisible)
     print_message(kProgram,
-                  place + "metal-rough cannot express these maps exactly; the visible difference is about " +
+                  context +
+                      "metal-rough cannot express these maps exactly; the visible difference is about " +
                       percent(difference, 0) + " (--diagnose DIR shows where)");
   if (!verbose) return;
   const auto share = [&](std::size_t count) {
     return percent(static_cast<double>(count) / static_cast<double>(metallic.texel_count), 2);
   };
-  print_message(kProgram, place + "residual of metal-rough: " + fixed(metallic.rms_residual(), 4) + " rms, " +
-                              fixed(static_cast<double>(metallic.largest_residual), 3) + " at most");
+  print_message(kProgram, context + "residual of metal-rough: " + fixed(metallic.rms_residual(), 4) +
+                              " rms, " + fixed(static_cast<double>(metallic.largest_residual), 3) +
+                              " at most");
   print_message(kProgram,
-                place + "metallic undetermined, no visible effect: " + share(metallic.undetermined.count) +
+                context + "metallic undetermined, no visible effect: " + share(metallic.undetermined.count) +
                     " (too dark: " + share(metallic.dark.count) + "); ambiguous: " +
                     share(metallic.ambiguous.count) + "; clamped: " + share(metallic.clamped.count));
 }
 
-void print_set(const ConvertPlan& plan, const std::string& place, const JobReport& report) {
+void print_set(const ConvertPlan& plan, const std::string& context, const JobReport& report) {
   const ChosenConverter& chosen = plan.sets()->chosen;
   if (plan.dry_run) {
-    print_message(kProgram, place + "would write " + files_text(report) + " from " +
+    print_message(kProgram, context + "would write " + files_text(report) + " from " +
                                 counted(report.inputs.size(), "file") +
                                 " (first: " + report.inputs.front().string() + ")");
     if (!plan.json) std::cout << plan_table(report.plan);
@@ -107,13 +109,14 @@ void print_set(const ConvertPlan& plan, const std::string& place, const JobRepor
   }
   const MapStatistics& counts = report.statistics;
   const auto line = [&](std::size_t count, const std::string& what, const char* noun = "texel") {
-    if (count > 0) print_message(kProgram, place + counted(count, noun) + what);
+    if (count > 0) print_message(kProgram, context + counted(count, noun) + what);
   };
   const std::string by = plan.list.has_several ? "" : " by " + converter_text(chosen);
-  if (counts.texel_count == 0) print_message(kProgram, place + "copied: " + files_text(report));
+  if (counts.texel_count == 0) print_message(kProgram, context + "copied: " + files_text(report));
   line(counts.texel_count, " in " + fixed(report.seconds, 2) + " s" + by + ": " + files_text(report));
-  if (plan.verbose && !report.left_behind.empty()) print_message(kProgram, place + left_behind_text(report));
-  print_confidence(place, chosen, report, plan.verbose);
+  if (plan.verbose && !report.left_behind.empty())
+    print_message(kProgram, context + left_behind_text(report));
+  print_confidence(context, chosen, report, plan.verbose);
   const auto is_told = [&](std::size_t count) {
     return plan.verbose || !plan.list.has_several ||
            static_cast<double>(count) >= kVisible * static_cast<double>(counts.texel_count);
@@ -141,15 +144,15 @@ std::string error_text(const AssetMaterial& material) {
   return error < kShownError ? "" : " (pictures differ by " + number_text(rounded(100.0 * error, 2)) + " %)";
 }
 
-void print_material(const AssetMaterial& material, const std::string& place, bool dry_run, bool quiet) {
+void print_material(const AssetMaterial& material, const std::string& context, bool dry_run, bool quiet) {
   if (!quiet)
     for (const std::string& warning : material.warnings)
-      print_message(kProgram, "warning: " + place + material.title() + ": " + warning);
+      print_message(kProgram, "warning: " + context + material.title() + ": " + warning);
   if (material.state == MaterialState::kFailed)
-    print_message(kProgram, place + material.title() + ": failed: " + material.failure);
+    print_message(kProgram, context + material.title() + ": failed: " + material.failure);
   if (material.state == MaterialState::kConverted && dry_run && !quiet)
     print_message(kProgram,
-                  place + material.title() + ": would become " + material.becomes + error_text(material));
+                  context + material.title() + ": would become " + material.becomes + error_text(material));
 }
 
 std::string outcome_text(const JobReport& report, bool dry_run) {

@@ -18,7 +18,7 @@ constexpr std::uint64_t kCopies = 4;
 constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
 
 // By libwebp itself: OpenImageIO 2.4 multiplies the colors by alpha in 8 bits, whatever it is asked for.
-ImagePixels webp_pixels(std::string_view bytes, const ImageHead& head, const std::string& place) {
+ImagePixels webp_pixels(std::string_view bytes, const ImageHead& head, const std::string& context) {
   const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   WebPBitstreamFeatures features;
   bool is_read = WebPGetFeatures(data, bytes.size(), &features) == VP8_STATUS_OK;
@@ -29,24 +29,25 @@ ImagePixels webp_pixels(std::string_view bytes, const ImageHead& head, const std
     pixels.channels = features.has_alpha != 0 ? 4 : 3;
     const std::size_t row = pixels.width * pixels.channels;
     require_plausible(OIIO::ImageSpec(features.width, features.height, static_cast<int>(pixels.channels)),
-                      head, bytes_of(bytes), place);
-    require_image_memory(kCopies * row * pixels.height, place);
+                      head, bytes_of(bytes), context);
+    require_image_memory(kCopies * row * pixels.height, context);
     pixels.bytes.resize(row * pixels.height);
     const auto decode = pixels.has_alpha() ? &WebPDecodeRGBAInto : &WebPDecodeRGBInto;
     is_read = decode(data, bytes.size(), reinterpret_cast<std::uint8_t*>(pixels.bytes.data()),
                      pixels.bytes.size(), static_cast<int>(row)) != nullptr;
   }
   if (!is_read)
-    throw input_error(place + ": cannot be read: the image is damaged, or an animation (convert it to PNG)");
+    throw input_error(context +
+                      ": cannot be read: the image is damaged, or an animation (convert it to PNG)");
   return pixels;
 }
 
 class AssetCodec final : public ImageCodec {
  public:
-  ImagePixels decode(std::string_view bytes, const std::string& place) const override {
+  ImagePixels decode(std::string_view bytes, const std::string& context) const override {
     const ImageBytes image = bytes_of(bytes);
-    const ImageHead head = checked_head(image, place, ImageUse::kAsset);
-    if (head.format == "webp") return webp_pixels(bytes, head, place);
+    const ImageHead head = checked_head(image, context, ImageUse::kAsset);
+    if (head.format == "webp") return webp_pixels(bytes, head, context);
     OIIO::ImageSpec config, ignored;
     config.attribute(kUnassociatedAlpha, 1);
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
@@ -54,10 +55,10 @@ class AssetCodec final : public ImageCodec {
     if (!input || !input->set_ioproxy(&memory) || !input->open("image", ignored, config)) {
       std::string reason = input ? input->geterror() : "";
       if (reason.empty()) reason = OIIO::geterror();
-      throw input_error(place + ": cannot be read: " + first_line(reason, "the image is damaged"));
+      throw input_error(context + ": cannot be read: " + first_line(reason, "the image is damaged"));
     }
-    require_plausible(input->spec(), head, image, place);
-    return pixels_of(*input, place);
+    require_plausible(input->spec(), head, image, context);
+    return pixels_of(*input, context);
   }
 
   std::string encode_png(const ImagePixels& pixels, int level) const override {
@@ -99,9 +100,9 @@ class AssetCodec final : public ImageCodec {
     return {bytes.begin(), bytes.end()};
   }
 
-  static ImagePixels pixels_of(OIIO::ImageInput& input, const std::string& place) {
+  static ImagePixels pixels_of(OIIO::ImageInput& input, const std::string& context) {
     const auto refuse = [&](const std::string& reason) {
-      throw input_error(place + ": cannot be read: " + first_line(reason, "the image is damaged"));
+      throw input_error(context + ": cannot be read: " + first_line(reason, "the image is damaged"));
     };
     const OIIO::ImageSpec& spec = input.spec();
     if (spec.width <= 0 || spec.height <= 0 || spec.nchannels < 1 || spec.nchannels > 4)
@@ -113,7 +114,7 @@ class AssetCodec final : public ImageCodec {
     const bool is_wide = spec.format.basesize() > 1;
     pixels.type = is_wide ? PixelType::kUint16 : PixelType::kUint8;
     const std::size_t size = pixels.width * pixels.height * pixels.texel_bytes();
-    require_image_memory(kCopies * size, place);
+    require_image_memory(kCopies * size, context);
     pixels.bytes.resize(size);
     // OpenImageIO may read a truncated file without failing; only the pending error message shows it.
     if (!input.read_image(0, 0, 0, spec.nchannels, is_wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8,

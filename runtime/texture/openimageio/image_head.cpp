@@ -73,12 +73,12 @@ std::string known_name(std::string_view head) {
   return brand == "ftypavif" ? "AVIF" : brand == "ftypheic" ? "HEIC" : "";
 }
 
-[[noreturn]] void refuse_damaged(const std::string& place, const std::string& what) {
-  throw input_error(place + ": is damaged: " + what);
+[[noreturn]] void refuse_damaged(const std::string& context, const std::string& what) {
+  throw input_error(context + ": is damaged: " + what);
 }
 
 // libpng allocates and fills as much as a chunk claims.
-void look_at_png(const ImageBytes& image, const std::string& place, ImageHead& head) {
+void look_at_png(const ImageBytes& image, const std::string& context, ImageHead& head) {
   constexpr std::size_t kFrame = 12, kMostChunks = 10'000;  // length, name and checksum
   std::array<char, 8> begin{};
   for (std::uint64_t at = 8; image.read(at, begin.data(), begin.size()) == begin.size();) {
@@ -86,14 +86,15 @@ void look_at_png(const ImageBytes& image, const std::string& place, ImageHead& h
     const std::string name(bytes.substr(4));
     if (name == "IDAT") return;
     at += std::uint64_t{number_at(bytes, 0, 4, true)} + kFrame;
-    if (at > image.size) refuse_damaged(place, "chunk " + plain(name) + " claims to be longer than the file");
-    if (head.png_chunks.size() == kMostChunks) refuse_damaged(place, "it has too many chunks");
+    if (at > image.size)
+      refuse_damaged(context, "chunk " + plain(name) + " claims to be longer than the file");
+    if (head.png_chunks.size() == kMostChunks) refuse_damaged(context, "it has too many chunks");
     head.png_chunks.push_back(name);
   }
 }
 
 // OpenImageIO reads beyond its memory where the compression does not fit the number of bits.
-void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::string& place) {
+void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::string& context) {
   constexpr std::uint32_t kOldHeader = 12;  // which has no compression
   const std::uint32_t header = number_at(begin, 14, 4, false);
   const bool is_old = header == kOldHeader;
@@ -105,12 +106,12 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
   const bool fits = compression == 0 || (compression == 1 && bits == 8) || (compression == 2 && bits == 4) ||
                     (compression == 3 && (bits == 16 || bits == 32));
   if (std::ranges::find(kHeaders, header) == kHeaders.end())
-    throw input_error(place + ": is damaged, or of an unknown kind: a header of " + std::to_string(header) +
+    throw input_error(context + ": is damaged, or of an unknown kind: a header of " + std::to_string(header) +
                       " bytes");
   if (!fits || std::ranges::find(kBits, bits) == kBits.end())
-    throw input_error(place + ": is damaged, or of an unknown kind: compression " +
+    throw input_error(context + ": is damaged, or of an unknown kind: compression " +
                       std::to_string(compression) + " of " + std::to_string(bits) + " bits");
-  if (pixels > image.size) refuse_damaged(place, "its texels would begin behind its end");
+  if (pixels > image.size) refuse_damaged(context, "its texels would begin behind its end");
   const auto side = [&](std::size_t at, std::size_t size) {
     const std::uint32_t value = number_at(begin, at, size, false);
     return static_cast<std::uint64_t>(size == 4 && value > 0x7fffffffu ? 0u - value : value);
@@ -121,16 +122,16 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
     const auto shorter = [&](std::uint64_t texels) { return static_cast<int>(std::min(texels, kLongest)); };
     ImageHead head;
     head.is_read_whole = true;
-    require_plausible(OIIO::ImageSpec(shorter(width), shorter(height), 3), head, image, place);
+    require_plausible(OIIO::ImageSpec(shorter(width), shorter(height), 3), head, image, context);
   }
   if (compression != 0) return;
   if ((width * bits + 31) / 32 * 4 * height > image.size - pixels)
-    refuse_damaged(place, "it has fewer texels than its size of " + std::to_string(width) + "x" +
-                              std::to_string(height) + " needs (the file may be truncated)");
+    refuse_damaged(context, "it has fewer texels than its size of " + std::to_string(width) + "x" +
+                                std::to_string(height) + " needs (the file may be truncated)");
 }
 
 // OpenImageIO takes texts of the extension area as far as their next zero, wherever that is.
-void look_at_targa(const ImageBytes& image, const std::string& place) {
+void look_at_targa(const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kFooter = 26, kArea = 495;
   std::string footer(kFooter, '\0'), area(kArea, '\0');
   if (image.size < kFooter || image.read(image.size - kFooter, footer.data(), kFooter) < kFooter ||
@@ -139,17 +140,17 @@ void look_at_targa(const ImageBytes& image, const std::string& place) {
   const std::uint32_t begin = number_at(footer, 0, 4, false);
   if (begin == 0) return;
   if (image.read(begin, area.data(), kArea) < kArea)
-    refuse_damaged(place, "its extension area is incomplete");
+    refuse_damaged(context, "its extension area is incomplete");
   using Text = std::pair<std::size_t, std::size_t>;  // place and size
   constexpr std::array<Text, 7> kTexts = {Text{2, 41}, {43, 81},  {124, 81}, {205, 81},
                                           {286, 81},   {379, 41}, {426, 41}};
   for (const auto& [at, size] : kTexts)
     if (area.substr(at, size).find('\0') == std::string::npos)
-      refuse_damaged(place, "a text of its extension area has no end");
+      refuse_damaged(context, "a text of its extension area has no end");
 }
 
 // OpenImageIO looks up colors behind the end of a palette.
-void look_at_targa_palette(std::string_view begin, const ImageBytes& image, const std::string& place) {
+void look_at_targa_palette(std::string_view begin, const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kHeader = 18, kChunk = std::size_t{1} << 16;
   constexpr std::uint32_t kPlain = 1, kRunLengths = 9;
   const std::uint32_t type = number_at(begin, 2, 1, false), first = number_at(begin, 3, 2, false),
@@ -157,7 +158,7 @@ void look_at_targa_palette(std::string_view begin, const ImageBytes& image, cons
                       index_bytes = (number_at(begin, 16, 1, false) + 7) / 8;
   if (type != kPlain && type != kRunLengths) return;
   if (begin[1] != 1 || first != 0 || index_bytes > 2)
-    throw input_error(place + ": has a palette of an unknown kind (convert it to PNG)");
+    throw input_error(context + ": has a palette of an unknown kind (convert it to PNG)");
   std::uint64_t at = kHeader + number_at(begin, 0, 1, false) + std::uint64_t{colors} * ((color_bits + 7) / 8);
   std::uint64_t left = std::uint64_t{number_at(begin, 12, 2, false)} * number_at(begin, 14, 2, false);
   std::string chunk;
@@ -184,14 +185,14 @@ void look_at_targa_palette(std::string_view begin, const ImageBytes& image, cons
     }
     for (; indices > 0 && !has_ended; --indices)
       if (number(index_bytes) >= colors && !has_ended)
-        refuse_damaged(place, "a texel has a color behind the end of the palette, which has " +
-                                  std::to_string(colors) + " colors");
+        refuse_damaged(context, "a texel has a color behind the end of the palette, which has " +
+                                    std::to_string(colors) + " colors");
     left -= texels;
   }
 }
 
 // OpenEXR allocates and fills as much as an attribute claims.
-void look_at_exr(const ImageBytes& image, const std::string& place) {
+void look_at_exr(const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kStart = 8, kMostAttributes = 100'000, kNames = 2 * 256;  // name and type
   constexpr std::uint32_t kSeveralParts = 0x1000;
   std::string bytes(kNames + 4, '\0');
@@ -212,13 +213,14 @@ void look_at_exr(const ImageBytes& image, const std::string& place) {
       continue;
     }
     const std::size_t type = name == std::string::npos ? name : bytes.find('\0', name + 1);
-    if (type == std::string::npos || type + 5 > bytes.size()) refuse_damaged(place, "its header has no end");
+    if (type == std::string::npos || type + 5 > bytes.size())
+      refuse_damaged(context, "its header has no end");
     at += type + 5 + std::uint64_t{number_at(bytes, type + 1, 4, false)};
     if (at > image.size)
-      refuse_damaged(place,
+      refuse_damaged(context,
                      "attribute " + plain(bytes.substr(0, name)) + " claims to be longer than the file");
   }
-  refuse_damaged(place, "it has too many attributes");
+  refuse_damaged(context, "it has too many attributes");
 }
 
 // A progressive JPEG is kept whole until its last scan.
@@ -248,13 +250,13 @@ ImageBytes bytes_of(std::string_view memory) {
           }};
 }
 
-ImageHead checked_head(const ImageBytes& image, const std::string& place, ImageUse use) {
+ImageHead checked_head(const ImageBytes& image, const std::string& context, ImageUse use) {
   const std::string begin = begin_of(image);
   ImageHead head{format_of(begin), {}, false};
   const bool is_picture = head.format == "openexr" || head.format == "hdr";  // which no asset holds
   if (head.format.empty() || (is_picture && use == ImageUse::kAsset)) {
     const std::string name = is_picture ? head.format : known_name(begin);
-    throw input_error(place + ": " +
+    throw input_error(context + ": " +
                       (!name.empty() ? "is " + name + ", which is not read " +
                                            (is_picture ? "in assets " : "") + "(convert it to PNG)"
                        : use == ImageUse::kAsset
@@ -264,45 +266,45 @@ ImageHead checked_head(const ImageBytes& image, const std::string& place, ImageU
                              "are read)"));
   }
   if (head.format == "png") {
-    look_at_png(image, place, head);
+    look_at_png(image, context, head);
     head.is_read_whole = number_at(begin, 28, 1, true) != 0;  // interlaced
   }
-  if (head.format == "bmp") look_at_bmp(begin, image, place);
+  if (head.format == "bmp") look_at_bmp(begin, image, context);
   if (head.format == "targa") {
-    look_at_targa(image, place);
-    look_at_targa_palette(begin, image, place);
+    look_at_targa(image, context);
+    look_at_targa_palette(begin, image, context);
   }
-  if (head.format == "openexr") look_at_exr(image, place);
+  if (head.format == "openexr") look_at_exr(image, context);
   if (head.format == "jpeg") head.is_read_whole = is_progressive(image);
   if (head.format == "webp" || head.format == "targa") head.is_read_whole = true;
   return head;
 }
 
 void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const ImageBytes& image,
-                       const std::string& place) {
+                       const std::string& context) {
   const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
   const std::uint64_t bytes = spec.image_bytes(true), row = spec.scanline_bytes(true);
   if (spec.width < 1 || spec.height < 1) return;  // which has words of its own
   if (spec.image_pixels() > kMostTexels)
-    throw input_error(place + ": has " + size + " texels, more than the most that are read (" +
+    throw input_error(context + ": has " + size + " texels, more than the most that are read (" +
                       std::to_string(kMostTexels) + ")");
   if (bytes / kMostBytesOfAByte > image.size)
     refuse_damaged(
-        place, "its size of " + size + " does not fit a file of " + std::to_string(image.size) + " bytes");
+        context, "its size of " + size + " does not fit a file of " + std::to_string(image.size) + " bytes");
   // Rows that readers of strips, tiles and blocks of rows keep.
   const int strip = std::max({spec.tile_height, spec.get_int_attribute("tiff:RowsPerStrip"), 256});
   require_image_memory(
-      head.is_read_whole ? bytes : row * static_cast<std::uint64_t>(std::min(strip, spec.height)), place);
+      head.is_read_whole ? bytes : row * static_cast<std::uint64_t>(std::min(strip, spec.height)), context);
 }
 
 void set_image_memory(std::uint64_t bytes) { most_memory = bytes; }
 
-void require_image_memory(std::uint64_t bytes, const std::string& place) {
+void require_image_memory(std::uint64_t bytes, const std::string& context) {
   const std::uint64_t most = most_memory;
   if (bytes <= most) return;
   const auto megabytes = [](std::uint64_t size) { return std::to_string((size + 0xfffff) >> 20) + " MB"; };
-  throw input_error(place + ": needs " + megabytes(bytes) + " of memory, and an image of this run may take " +
-                    megabytes(most) +
+  throw input_error(context + ": needs " + megabytes(bytes) +
+                    " of memory, and an image of this run may take " + megabytes(most) +
                     " (--memory-limit MB allows more, fewer --threads leave more for each)");
 }
 

@@ -17,7 +17,7 @@ namespace remap {
 // The bytes of an image: of a file or of memory.
 struct ImageBytes {
   std::uint64_t size = 0;
-  // Reads up to `count` bytes from `place` on; returns how many there were.
+  // Reads up to `count` bytes from `context` on; returns how many there were.
   std::function<std::size_t(std::uint64_t place, char* bytes, std::size_t count)> read;
 };
 ImageBytes bytes_of(std::string_view memory);
@@ -32,16 +32,16 @@ struct ImageHead {
 enum class ImageUse { kMap, kAsset };
 
 // By the content, whatever the name: PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR and Radiance HDR. Throws
-// kInput, beginning with `place`, for every other content, and for a header that would harm a reader.
-ImageHead checked_head(const ImageBytes& image, const std::string& place, ImageUse use = ImageUse::kMap);
+// kInput, beginning with `context`, for every other content, and for a header that would harm a reader.
+ImageHead checked_head(const ImageBytes& image, const std::string& context, ImageUse use = ImageUse::kMap);
 
-// Throws kInput, beginning with `place`, for a picture that its file is too small for, and for one that takes
-// more than the memory of set_image_memory().
+// Throws kInput, beginning with `context`, for a picture that its file is too small for, and for one that
+// takes more than the memory of set_image_memory().
 void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const ImageBytes& image,
-                       const std::string& place);
+                       const std::string& context);
 
 // The most bytes that the texels of one image may take in memory at once.
 void set_image_memory(std::uint64_t bytes);
-void require_image_memory(std::uint64_t bytes, const std::string& place);
+void require_image_memory(std::uint64_t bytes, const std::string& context);
 
 }  // namespace remap

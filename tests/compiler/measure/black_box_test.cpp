@@ -128,7 +128,7 @@ TEST_CASE("probe: an index of refraction is found where pictures are affine in i
   const SpecularResponse response = probe(scale, "disguised/law");
   CHECK(response.law == SpecularLaw::kIor);
   CHECK(response.canonical(1.5) == Approx(0.04).epsilon(1e-12));
-  CHECK(response.own(0.04) == Approx(1.5).epsilon(1e-12));
+  CHECK(response.native(0.04) == Approx(1.5).epsilon(1e-12));
 }
 
 TEST_CASE("probe: a knee is found to the precision of pictures, wherever it lies") {

@@ -37,7 +37,7 @@ MaterialMap map_of(const std::string& name, const std::vector<Value>& channels) 
 
 CheckedMaterial set_of(const std::vector<std::pair<MaterialMap, std::vector<MaterialUse>>>& maps) {
   CheckedMaterial material;
-  material.place = "set";
+  material.path = "set";
   for (const auto& [map, uses] : maps) {
     for (MaterialUse use : uses) {
       use.map = material.maps.size();
