@@ -2,9 +2,12 @@
 #include <cstdio>
 #include <emscripten.h>
 #include <iostream>
+#include <span>
 #include <string>
 
 #include "core/json.hpp"
+#include "paths/known_names.hpp"
+#include "remap/conversion.hpp"
 #include "remap/path.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/commands/commands.hpp"
@@ -13,24 +16,32 @@
 namespace remap {
 namespace {
 
+Json names_of(std::span<const KnownName> names) {
+  Json list = Json::list();
+  for (const auto& [title, word] : names)
+    list.push_back({{"title", title}, {"name", word}, {"model", model_named(std::string(word)).name}});
+  return list;
+}
+
 Json names() {
-  Json presets = Json::list(), materials = Json::list(), models = Json::list(), aliases = Json::list();
-  for (const Preset& preset : engine_presets())
-    presets.push_back({{"name", preset.name}, {"model", preset.model}});
+  Json engines = Json::list(), materials = Json::list(), models = Json::list();
+  for (const NamedLayout& engine : engine_layouts()) engines.push_back(engine.name);
   for (const WorkflowModel& model : workflow_models())
     materials.push_back(
         {{"name", model_of(model.end)}, {"workflow", kind_name(model.end)}, {"brdf", model.brdf}});
   const ConverterGraph graph = shipped_graph();
   for (const std::string& name : graph.models()) models.push_back(name);
-  for (const ModelAlias& alias : model_aliases())
-    aliases.push_back({{"name", alias.name}, {"model", alias.model}, {"meaning", alias.meaning}});
-  return {{"presets", presets}, {"materials", materials}, {"models", models}, {"aliases", aliases}};
+  return {{"programs", names_of(known_programs())},
+          {"formats", names_of(known_formats())},
+          {"engines", engines},
+          {"materials", materials},
+          {"models", models}};
 }
 
 }  // namespace
 }  // namespace remap
 
-// What --from, --to and --preset take, as JSON.
+// What --from and --to take, as JSON.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* texremap_names() {
   static const std::string text = remap::names().dump();
   return text.c_str();

@@ -28,10 +28,10 @@ export interface ImageCodec {
 export interface MaterialOptions {
   from?: 'gltf-specgloss' | 'gltf';
   to: 'gltf' | 'gltf-specgloss';
-  /** `core`, for every viewer, or `extensions`: KHR_materials_specular and KHR_materials_ior as well. */
-  profile?: 'core' | 'extensions';
+  /** Uses KHR_materials_specular and KHR_materials_ior: exact in viewers that read them, wrong in others. */
+  extensions?: boolean;
   /** How much of two alike materials that nearer to metallic 0 or 1 is preferred; 1e-5 for scans and JPEG. */
-  prior?: number;
+  metallicBias?: number;
   /** KHR_materials_specular and KHR_materials_ior go into core, too. */
   foldSpecular?: boolean;
   /** Enlarges images of a material that are smaller than another one. */

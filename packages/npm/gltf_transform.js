@@ -11,15 +11,15 @@ import { bytesOf } from './wasm_bytes.js';
 const COMMAND_OPTIONS = {
   from: '--from',
   to: '--to',
-  profile: '--profile',
-  prior: '--metallic-bias',
+  extensions: '--extensions',
+  metallicBias: '--metallic-bias',
   foldSpecular: '--fold-specular',
   resample: '--resample',
   bake: '--bake',
   jpeg: '--jpeg',
 };
 const OWN_OPTIONS = ['codec', 'program'];
-const FLAGS = ['foldSpecular', 'resample', 'bake'];
+const FLAGS = ['extensions', 'foldSpecular', 'resample', 'bake'];
 
 const FILE = 'document.gltf', OUT = 'out';
 

@@ -35,7 +35,7 @@ export interface ConverterOptions {
   /** F0 of metallic workflows where metallic is 0; from 0 to 0.9. */
   dielectricF0?: number;
   /** How much of two alike materials that nearer to metallic 0 or 1 is preferred; 1e-5 for scans and JPEG. */
-  prior?: number;
+  metallicBias?: number;
 }
 
 /** The maps of a model: roughness and specular; of a workflow: those with diffuse, or base color and metallic. */

@@ -39,7 +39,7 @@ const OWN_NAMES = new Map([...CORE_NAMES].map(([own, core]) => [core, own]));
 const COLORS = new Set(['specular', 'diffuse', 'baseColor']);
 const MEASURES = ['residual', 'metallicUncertainty', 'issues'];
 
-const OWN_OPTIONS = ['sourceWorkflow', 'targetWorkflow', 'via', 'diffuseConvention', 'dielectricF0', 'prior'];
+const OWN_OPTIONS = ['sourceWorkflow', 'targetWorkflow', 'via', 'diffuseConvention', 'dielectricF0', 'metallicBias'];
 const CONVERTER_OPTIONS = ['source', 'target', ...OWN_OPTIONS];
 const MAP_OPTIONS = [
   'width', 'firstRow', 'transfer', 'type', 'sourceEncoding', 'targetEncoding', 'badTexels', 'dither', 'measures', 'into',
@@ -156,7 +156,7 @@ const EXPECTED = {
   via: [isTexts, 'a list of names'],
   diffuseConvention: [isText, 'a name'],
   dielectricF0: [isNumber, 'a number'],
-  prior: [isNumber, 'a number'],
+  metallicBias: [isNumber, 'a number'],
 };
 
 function checked(names) {

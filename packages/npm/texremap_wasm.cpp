@@ -74,7 +74,7 @@ ConversionRequest request_of(const Field& field) {
     request.via = field["via"].list(0, [](const Field& model) { return model.text(); });
   request.diffuse_convention = named_if(field, "diffuseConvention", kDiffuseConventions);
   if (field.contains("dielectricF0")) request.dielectric_f0 = field["dielectricF0"].number();
-  if (field.contains("prior")) request.prior = field["prior"].number();
+  if (field.contains("metallicBias")) request.prior = field["metallicBias"].number();
   request.words.source_workflow = "sourceWorkflow";
   request.words.target_workflow = "targetWorkflow";
   request.words.dielectric_f0 = "dielectricF0";

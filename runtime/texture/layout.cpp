@@ -15,29 +15,29 @@ constexpr auto kRoughness = RoughnessEncoding::kRoughness, kGlossiness = Roughne
 constexpr auto kEightBits = PixelType::kUint8;
 constexpr auto kGreenUp = NormalGreen::kUp;
 
-constexpr std::size_t kPlainLayouts = 5;  // the first presets
-constexpr std::array<Preset, 14> kPresets = {{
-    {"as-inputs", "", "", "", "", {}, {}},
-    {"separate", "", "", "", "", {}, {}},
-    {"orm", "", "", "orm=occlusion,roughness,metallic", "", {}, {}},
-    {"arm", "", "", "arm=occlusion,roughness,metallic", "", {}, {}},
-    {"specgloss", "", "", "specular_glossiness=specular,glossiness", "", {}, {}},
-    {"gltf", "gltf", "", "baseColor=base_color; occlusionRoughnessMetallic=occlusion,roughness,metallic",
+constexpr std::size_t kPlainLayouts = 5;  // the first ones
+constexpr std::array<NamedLayout, 14> kLayouts = {{
+    {"as-inputs", "", "", "", {}, {}},
+    {"separate", "", "", "", {}, {}},
+    {"orm", "", "orm=occlusion,roughness,metallic", "", {}, {}},
+    {"arm", "", "arm=occlusion,roughness,metallic", "", {}, {}},
+    {"specgloss", "", "specular_glossiness=specular,glossiness", "", {}, {}},
+    {"gltf", "", "baseColor=base_color; occlusionRoughnessMetallic=occlusion,roughness,metallic",
      "png", kEightBits, kGreenUp},
-    {"unity", "unity", "unity unity-urp",
+    {"unity", "unity unity-urp",
      "BaseMap=base_color; MetallicSmoothness=metallic,metallic,metallic,smoothness; Occlusion=occlusion",
      "png", kEightBits, kGreenUp},
-    {"unity-hdrp", "unity-hdrp", "unity-hdrp", "BaseMap=base_color; MaskMap=metallic,occlusion,0,smoothness",
+    {"unity-hdrp", "unity-hdrp", "BaseMap=base_color; MaskMap=metallic,occlusion,0,smoothness",
      "png", kEightBits, kGreenUp},
-    {"unreal", "unreal", "unreal unreal-engine ue4 ue5",
+    {"unreal", "unreal unreal-engine ue4 ue5",
      "T_*_BC=base_color; T_*_ORM=occlusion,roughness,metallic", "png", kEightBits, NormalGreen::kDown},
-    {"godot", "godot", "godot", "albedo=base_color; orm=occlusion,roughness,metallic", "png", kEightBits,
+    {"godot", "godot", "albedo=base_color; orm=occlusion,roughness,metallic", "png", kEightBits,
      kGreenUp},
-    {"threejs", "three", "three three-js threejs", "baseColor=base_color; orm=occlusion,roughness,metallic",
+    {"threejs", "three three-js threejs", "baseColor=base_color; orm=occlusion,roughness,metallic",
      "png", kEightBits, kGreenUp},
-    {"blender", "blender", "blender", "", "png", kEightBits, kGreenUp},
-    {"usd", "usd", "usd usdz", "", "png", kEightBits, kGreenUp},
-    {"marmoset", "marmoset", "marmoset", "", "png", kEightBits, {}},
+    {"blender", "blender", "", "png", kEightBits, kGreenUp},
+    {"usd", "usd usdz", "", "png", kEightBits, kGreenUp},
+    {"marmoset", "marmoset", "", "png", kEightBits, {}},
 }};
 
 // The words of a layout, with what they mean.
@@ -143,24 +143,29 @@ Layout as_inputs() { return {"as-inputs", true, {}}; }
 
 Layout separate() { return {"separate", false, {}}; }
 
-std::span<const Preset> presets() { return kPresets; }
+std::span<const NamedLayout> named_layouts() { return kLayouts; }
 
-const Preset* preset_of(std::string_view word) {
-  const auto found = std::ranges::find_if(kPresets, [word](const Preset& preset) {
-    const std::vector<std::string> words = parts_between(preset.words, ' ');
-    return !word.empty() && std::ranges::find(words, word) != words.end();
-  });
-  return found == kPresets.end() ? nullptr : &*found;
+std::span<const NamedLayout> engine_layouts() { return named_layouts().subspan(kPlainLayouts); }
+
+const NamedLayout* engine_layout(std::string_view name) {
+  const auto found = std::ranges::find(engine_layouts(), name, &NamedLayout::name);
+  return found == engine_layouts().end() ? nullptr : &*found;
 }
 
-std::span<const Preset> engine_presets() { return presets().subspan(kPlainLayouts); }
+const NamedLayout* engine_layout_of(std::string_view word) {
+  const auto found = std::ranges::find_if(kLayouts, [word](const NamedLayout& layout) {
+    const std::vector<std::string> words = parts_between(layout.words, ' ');
+    return !word.empty() && std::ranges::find(words, word) != words.end();
+  });
+  return found == kLayouts.end() ? nullptr : &*found;
+}
 
 Layout layout_from(const std::string& option, const std::string& text) {
   if (text.find('=') != std::string::npos) return layout_in(option, text, text);
   std::vector<std::string> known;
-  for (const Preset& preset : kPresets) {
-    if (preset.name == text) return layout_in(option, text, preset.layout);
-    known.emplace_back(preset.name);
+  for (const NamedLayout& layout : kLayouts) {
+    if (layout.name == text) return layout_in(option, text, layout.files);
+    known.emplace_back(layout.name);
   }
   throw Error(ErrorKind::kUsage,
               option + ": unknown layout '" + text + "'" + suggestion(text, known) +

@@ -52,24 +52,24 @@ Layout as_inputs();
 // One file each for roughness, colors and carried parameters.
 Layout separate();
 
-// The maps that an engine or tool reads, by its documentation (docs/presets.md has the links).
-struct Preset {
+// A layout with a name. That of an engine or tool has the maps that it reads, by its documentation
+// (docs/presets.md has the links).
+struct NamedLayout {
   std::string_view name;
-  std::string_view model;  // of `--to`; empty where `layout` is all that the name means
-  std::string_view words;  // of `--to` that mean the preset; gltf is a format as well, and means the material
-  std::string_view layout;  // as layout_from() reads it; empty: separate
-  std::string_view format;  // extension; empty: that of the inputs
+  std::string_view words;  // of `--to` that mean it; `--to gltf` means the material alone
+  std::string_view files;   // as layout_from() reads it; empty: separate
+  std::string_view format;  // extension; empty for a layout of no engine, and as the inputs
   std::optional<PixelType> type;
   std::optional<NormalGreen> normals;  // how it reads green of normal maps, where its documentation says so
 };
-// `unity`, `unreal`, ... and the plain layouts `as-inputs`, `separate`, `orm`, `arm`, `specgloss`.
-std::span<const Preset> presets();
-// The presets that name a model.
-std::span<const Preset> engine_presets();
-// The preset that a word of `--to` means; null for none.
-const Preset* preset_of(std::string_view word);
+// `as-inputs`, `separate`, `orm`, `arm`, `specgloss`; and those of engines: `gltf`, `unity`, `unreal`, ...
+std::span<const NamedLayout> named_layouts();
+std::span<const NamedLayout> engine_layouts();
+// The layout of the engine with that name, or that a word of `--to` means; null for none.
+const NamedLayout* engine_layout(std::string_view name);
+const NamedLayout* engine_layout_of(std::string_view word);
 
-// A layout by the name of a preset, or in words: `MaskMap=metallic,occlusion,0,smoothness; Albedo=base_color`
+// A layout by its name, or in words: `MaskMap=metallic,occlusion,0,smoothness; Albedo=base_color`
 // lists files and, by channel, what they hold: roughness, glossiness or smoothness, metallic, occlusion,
 // specular, diffuse or base_color (three channels each), or a number from 0 to 1. Throws kUsage, naming
 // `option`, for unknown words and other numbers of channels than 1, 3 and 4.

@@ -447,7 +447,7 @@ TEST_CASE("texremap convert: what a refusal proposes is what the command lacks",
          s.map("x.png", color);
          s.gltf(plain_asset, {"../x.png"});
        }},
-      {"--profile core", asset + " --profile extensions", asset + " --profile core",
+      {"without --extensions", asset + " --extensions", asset,
        [](S s) {
          s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{},"KHR_materials_specular":{}})");
        }},

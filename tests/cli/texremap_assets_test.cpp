@@ -168,7 +168,7 @@ TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended
   CHECK(session.content("out/plain.gltf") == session.content("lib/plain.gltf"));
   CHECK_THAT(session.texremap(command + " --resume").errors,
              Catch::Matchers::Contains("0 assets converted, 0 failed, 4 done before"));
-  CHECK_THAT(session.texremap(command + " --resume --profile extensions").last_error(),
+  CHECK_THAT(session.texremap(command + " --resume --extensions").last_error(),
              Catch::Matchers::Contains("belongs to another conversion"));
   // The same bytes from one thread, without a journal of another run.
   CHECK(session.texremap("convert lib --assets --recursive --to gltf -o one --threads 1").exit_code == 0);

@@ -134,7 +134,7 @@ TEST_CASE(
   for (const std::string set : {"wood", "tin", "oak"})
     for (const std::string map : {"Roughness", "Metallic"})
       write_map(session, "in/" + set + "_" + map + ".png", {"Y"});
-  const Words words = "convert in --from metallic --preset";
+  const Words words = "convert in --from metallic --to";
   const ProcessResult down = require_success(session.texremap(words + "unreal -o unreal"));
   CHECK_THAT(
       down.errors,

@@ -131,7 +131,7 @@ struct Expected {
 };
 // Where a preset has the values of the set.
 struct Arrangement {
-  std::string preset;
+  std::string engine;
   Expected roughness;
   bool is_smooth = false;
   Expected metallic, occlusion;
@@ -163,13 +163,13 @@ const std::vector<Arrangement> kArrangements = {
 
 }  // namespace
 
-TEST_CASE("texremap presets: the same material is arranged anew, and no stored value changes", "[slow]") {
+TEST_CASE("texremap layouts: the same material is arranged anew, and no stored value changes", "[slow]") {
   const Session session;
   write_orm_set(session);
   for (const Arrangement& to : kArrangements) {
-    INFO(to.preset);
-    const std::string out = "out_" + to.preset, back = "back_" + to.preset;
-    require_success(session.texremap("convert in --from gltf --preset " + to.preset + " -o " + out));
+    INFO(to.engine);
+    const std::string out = "out_" + to.engine, back = "back_" + to.engine;
+    require_success(session.texremap("convert in --from gltf --to gltf --layout " + to.engine + " -o " + out));
     const auto held = [&](const Expected& place) {
       return channel(session, out + "/" + place.file + ".png", place.channel);
     };
@@ -181,8 +181,8 @@ TEST_CASE("texremap presets: the same material is arranged anew, and no stored v
     // A file that stays as it is is copied byte for byte.
     CHECK(session.content(out + "/" + to.base_color + ".png") == session.content("in/wood_baseColor.png"));
     // Its names are found again.
-    require_success(session.texremap("convert " + out + " --from gltf --preset gltf -o " + back));
-    const std::string set = back + (to.preset == "unreal" ? "/T_wood" : "/wood");
+    require_success(session.texremap("convert " + out + " --from gltf --to gltf --layout gltf -o " + back));
+    const std::string set = back + (to.engine == "unreal" ? "/T_wood" : "/wood");
     CHECK(session.content(set + "_baseColor.png") == session.content("in/wood_baseColor.png"));
     for (int c = 0; c < 3; ++c)
       CHECK(channel(session, set + "_occlusionRoughnessMetallic.png", c) ==
@@ -250,7 +250,7 @@ TEST_CASE("texremap: of several maps of one parameter, one is taken and named, o
   const OIIO::ImageSpec grey = test_spec(kLayoutSize, kLayoutSize, {"Y"}, OIIO::TypeUInt8);
   session.make("in/wood_rough.png", grey, noise);
   session.make("in/wood_Gloss.png", grey, [](int x, int y, int) { return noise(x, y, 7); });
-  const Words words = "convert in --to gltf --preset unity -o ";
+  const Words words = "convert in --to gltf --layout unity -o ";
   const auto smoothness = [&](const Words& more, const std::string& folder) {
     const ProcessResult result = require_success(session.texremap(words + folder + more));
     CHECK((result.errors.find("--prefer changes that") == std::string::npos) == (more.size() > 0));
@@ -267,7 +267,7 @@ TEST_CASE("texremap: maps of a folder by a name with * for that of the set") {
   write_orm_set(session);
   const OIIO::ImageSpec spec = test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8);
   session.make("in/wood_mine.png", spec, noise);
-  const Words words = Words("convert in --to gltf --preset unity -o out --roughness") +
+  const Words words = Words("convert in --to gltf --layout unity -o out --roughness") +
                       Words(std::vector<std::string>{"*_mine.png:B", "--occlusion", "*_mine.png:R"});
   require_success(session.texremap(words));
   CHECK(channel(session, "out/wood_MetallicSmoothness.png", 3) ==

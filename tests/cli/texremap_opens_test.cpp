@@ -101,7 +101,7 @@ TEST_CASE("texremap opens: a set of a manifest and a turned normal map are opene
   for (const char* name : {"in/wood_BaseColor.png", "in/wood_Normal_OpenGL.png"}) tree.map(name, kColor);
   for (const char* name : {"in/wood_Roughness.png", "in/wood_Metallic.png"}) tree.map(name, kGrey);
   for (const auto& [name, count] :
-       opens(tree, "convert in --from metallic --preset unreal -o out --force --quiet")) {
+       opens(tree, "convert in --from metallic --to unreal -o out --force --quiet")) {
     INFO(name);
     CHECK(count == 1);
   }

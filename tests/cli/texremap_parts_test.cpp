@@ -468,8 +468,8 @@ TEST_CASE("texremap parts: manifests of assets and of sets take the options of t
   refused("index in --assets --format glb -o other.jsonl", "no OBJ file in it");
   write_library(tree);
   index(tree);
-  refused("convert --manifest sets.jsonl --to gltf --profile core -o out",
-          "--profile: applies to assets only");
+  refused("convert --manifest sets.jsonl --to gltf --extensions -o out",
+          "--extensions: applies to assets only");
 }
 
 TEST_CASE("texremap parts: plans hand out assets as they hand out sets") {

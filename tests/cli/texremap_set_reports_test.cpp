@@ -45,13 +45,13 @@ TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports][slow]") {
   sets.plain("in/textures/old_bench_rough_ao_1k.png", {200, 180, 0});
   const std::string packed = "out/textures/old_bench_occlusionRoughnessMetallic.png";
   SECTION("alone") {
-    require_success(sets.texremap("convert in -r --from polyhaven --preset gltf --metallic 0 -o out"));
+    require_success(sets.texremap("convert in -r --from polyhaven --to gltf --layout gltf --metallic 0 -o out"));
     CHECK(sets.texel(packed) == std::vector{180, 200, 0});
   }
   SECTION("beside arm, which holds more of the material") {
     sets.plain("in/textures/old_bench_arm_1k.png", {190, 210, 255});
     const ProcessResult result =
-        require_success(sets.texremap("convert in -r --from polyhaven --preset gltf -o out"));
+        require_success(sets.texremap("convert in -r --from polyhaven --to gltf --layout gltf -o out"));
     CHECK(sets.texel(packed) == std::vector{190, 210, 255});
     CHECK_THAT(result.errors, Contains("roughness is read from old_bench_arm_1k.png:G"));
   }
@@ -64,7 +64,7 @@ TEST_CASE("reports: 19 a nearly grey roughness map", "[reports][slow]") {
   sets.plain("in/sand_albedo.png", {120, 80, 40}, 32);
   sets.drawn(
       map, 3, [&](int x, int, int c) { return 100 + (c == 0 && x >= 16 ? tint : 0); }, 32);
-  const Words words = "convert in --from metal-rough --preset gltf --metallic 0 -o out";
+  const Words words = "convert in --from metal-rough --to gltf --layout gltf --metallic 0 -o out";
   const ProcessResult result = require_success(sets.texremap(words));
   CHECK_THAT(result.errors,
              Contains("warning: " + map +
@@ -91,7 +91,7 @@ TEST_CASE("reports: one map for several sets of a folder", "[reports][slow]") {
   }
   sets.plain("in/king_shared_metallic.png", {255});
   const ProcessResult result = require_success(sets.texremap(
-      "convert in --from metallic --preset gltf --metallic in/king_shared_metallic.png -o out"));
+      "convert in --from metallic --to gltf --layout gltf --metallic in/king_shared_metallic.png -o out"));
   CHECK_THAT(result.errors, Contains("note: in/king_shared_metallic.png is used for every set"));
   for (const std::string name : {"black", "white"})
     CHECK(sets.texel("out/king_" + name + "_occlusionRoughnessMetallic.png") == std::vector{255, 90, 255});
@@ -121,6 +121,11 @@ void write_rock(const ReportedSets& sets, const std::string& normal) {
   sets.plain("in/" + normal, {128, 100, 255});
 }
 
+// `--to gltf` means the material alone.
+Words words_to(const std::string& engine) {
+  return "--to " + engine + (engine == "gltf" ? " --layout gltf" : "");
+}
+
 }  // namespace
 
 TEST_CASE("reports: 07 green of normal maps between all engines", "[reports][slow]") {
@@ -130,7 +135,7 @@ TEST_CASE("reports: 07 green of normal maps between all engines", "[reports][slo
     for (const auto& [to, read] : kEngines) {
       INFO(from << " to " << to);
       const ProcessResult result =
-          require_success(sets.texremap(Words("convert in --force -o out --from") + from + "--preset" + to));
+          require_success(sets.texremap(Words("convert in --force -o out --from") + from + words_to(to)));
       const bool is_known = written != Green::kKept && read != Green::kKept;
       const bool is_inverted = is_known && written != read;
       CHECK(sets.texel("out/T_Rock_N.png") == std::vector{128, is_inverted ? 155 : 100, 255});
@@ -154,26 +159,26 @@ TEST_CASE("reports: 07 the name of a normal map wins over --from", "[reports][sl
   };
   SECTION("OpenGL") {
     write_rock(sets, "T_Rock_NormalGL.png");
-    CHECK(green("--from unreal --preset gltf", "T_Rock_NormalGL.png") == 100);
-    CHECK(green("--from gltf --preset unreal", "T_Rock_NormalDX.png") == 155);
+    CHECK(green("--from unreal --to gltf --layout gltf", "T_Rock_NormalGL.png") == 100);
+    CHECK(green("--from gltf --to unreal", "T_Rock_NormalDX.png") == 155);
     CHECK(green("--from metal-rough --to ue5", "T_Rock_NormalDX.png") == 155);
   }
   SECTION("DirectX") {
     write_rock(sets, "T_Rock_nor_dx.png");
-    CHECK(green("--from gltf --preset unreal", "T_Rock_nor_dx.png") == 100);
-    CHECK(green("--from gltf --preset blender", "T_Rock_nor_gl.png") == 155);
+    CHECK(green("--from gltf --to unreal", "T_Rock_nor_dx.png") == 100);
+    CHECK(green("--from gltf --to blender", "T_Rock_nor_gl.png") == 155);
   }
   SECTION("neither the name nor the source says it") {
     write_rock(sets, "T_Rock_N.png");
-    CHECK(green("--from metal-rough --preset unity", "T_Rock_N.png") == 100);
+    CHECK(green("--from metal-rough --to unity", "T_Rock_N.png") == 100);
     CHECK_THAT(
-        sets.texremap("convert in --from substance --preset unity -o two").errors,
+        sets.texremap("convert in --from substance --to unity -o two").errors,
         Contains("in/T_Rock_N.png: green is kept, because neither the name nor --from says whether it is "
                  "OpenGL or DirectX, and unity reads OpenGL (green up)"));
   }
 }
 
-TEST_CASE("reports: a set for an engine is complete, by --to as by --preset", "[reports][slow]") {
+TEST_CASE("reports: a set for an engine is complete, by --to as by --layout", "[reports][slow]") {
   const ReportedSets sets;
   write_rock(sets, "T_Rock_N.png");
   sets.plain("in/T_Rock_Height.png", {70});
@@ -186,7 +191,7 @@ TEST_CASE("reports: a set for an engine is complete, by --to as by --preset", "[
   std::vector<std::string> all = made;
   all.insert(all.end(), others.begin(), others.end());
   std::sort(all.begin(), all.end());
-  const std::string words = GENERATE("--to unity", "--preset unity", "--from gltf --to gltf --preset unity");
+  const std::string words = GENERATE("--to unity", "--from gltf --to gltf --layout unity");
   require_success(sets.texremap("convert in -o out " + words));
   CHECK(sets.results() == all);
   CHECK(sets.texel("out/T_Rock_MetallicSmoothness.png") == std::vector{0, 0, 0, 165});
@@ -212,8 +217,7 @@ TEST_CASE("reports: 16 an asset for an engine", "[reports][slow]") {
   const ReportedSets sets;
   write_file(sets.path("rock.gltf"), R"({"asset": {"version": "2.0"}, "materials": [{}]})");
   for (const std::string option :
-       {"--preset unity", "--to unity", "--to unreal", "--to blender", "--preset gltf", "--to three.js",
-        "--from gltf --to gltf --preset godot"}) {
+       {"--to unity", "--to unreal", "--to blender", "--to three.js"}) {
     const ProcessResult refused = sets.texremap("convert rock.gltf -o out " + option);
     INFO(option);
     CHECK(refused.exit_code == 2);

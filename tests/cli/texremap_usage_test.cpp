@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 TEST_CASE("texremap: version and list answer on standard output", "[slow]") {
   const Session session;
   CHECK(session.texremap("--version").output.starts_with("texremap "));
-  CHECK_THAT(session.texremap({"list"}).output, Contains("mitsuba_ward_to_mitsuba_as"));
-  const auto json = nlohmann::json::parse(session.texremap("list --json").output);
+  CHECK_THAT(session.texremap("list --pairs").output, Contains("mitsuba_ward_to_mitsuba_as"));
+  const auto json = nlohmann::json::parse(session.texremap("list --pairs --json").output);
   REQUIRE(json.size() == shipped_converters().size());
   CHECK(json[0]["self_test"] == true);
   CHECK(json[0]["source"]["model"].is_string());
@@ -93,14 +93,14 @@ TEST_CASE("texremap: --converters replaces the shipped converters by those of a 
   write_file(session.path("fits/fit.json"), fit_to_json(fit));
   write_file(session.path("fits/manifest.json"), "{}");  // is not a fit, as in a folder of remapc
   const auto list = [&](const std::string& path) {
-    const ProcessResult result = require_success(session.texremap("list --converters " + path + " --json"));
+    const ProcessResult result = require_success(session.texremap("list --pairs --converters " + path + " --json"));
     return result.output;
   };
   const std::string of_fit = list("fits/fit.json");
   CHECK_THAT(of_fit, Catch::Contains(fit.id));
   CHECK_THAT(of_fit, !Catch::Contains("mitsuba_ward_to_mitsuba_as"));
   CHECK(list("fits") == of_fit);
-  CHECK(list(REMAP_SOURCE_DIR "/generated/converters.json") == session.texremap("list --json").output);
+  CHECK(list(REMAP_SOURCE_DIR "/generated/converters.json") == session.texremap("list --pairs --json").output);
 
   const Words numbers =
       "convert --from " + fit.source.model + " --to " + fit.target.model + " --roughness 0.25 --specular 0.3";

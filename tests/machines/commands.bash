@@ -38,7 +38,7 @@ expect() {
 expect 0 "texremap $(sed -n 's/^project(remap VERSION \([0-9.]*\).*/\1/p' "$repository/CMakeLists.txt")" --version
 expect 0 "libraries: CLI11 " --version
 expect 0 "mitsuba_ward_to_mitsuba_ggx" list
-expect 0 '"self_test": true' list --json
+expect 0 '"self_test": true' list --pairs --json
 ! grep -F '"self_test": false' text || fail "a converter fails its self-test"
 expect 0 "pictures differ by 8.2 %, with copied numbers by 12.8 %" path --from mitsuba/ward --to mitsuba/ggx
 expect 0 "alpha 0.223668" convert --from mitsuba/ward --to mitsuba/ggx --roughness 0.3 --specular 0.04

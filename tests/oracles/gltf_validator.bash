@@ -48,7 +48,7 @@ JS
 
 readonly directions=(
   "--to gltf"
-  "--to gltf --profile extensions"
+  "--to gltf --extensions"
   "--to gltf --keep-unused --bake --jpeg 90"
   "--to gltf --fold-specular"
   "--to gltf --fold-specular --keep-unused --bake"
@@ -72,10 +72,10 @@ for i in "${!directions[@]}"; do
 done
 made=0
 while IFS= read -r file; do
-  for profile in core extensions; do
+  for form in '' --extensions; do
     for kind in glb gltf; do
       output=$work/made/$((++made))/made.$kind
-      "$texremap" convert "$file" --to gltf --profile "$profile" -o "$output" >/dev/null 2>&1 || true
+      "$texremap" convert "$file" --to gltf $form -o "$output" >/dev/null 2>&1 || true
       if [[ -f $output ]]; then printf 'none\t%s\n' "$output" >>"$work/pairs"; fi
     done
   done

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """habits_trial.py TEXREMAP: ten sets as ten tools name them, each converted for five targets by one command.
 
-A set has four patches of known values. The command has no option but --preset (or --to) and -o. What it writes is compared with closed
+A set has four patches of known values. The command has no option but --to, -o and, for the files of glTF, --layout. What it writes is compared with closed
 forms: engines of the metallic workflow take the same base color, metallic and roughness (Unity 1 - roughness), within two steps of 8
 bits, 0.02 where the set is specular-gloss; Cycles 5, another renderer, within 0.04 of them. Prints the table; exit code 1 if one is wrong.
 """
@@ -59,10 +59,10 @@ SETS = {
 TABLES = {"threejs": "mitsuba_ggx_to_threejs_r187_standard_metal.csv", "cycles-5/principled": "mitsuba_ggx_to_cycles_5_principled_metal.csv"}
 PACKED = ("occlusion", "roughness", "metallic")
 TARGETS = {  # options, and by a part of the file name what its channels hold
-    "gltf": (["--preset", "gltf"], {"baseColor": ("base",), "occlusionRoughnessMetallic": PACKED}),
-    "unity": (["--preset", "unity"], {"BaseMap": ("base",), "MetallicSmoothness": ("metallic", "metallic", "metallic", "smoothness")}),
-    "unreal": (["--preset", "unreal"], {"_BC": ("base",), "_ORM": PACKED}),
-    "threejs": (["--preset", "threejs"], {"baseColor": ("base",), "_orm": PACKED}),
+    "gltf": (["--to", "gltf", "--layout", "gltf"], {"baseColor": ("base",), "occlusionRoughnessMetallic": PACKED}),
+    "unity": (["--to", "unity"], {"BaseMap": ("base",), "MetallicSmoothness": ("metallic", "metallic", "metallic", "smoothness")}),
+    "unreal": (["--to", "unreal"], {"_BC": ("base",), "_ORM": PACKED}),
+    "threejs": (["--to", "threejs"], {"baseColor": ("base",), "_orm": PACKED}),
     "cycles-5/principled": (["--to", "cycles-5/principled"], {})}
 
 

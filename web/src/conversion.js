@@ -26,16 +26,16 @@ export function archived(files) {
   return found;
 }
 
-function commandOf(files, { from, to, preset, more }) {
+function commandOf(files, { from, to, layout, isEngine, more }) {
   const words = ['convert', IN, '--recursive'];
   if (files.some((file) => isAsset(file.path))) words.push('--assets');
   if (files.some((file) => /\.obj$/i.test(file.path))) words.push('--format', 'glb');
   // Maps that cannot be written here, or only with a loss.
-  else if (!preset && files.some((file) => /\.(jpe?g|webp|tiff?)$/i.test(file.path)) && !words.includes('--assets'))
+  else if (!isEngine && files.some((file) => /\.(jpe?g|webp|tiff?)$/i.test(file.path)) && !words.includes('--assets'))
     words.push('--format', 'png');
   if (from) words.push('--from', from);
-  if (preset) words.push('--preset', preset);
-  else if (to) words.push('--to', to);
+  if (to) words.push('--to', to);
+  if (layout) words.push('--layout', layout);
   return [...words, ...wordsOf(more), '-o', OUT];
 }
 
@@ -136,7 +136,8 @@ export class Conversion {
     this.#images = images;
   }
 
-  /** { status, report, command, files }; `files` are [{ path, bytes }], `request` is { from, to, preset, more }. */
+  // `isEngine`: files get the format that an engine reads.
+  /** { status, report, command, files }; `files` are [{ path, bytes }], `request` is { from, to, layout, isEngine, more }. */
   async run(files, request) {
     await prepareImages(files, this.#images);
     this.#files = files;

@@ -32,20 +32,18 @@ function optionGroup(label, options) {
   return group;
 }
 
-const renderersOf = (models) => [...new Set(models.map((name) => name.split('/')[0]))];
+const named = ({ title, name, model }) => [name, model === name ? title : `${title} (${model})`];
 
-function fillNames({ presets, materials, models, aliases }) {
-  const ofMaterials = () => optionGroup('Materials', materials.map(({ name }) => [name]));
-  const ofModels = () => optionGroup('BRDF models', models.map((name) => [name]));
-  $('from').append(
-    ofMaterials(),
-    ofModels(),
-    optionGroup('Other names', aliases.map(({ name, model, meaning }) => [name, name, `${model}: ${meaning}`])));
-  $('to').append(
-    ofMaterials(),
-    optionGroup('Renderers, the closest of their models', renderersOf(models).map((name) => [name])),
-    optionGroup('Files as a tool takes them', presets.map(({ name }) => [`preset:${name}`, `${name}, packed and named`])),
-    ofModels());
+let engines = new Set();  // programs whose files have names of their own
+
+function fillNames({ programs, formats, models, engines: names }) {
+  engines = new Set(names);
+  for (const list of [$('from'), $('to')])
+    list.append(
+      optionGroup('Programs', programs.map(named)),
+      optionGroup('File formats', formats.map(named)),
+      optionGroup('Renderers and research models', models.map((name) => [name])));
+  $('to').querySelector('optgroup:nth-of-type(2)').append(new Option('glTF, packed into its files', 'gltf layout'));
   $('to').value = 'gltf';
 }
 
@@ -100,8 +98,9 @@ async function convert() {
   if (isBusy || files.length === 0 || core === null) return;
   isBusy = true;
   const chosen = $('to').value;
-  const preset = chosen.startsWith('preset:') ? chosen.slice('preset:'.length) : '';
-  const request = { from: $('from').value, to: preset ? '' : chosen, preset, more: $('more').value };
+  const [to, isPacked] = chosen.split(' ');
+  const layout = isPacked ? to : '';
+  const request = { from: $('from').value, to, layout, isEngine: isPacked || engines.has(to), more: $('more').value };
   $('download').hidden = true;
   document.body.setAttribute('aria-busy', 'true');
   report(['Converting…']);

@@ -130,7 +130,7 @@ function choiceOf([, input, ...words]) {
     const word = words.shift();
     if (word === '--from') choice.from = words.shift();
     else if (word === '--to') choice.to = words.shift();
-    else if (word === '--preset') choice.to = `preset:${words.shift()}`;
+    else if (word === '--layout') choice.to = `${words.shift()} layout`;
     else if (word === '-o') words.shift();
     else if (word !== '--recursive') choice.more.push(word);
   }

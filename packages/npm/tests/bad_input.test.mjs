@@ -138,7 +138,7 @@ test('random requests', () => {
     sourceEncoding: () => pick(['alpha', 'roughness', 'exponent', 'glossiness', 'squared', 'x', 1]), targetEncoding: () => pick(['alpha', 'exponent', 'squared', null]),
     badTexels: () => pick(['keep', 'clamp', 'fail', '', 1]), dither: () => pick([true, false, 1, null]),
     measures: () => pick([[], ['residual'], ['issues', 'metallicUncertainty'], 'residual', [1]]), dielectricF0: () => pick([0, 0.04, 0.9, 1, -1, Infinity]),
-    prior: () => pick([0, 1e-5, 1, 2, -1]), sourceWorkflow: () => pick(['specular', 'metallic', 'x', 2]), targetWorkflow: () => pick(['specular', 'metallic']),
+    metallicBias: () => pick([0, 1e-5, 1, 2, -1]), sourceWorkflow: () => pick(['specular', 'metallic', 'x', 2]), targetWorkflow: () => pick(['specular', 'metallic']),
     into: () => pick([{}, null, { roughness: array() }, { roughness: 1 }, { specular: [array(), array(), array()] }, []]), via: () => pick([[], ['mitsuba/as'], ['x'], 'x', [1]]), diffuseConvention: () => pick(['plain', 'scaled', 'x']),
   };
   let answers = 0;

@@ -102,7 +102,7 @@ class Converter:
     via: models that the path visits, in this order.
     diffuse_convention: ``"plain"`` or ``"scaled"`` (glTF: times 1 - max(specular)), where a model leaves it open.
     dielectric_f0: F0 of dielectrics in metallic workflows, 0 to 0.9; by default the model's own (0.04 for glTF).
-    prior: of the projection to metallic, 0 to 1; 1e-6 for clean maps, 1e-5 for noisy ones.
+    metallic_bias: of the projection to metallic, 0 to 1; 1e-6 for clean maps, 1e-5 for noisy ones.
     converters: a file that ``remapc emit --all`` wrote, a fit, or a folder of fits, in place of the shipped ones.
     instructions: ``"baseline"``, ``"avx2"`` or ``"avx512"``; every set gives the same bits.
 
@@ -112,12 +112,12 @@ class Converter:
     def __init__(self, source: str, target: str, *, source_workflow: Optional[str] = None,
                  target_workflow: Optional[str] = None, via: Optional[Iterable[str]] = None,
                  diffuse_convention: Optional[str] = None, dielectric_f0: Optional[float] = None,
-                 prior: Optional[float] = None, converters: Union[str, "os.PathLike[str]", None] = None,
+                 metallic_bias: Optional[float] = None, converters: Union[str, "os.PathLike[str]", None] = None,
                  instructions: Optional[str] = None) -> None:
         request = {
             "source": source, "target": target, "source_workflow": source_workflow,
             "target_workflow": target_workflow, "via": None if via is None else list(via),
-            "diffuse_convention": diffuse_convention, "dielectric_f0": dielectric_f0, "prior": prior,
+            "diffuse_convention": diffuse_convention, "dielectric_f0": dielectric_f0, "metallic_bias": metallic_bias,
             "converters": None if converters is None else os.fspath(converters), "instructions": instructions,
         }
         self._hold(_core.Conversion(request))

@@ -61,26 +61,19 @@ class AssetResources : public AssetFiles {
   virtual std::string image_prefix() const { return ""; }
 };
 
-enum class MaterialProfile {
-  kCore,        // base color, metallic and roughness, for every viewer
-  kExtensions,  // nearer, for viewers that read KHR_materials_specular and KHR_materials_ior
-};
-inline constexpr NamedValues<MaterialProfile, 2> kMaterialProfiles = {
-    {{MaterialProfile::kCore, "core"}, {MaterialProfile::kExtensions, "extensions"}}};
-
 // The form that materials are converted to.
 enum class AssetTarget {
-  kMetalRough,  // core metallic-roughness, as the profile says
+  kMetalRough,  // metallic-roughness
   kSpecGloss,   // KHR_materials_pbrSpecularGlossiness, with core as its fallback
 };
 
 struct AssetOptions {
-  MaterialProfile profile = MaterialProfile::kCore;
+  bool extensions = false;  // metal-rough with KHR_materials_specular and _ior, instead of core alone
   double prior = kCleanPrior;  // of the projection (docs/workflows.md)
   InstructionSet instructions = best_instruction_set();
   bool enlarges = false;  // images of a material that are smaller than another one
   AssetTarget target = AssetTarget::kMetalRough;
-  // KHR_materials_specular and _ior go into core, too; with kMetalRough and the profile kCore alone.
+  // KHR_materials_specular and _ior go into core, too; with kMetalRough, and without `extensions`.
   bool folds_specular = false;
   // Removes image bytes and texture extensions that only the converted materials used.
   bool compacts = false;

@@ -48,7 +48,7 @@ class SpecGlossToCore final : public GltfDirection {
   explicit SpecGlossToCore(const DirectionParts& parts)
       : options_(parts.options),
         textures_(parts.textures),
-        maker_(parts, GltfWorkflow::kSpecGloss, {"metallic", ", or --profile extensions"}) {}
+        maker_(parts, GltfWorkflow::kSpecGloss, {"metallic", ", or --extensions"}) {}
 
   bool takes(SpanValue material) const override {
     return static_cast<bool>(material["extensions"][kSpecGlossExtension]);
@@ -61,7 +61,7 @@ class SpecGlossToCore final : public GltfDirection {
   MaterialEdit convert(SpanValue material, AssetMaterial& report) override {
     GltfMaterial read = read_material(material, GltfWorkflow::kSpecGloss, report.warnings);
     const bool is_unlit = static_cast<bool>(material["extensions"][kUnlitExtension]);
-    const bool is_exact = options_.profile == MaterialProfile::kExtensions && !is_unlit;
+    const bool is_exact = options_.extensions && !is_unlit;
     if (is_exact) require_exact_form(material);
     const CoreTexts texts = is_unlit   ? unlit(read, report)
                             : is_exact ? exact(read, report)
@@ -79,7 +79,7 @@ class SpecGlossToCore final : public GltfDirection {
     for (const std::string_view name : {kSpecularExtension, kIorExtension})
       if (material["extensions"][name])
         throw input_error("has " + std::string(name) +
-                          " already, which the exact form needs (use --profile core)");
+                          " already, which the exact form needs (convert it without --extensions)");
   }
 
   static void report_factors(const GltfMaterial& material, AssetMaterial& report) {

@@ -47,7 +47,7 @@ struct UsedTextures {
 // Why textures must lie on one grid, for messages.
 struct GridReason {
   std::string_view decided;    // `metallic`: what all of them decide on
-  std::string_view otherwise;  // `, or --profile extensions`: what needs no grid; empty for nothing
+  std::string_view otherwise;  // `, or --extensions`: what needs no grid; empty for nothing
 };
 
 // For all materials of a file.

@@ -196,7 +196,7 @@ void ObjMaterials::set_reflection(MaterialDraft& draft) {
     if (draft.surface.is_metal_rough) return set_metal_rough(draft);
     if (is_glass(draft)) return set_glass(draft);
     const MtlReflection reflection = reflection_of(draft.surface, draft.report.warnings);
-    if (options_.profile == MaterialProfile::kExtensions)
+    if (options_.extensions)
       set_dielectric(draft, reflection);
     else
       set_core(draft, reflection);
@@ -216,7 +216,7 @@ void ObjMaterials::keep_diffuse_map(MaterialDraft& draft) {
 // Later tools' lines say what glTF does. A map of them stands in the place of the number.
 void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   const MtlSurface& surface = draft.surface;
-  const MetalRoughNumbers numbers = metal_rough_of(surface, options_.profile == MaterialProfile::kCore);
+  const MetalRoughNumbers numbers = metal_rough_of(surface, !options_.extensions);
   draft.base = numbers.base;
   keep_diffuse_map(draft);
   draft.metallic = numbers.metallic;
@@ -235,10 +235,10 @@ void ObjMaterials::set_specular_level(MaterialDraft& draft) {
   constexpr double kSeen = 0.25;  // F0 0.03 to 0.05 look alike
   const double level = draft.surface.specular_level.value_or(1.0);
   if (std::fabs(level - 1.0) < kSeen || draft.metallic == 1.0) return;
-  if (options_.profile == MaterialProfile::kCore) {
+  if (!options_.extensions) {
     if (level > 0.0)
       draft.report.warnings.push_back("loses its specular level Ks " + number_text(0.5 * level) +
-                                      " (--profile extensions keeps it)");
+                                      " (--extensions keeps it)");
     return;
   }
   set_extension(draft, kSpecularExtension,
@@ -250,11 +250,11 @@ void ObjMaterials::set_specular_level(MaterialDraft& draft) {
 bool ObjMaterials::is_glass(MaterialDraft& draft) const {
   const MtlCover& cover = draft.cover;
   if (!cover.refracts || is_transparent(draft) || cover.refraction.value_or(2.0) <= 1.0) return false;
-  if (cover.refraction && options_.profile == MaterialProfile::kExtensions) return true;
+  if (cover.refraction && options_.extensions) return true;
   draft.report.warnings.push_back(
       cover.refraction
           ? "is glass by illum and Ni " + number_text(*cover.refraction) +
-                ", and becomes opaque (--profile extensions keeps it)"
+                ", and becomes opaque (--extensions keeps it)"
           : "refracts by illum, but has no index Ni, so it becomes opaque (add a line Ni 1.5 for glass)");
   return false;
 }

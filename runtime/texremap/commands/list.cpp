@@ -1,4 +1,4 @@
-// `texremap list`: the converters with the result of their self-tests, their models, or the workflows.
+// `texremap list`: the names for --from and --to; converters with their self-tests, models, workflows.
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "command_line/command.hpp"
+#include "command_line/help_text.hpp"
 #include "converter/converter_fields.hpp"
+#include "core/report_text.hpp"
 #include "remap/error.hpp"
 #include "remap/path.hpp"
+#include "paths/known_names.hpp"
+#include "remap/conversion.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/options/used_converters.hpp"
@@ -19,6 +23,7 @@ namespace remap {
 namespace {
 
 struct ListOptions {
+  bool pairs = false;
   bool models = false;
   bool workflows = false;
   bool json = false;
@@ -170,23 +175,73 @@ void list_workflows(const ListOptions& options) {
   if (options.json) std::cout << all.dump(2) << '\n';
 }
 
+Json names_json(std::span<const KnownName> names) {
+  Json list = Json::list();
+  for (const auto& [title, word] : names)
+    list.push_back({{"title", title}, {"name", word}, {"model", model_named(std::string(word)).name}});
+  return list;
+}
+
+void print_names(const char* heading, std::span<const KnownName> names) {
+  constexpr std::size_t kTitle = 32, kWord = 16;
+  std::cout << heading << '\n';
+  for (const auto& [title, word] : names) {
+    const std::string model = model_named(std::string(word)).name;
+    std::cout << "  " << padded(std::string(title), kTitle)
+              << (model == word ? std::string(word) : padded(std::string(word), kWord) + model) << '\n';
+  }
+}
+
+// The models of each renderer on a line.
+void print_renderers(const std::vector<std::string>& models) {
+  std::string line, renderer;
+  for (const std::string& model : models) {
+    if (renderer_of(model) == renderer) {
+      line += ", " + model.substr(renderer.size() + 1);
+      continue;
+    }
+    if (!line.empty()) std::cout << wrapped(line, 4) << '\n';
+    renderer = renderer_of(model);
+    line = "  " + model;
+  }
+  if (!line.empty()) std::cout << wrapped(line, 4) << '\n';
+}
+
+void list_names(const ListOptions& options) {
+  const std::vector<std::string> models = options.converters.graph().models();
+  if (options.json) {
+    const Json names = {{"programs", names_json(known_programs())},
+                        {"formats", names_json(known_formats())},
+                        {"models", models}};
+    std::cout << names.dump(2) << '\n';
+    return;
+  }
+  print_names("Programs: name for --from and --to, and its material where that has another name", known_programs());
+  print_names("\nFile formats", known_formats());
+  std::cout << "\nRenderers and research models\n";
+  print_renderers(models);
+}
+
 void list(const ListOptions& options) {
   if (options.workflows) return list_workflows(options);
-  options.models ? list_models(options) : list_converters(options);
+  if (options.models) return list_models(options);
+  options.pairs ? list_converters(options) : list_names(options);
 }
 
 }  // namespace
 
 void add_list_command(Command& app) {
-  Command* command = app.add_subcommand("list", "List the converters, their models, or the workflows");
+  Command* command = app.add_subcommand("list", "List the names for --from and --to");
   ListOptions& options = set_work<ListOptions>(*command, list);
+  command->add_flag("--pairs", options.pairs,
+                    "List the converters instead: their ranges, how far pictures differ, and their self-tests");
   command->add_flag("--models", options.models, "List the models, and the models that each one reaches");
   command->add_flag("--workflows", options.workflows,
                     "List the named workflows with their conventions. `convert` combines other models with a "
                     "workflow by --from-workflow and --to-workflow");
   options.converters.add_option(*command);
   command->add_flag("--json", options.json, "Print JSON");
-  command->footer("Example:\n  texremap list --json\n  texremap list --workflows");
+  command->footer("Example:\n  texremap list\n  texremap list --pairs --json");
 }
 
 }  // namespace remap

@@ -62,7 +62,7 @@ Reader<double> positive_number() {
 
 Reader<Layout> layout() {
   std::vector<std::string> known;
-  for (const Preset& preset : presets()) known.emplace_back(preset.name);
+  for (const NamedLayout& layout : named_layouts()) known.emplace_back(layout.name);
   return {[](const std::string& option, const std::string& word) { return layout_from(option, word); },
           known};
 }
@@ -147,7 +147,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kForAssets);
   command
       .add_option("--to MODEL", options.to, model_name(),
-                  "Model of the results: gltf, unity, cycles-5, mitsuba/as, ...; see texremap list --models")
+                  "Where the results go: unity, unreal, blender, gltf, ... pack and name the files as that "
+                  "program reads them; cycles-5, mitsuba/as, ... are renderers (texremap list)")
       ->common()
       ->tag(kForAssets);
   command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter")
@@ -193,10 +194,9 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->excludes(command.option("--fit"));
   options.converters.add_option(command)->tag(kIsPath)->excludes(command.option("--fit"));
   command
-      .add_option("--profile NAME", options.profile, one_of(kMaterialProfiles, "profile"),
-                  "Materials of assets: core metallic-roughness, or nearer for viewers that read "
-                  "KHR_materials_specular and KHR_materials_ior")
-      ->default_text("core")
+      .add_flag("--extensions", options.extensions,
+                "Use KHR_materials_specular and KHR_materials_ior: exact in viewers that read them, wrong in "
+                "others")
       ->tag(kChangesResults | kNeedsAsset);
   command
       .add_option(
@@ -281,13 +281,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
       ->tag(kForAssets | kNeedsFiles);
   command
       .add_option("--layout NAME", options.layout, layout(),
-                  "Files to write, by name or in words, as 'Mask=metallic,occlusion,0,smoothness; "
-                  "Albedo=base_color' (default: as-inputs; separate between workflows)")
-      ->tag(kChangesResults | kNeedsFiles);
-  command
-      .add_option("--preset NAME", options.preset, one_of(engine_presets(), "preset"),
-                  "Write what a tool takes: --to, --layout, --format and --type at once, where these are not "
-                  "given")
+                  "Files to write: those of an engine by its name, or in words, as "
+                  "'Mask=metallic,occlusion,0,smoothness; Albedo=base_color' (default: those of --to)")
       ->tag(kChangesResults | kNeedsFiles);
   command.add_option("--format EXT", options.format, "File extension of the results: exr, tif, png, ...")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
@@ -319,6 +314,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
       "unused images are dropped now (remove this option; --compression 9 makes new images smallest)");
   command.retire("--allow-skips",
                  "sets without anything to convert no longer make a run fail (remove this option)");
+  command.retire("--preset", "is called --to (files as glTF packs them: --to gltf --layout gltf)");
+  command.retire("--profile", "--profile extensions is called --extensions, and core is the default");
   command.retire("--bad-texels", "is called --nan");
   command.retire("--output-roughness-factor", "is called --exponent-of-white");
   command.retire("--prior", "is called --metallic-bias");
@@ -455,18 +452,17 @@ Option* add_memory_option(Command& command, int& megabytes) {
       ->positive();
 }
 
-void apply_preset(ConvertOptions& options) {
+void choose_files(ConvertOptions& options) {
   const auto is_map = [](const auto& entry) {
     return entry.second && std::holds_alternative<MapName>(*entry.second);
   };
   const bool has_files = !options.folder.empty() || std::ranges::any_of(options.maps, is_map);
-  if (options.preset == nullptr && has_files) options.preset = preset_of(options.to.word());
-  if (options.preset == nullptr) return;
-  const Preset& preset = *options.preset;
-  if (options.to.empty()) options.to = model_name().read("--preset", std::string(preset.model));
-  if (!options.layout) options.layout = layout_from("--preset", std::string(preset.name));
-  if (options.format.empty()) options.format = preset.format;
-  if (!options.type) options.type = preset.type;
+  if (options.layout) options.engine = engine_layout(options.layout->name);
+  if (options.engine == nullptr && has_files) options.engine = engine_layout_of(options.to.word());
+  if (options.engine == nullptr) return;
+  if (!options.layout) options.layout = layout_from("--to", std::string(options.engine->name));
+  if (options.format.empty()) options.format = options.engine->format;
+  if (!options.type) options.type = options.engine->type;
 }
 
 std::optional<NormalGreen> normals_of(const ModelName& model) {
@@ -481,7 +477,7 @@ std::optional<NormalGreen> normals_of(const ModelName& model) {
   const auto holds = [](const auto& names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
   };
-  if (const Preset* preset = preset_of(model.word())) return preset->normals;
+  if (const NamedLayout* engine = engine_layout_of(model.word())) return engine->normals;
   if (holds(kUpwards, model.word()) || (holds(kUpwardModels, model.name) && !holds(kOfNoTool, model.word())))
     return NormalGreen::kUp;
   return std::nullopt;
@@ -516,7 +512,7 @@ std::string result_options_text(const ConvertOptions& options) {
   for (const GivenOption& option : options.given)
     if ((option.tags & kChangesResults) != 0)
       add(option.name + (option.words.empty() ? "" : " " + joined(option.words, " ")));
-  if (options.preset != nullptr) add("--preset " + std::string(options.preset->name));
+  if (options.engine != nullptr) add("--layout " + std::string(options.engine->name));
   if (!options.only_converted && normals_of(options.from)) add("--from " + std::string(options.from.word()));
   return text;
 }

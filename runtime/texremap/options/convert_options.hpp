@@ -66,7 +66,7 @@ struct ConvertOptions {
   std::vector<std::filesystem::path> more_assets;
   bool assets = false;                     // the folder is of assets, not of texture sets
   std::filesystem::path asset_root;        // below which assets may name files
-  std::optional<MaterialProfile> profile;  // of assets; none: core
+  bool extensions = false;  // of glTF, in place of core
   std::optional<MtlMaker> mtl_maker;       // of MTL files; none: as they say
   bool fold_specular = false, keep_unused = false, bake = false;
   std::optional<int> jpeg;  // quality
@@ -96,7 +96,7 @@ struct ConvertOptions {
 
   std::filesystem::path output;
   std::optional<Layout> layout;
-  const Preset* preset = nullptr;
+  const NamedLayout* engine = nullptr;  // whose files are written (choose_files())
   std::string format;
   std::optional<PixelType> type;
   std::optional<int> compression;  // level
@@ -127,9 +127,9 @@ struct ConvertOptions {
 
 void add_convert_options(Command& command, ConvertOptions& options);
 
-// What `--preset` stands for, in place of the options that were not given. The name of an engine as `--to` is
-// its preset.
-void apply_preset(ConvertOptions& options);
+// The files of the engine that `--layout` or `--to` names, with its format and pixel type where these were not
+// given.
+void choose_files(ConvertOptions& options);
 
 // The direction of green in normal maps of a source or target; none if it is not documented.
 std::optional<NormalGreen> normals_of(const ModelName& model);

@@ -192,14 +192,15 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
   const auto text = [](NormalGreen green) {
     return std::string(green == NormalGreen::kUp ? "OpenGL (green up)" : "DirectX (green down)");
   };
-  const std::string target(options.preset != nullptr ? options.preset->name : options.to.word());
-  const auto wanted = options.preset != nullptr ? options.preset->normals : normals_of(options.to);
+  const NamedLayout* const engine = options.engine;
+  const std::string target(engine != nullptr ? engine->name : options.to.word());
+  const auto wanted = engine != nullptr ? engine->normals : normals_of(options.to);
   const auto of_source = normals_of(options.from);
   const std::string from = "--from " + std::string(options.from.word());
   const std::optional<StatedGreen> stated = stated_green(source.filename().string());
   CopiedNormals normals{{source, "", ""}, ""};
   if (!wanted) {
-    if (options.preset != nullptr) normals.reason = target + " reads both directions";
+    if (engine != nullptr) normals.reason = target + " reads both directions";
     return normals;
   }
   if (!stated && !of_source) {

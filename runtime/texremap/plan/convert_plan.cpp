@@ -146,7 +146,7 @@ void find_sets_of(const ConvertOptions& options, std::optional<Discovery>& sets)
 // Converts numbers, or texture sets.
 void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, ConvertPlan& plan) {
   std::optional<Discovery> found;
-  apply_preset(options);
+  choose_files(options);
   if (manifest) found = std::move(manifest->listing.found);
   std::string inferred;
   if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
@@ -191,21 +191,19 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
 
 // Textures stay in their asset: what an engine reads of a folder of maps cannot be made of it.
 void refuse_engine(const ConvertOptions& options) {
-  const Preset* preset = options.preset != nullptr ? options.preset : preset_of(options.to.word());
-  if (preset == nullptr) return;
-  throw usage_error(
-      (options.preset != nullptr ? "--preset " + std::string(preset->name)
-                                 : "--to " + std::string(options.to.word())) +
-      ": textures are not taken out of assets such as " + display_path(options.folder) +
-      " (convert it by --to gltf, which engines import; or export its textures, as with Blender, "
-      "and convert their folder by --preset " +
-      std::string(preset->name) + ")");
+  const NamedLayout* const engine = engine_layout_of(options.to.word());
+  if (engine == nullptr) return;
+  throw usage_error("--to " + std::string(options.to.word()) +
+                    ": textures are not taken out of assets such as " + display_path(options.folder) +
+                    " (convert it by --to gltf, which engines import; or export its textures, as with "
+                    "Blender, and convert their folder by --to " +
+                    std::string(engine->name) + ")");
 }
 
 // Without --to, assets become gltf; of two paths without --output, the second is the result.
 void complete_asset_options(ConvertOptions& options) {
   const bool is_gltf = options.to.empty() || options.to.name == "metallic";
-  if (options.preset == nullptr && preset_of(options.to.word()) == nullptr && is_gltf)
+  if (engine_layout_of(options.to.word()) == nullptr && is_gltf)
     options.to = model_name().read("--to", "gltf");
   const bool is_tree = options.assets || !options.manifest.empty();
   if (!is_tree && options.output.empty() && options.more_assets.size() == 1)
@@ -236,11 +234,11 @@ void require_asset_options(const ConvertOptions& options) {
     throw usage_error("--to " + options.to.name +
                       ": materials of assets become gltf or gltf-specgloss (use --to gltf)");
   if (options.output.empty()) throw usage_error("--output is required");
-  const bool is_core = options.to.name == "gltf" && options.profile != MaterialProfile::kExtensions;
+  const bool is_core = options.to.name == "gltf" && !options.extensions;
   if (options.fold_specular && !is_core)
-    throw usage_error("--fold-specular: applies to --to gltf with --profile core only (remove one)");
-  if (options.to.name != "gltf" && options.profile)
-    throw usage_error("--profile: applies to --to gltf only (remove this option)");
+    throw usage_error("--fold-specular: applies to --to gltf without --extensions only (remove one)");
+  if (options.to.name != "gltf" && options.extensions)
+    throw usage_error("--extensions: applies to --to gltf only (remove this option)");
 }
 
 // Refuses options of which no asset of the run makes use.
@@ -254,7 +252,7 @@ void require_gltf(const ConvertOptions& options, const JobList& list) {
 }
 
 AssetOptions asset_options(const ConvertOptions& options) {
-  AssetOptions asset{options.profile.value_or(MaterialProfile::kCore), options.prior, options.instructions,
+  AssetOptions asset{options.extensions, options.prior, options.instructions,
                      options.resample};
   asset.target = options.to.name == "gltf-specgloss" ? AssetTarget::kSpecGloss : AssetTarget::kMetalRough;
   asset.folds_specular = options.fold_specular;

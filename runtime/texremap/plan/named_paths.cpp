@@ -31,7 +31,7 @@ constexpr std::string_view kRadiance =
 constexpr std::string_view kModels =
     "write its numbers: texremap convert --from MODEL --to gltf --roughness 0.3 --specular 0.04 --diffuse "
     "0.5; "
-    "texremap list --models";
+    "texremap list";
 
 struct UnreadFormat {
   std::string_view extensions, name, remedy;

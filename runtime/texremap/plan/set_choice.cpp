@@ -136,7 +136,7 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
   if (!sets) {
     if (model.empty())
       throw usage_error(
-          "--from is required (the maps do not tell it; texremap list --workflows and --models)");
+          "--from is required (the maps do not tell it; texremap list shows the names)");
     return {model, "--from is taken as " + model + ", which has these maps"};
   }
   std::string first;
@@ -154,8 +154,7 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
   }
   if (first.empty())
     throw usage_error(
-        "--from is required (the names of the maps do not tell it; texremap list --workflows and "
-        "--models)");
+        "--from is required (the names of the maps do not tell it; texremap list shows those of models)");
   return {model, "--from is taken as " + model + ", by the maps of " +
                      (count == 1 ? first : std::to_string(count) + " sets")};
 }

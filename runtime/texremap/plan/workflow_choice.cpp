@@ -13,7 +13,7 @@ ConversionWords option_words() {
           "--to-workflow",
           "--dielectric-f0",
           "--diffuse-convention",
-          "texremap list --models and --workflows"};
+          "texremap list"};
 }
 
 void require_estimable(const WorkflowChoice& choice) {

@@ -14,9 +14,9 @@
 
 namespace remap {
 
-inline constexpr AssetOptions kCoreProfile = {MaterialProfile::kCore, kCleanPrior, InstructionSet::kBaseline,
+inline constexpr AssetOptions kCoreOptions = {false, kCleanPrior, InstructionSet::kBaseline,
                                               false};
-inline constexpr AssetOptions kExactProfile = {MaterialProfile::kExtensions, kCleanPrior,
+inline constexpr AssetOptions kExactOptions = {true, kCleanPrior,
                                                InstructionSet::kBaseline, false};
 
 inline ImagePixels random_pixels(std::size_t channels, std::uint32_t seed,
@@ -93,13 +93,13 @@ struct Reread {
   }
 };
 
-inline Reread reread(const std::string& bytes, const AssetOptions& options = kCoreProfile) {
+inline Reread reread(const std::string& bytes, const AssetOptions& options = kCoreOptions) {
   const PlainResources resources;
   return Reread(converted_bytes(bytes, options, &resources));
 }
 
 inline std::vector<std::string> failures_of(const std::string& bytes,
-                                            const AssetOptions& options = kCoreProfile,
+                                            const AssetOptions& options = kCoreOptions,
                                             const PlainResources& resources = {}) {
   std::vector<std::string> failures;
   for (const AssetMaterial& material :

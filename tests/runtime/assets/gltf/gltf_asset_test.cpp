@@ -35,7 +35,7 @@ std::string material_of(const std::string& text, const AssetOptions& options = {
   return std::string(SpannedJson(json, "file").root()["materials"].children().at(0).raw());
 }
 
-constexpr AssetOptions kExact = {MaterialProfile::kExtensions, kCleanPrior, InstructionSet::kBaseline, false};
+constexpr AssetOptions kExact = {true, kCleanPrior, InstructionSet::kBaseline, false};
 
 }  // namespace
 
@@ -62,7 +62,7 @@ TEST_CASE("The exact form uses an index of 0", "[assets]") {
       R"("pbrMetallicRoughness":{"baseColorFactor":[0.2,0.3,0.4,1],"metallicFactor":0,"roughnessFactor":0}}]})");
   const AssetConversion taken = result_of(specgloss_text("{},\"KHR_materials_ior\":{}"), kExact);
   CHECK(taken.materials[0].failure ==
-        "has KHR_materials_ior already, which the exact form needs (use --profile core)");
+        "has KHR_materials_ior already, which the exact form needs (convert it without --extensions)");
 }
 
 TEST_CASE("The fallback goes, and what else it holds stays", "[assets]") {

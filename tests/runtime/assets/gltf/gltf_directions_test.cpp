@@ -95,7 +95,7 @@ AssetOptions folding() {
 
 AssetOptions exact_form() {
   AssetOptions options;
-  options.profile = MaterialProfile::kExtensions;
+  options.extensions = true;
   options.instructions = InstructionSet::kBaseline;
   return options;
 }
@@ -281,7 +281,7 @@ TEST_CASE("What folding leaves alone", "[assets]") {
   // Two materials still use the index; nothing is known to use the other.
   CHECK(result.text.find("\"KHR_materials_ior\"],") != std::string::npos);
   AssetOptions wrong = folding();
-  wrong.profile = MaterialProfile::kExtensions;
+  wrong.extensions = true;
   CHECK_THROWS_WITH(convert_gltf(MemorySource("{}"), "file", wrong),
                     Catch::Contains("only folded into core"));
 }

@@ -147,7 +147,7 @@ TEST_CASE("The exact form makes a map of roughness alone", "[assets]") {
   const ImagePixels specgloss = random_pixels(4, 2);
   const Reread after =
       reread(container_of({random_pixels(3, 1), specgloss}, textured(kBoth + R"(,"glossinessFactor":0.5)")),
-             kExactProfile);
+             kExactOptions);
   const SpanValue core = after.material(0)["pbrMetallicRoughness"];
   CHECK(after.root()["images"].size() == 3);
   CHECK(core["baseColorTexture"].raw() == R"({"index":0})");
@@ -179,7 +179,7 @@ TEST_CASE("Maps that do not lie on one grid fail", "[assets]") {
             .empty());
   CHECK(failure(R"("index":0)", R"("index":2)") ==
         "its diffuse image has 6x5 texels, its specular glossiness image 6x4 (use --resample, or "
-        "--profile extensions)");
+        "--extensions)");
   CHECK(failure(R"("index":9)", R"("index":1)") == "names texture 9, of which there are 3");
 }
 
@@ -192,7 +192,7 @@ TEST_CASE("Images in files and in URIs stay what they are", "[assets]") {
       textured(kBoth + R"(,"glossinessFactor":0.5)") +
       R"(],"textures":[{"source":0},{"source":1}],"images":[{"uri":"a%20b/wood.jpg"},{"uri":")" + data +
       R"("},{"uri":"a%20b/wood_baseColor.png"}]})";
-  const AssetConversion conversion = convert_gltf(MemorySource(text), "file", kCoreProfile, &resources);
+  const AssetConversion conversion = convert_gltf(MemorySource(text), "file", kCoreOptions, &resources);
   REQUIRE(conversion.count(MaterialState::kConverted) == 2);
   REQUIRE(conversion.files.size() == 2);
   CHECK(conversion.files[0].path == "a b/wood_baseColor_2.png");
@@ -213,7 +213,7 @@ TEST_CASE("Names of new images have no line breaks", "[assets]") {
   const std::string text =
       R"({"asset":{"version":"2.0"},"materials":[)" + textured(kBoth) +
       R"(],"textures":[{"source":0},{"source":1}],"images":[{"uri":"a%0Ab.png"},{"uri":"b.png"}]})";
-  const AssetConversion result = convert_gltf(MemorySource(text), "file", kCoreProfile, &resources);
+  const AssetConversion result = convert_gltf(MemorySource(text), "file", kCoreOptions, &resources);
   REQUIRE(result.files.size() == 2);
   CHECK(result.files[0].path == "c_d_a_b_baseColor.png");
   CHECK(result.files[1].path == "c_d_b_metallicRoughness.png");
@@ -230,7 +230,7 @@ TEST_CASE("A material whose image is missing fails, and others go on", "[assets]
       textured(R"("diffuseTexture":{"index":2})") + "," + textured(R"("diffuseTexture":{"index":3})") +
       R"(],"textures":[{"source":0},{"source":1},{"extensions":{"KHR_texture_basisu":{"source":2}}},{}],)"
       R"("images":[{"uri":"a.png"},{"uri":"b.png"},{"uri":"https://example.org/c.ktx2"}]})";
-  CHECK(failures_of(text, kCoreProfile, resources) ==
+  CHECK(failures_of(text, kCoreOptions, resources) ==
         std::vector<std::string>{
             "", "a.png: is not there", "image 1: is no image",
             "https://example.org/c.ktx2: is not in a file here (download it beside the asset)",
@@ -256,7 +256,7 @@ TEST_CASE("The smaller image of a pair is enlarged on request", "[assets]") {
   small.width = 3;
   small.bytes.resize(3 * 5 * 4);
   const std::string bytes = container_of({random_pixels(3, 1), small}, textured(kBoth));
-  AssetOptions options = kCoreProfile;
+  AssetOptions options = kCoreOptions;
   options.enlarges = true;
   const Reread after = reread(bytes, options);
   const ImagePixels data = after.image(after.material(0)["pbrMetallicRoughness"]["metallicRoughnessTexture"]);
@@ -291,7 +291,7 @@ TEST_CASE("A container of 4 GiB cannot be written", "[assets]") {
   const auto binary = static_cast<std::uint32_t>(0xfffffff0u - head.size() - 8);
   const HugeSource source(head + four_bytes(binary) + four_bytes(kBinaryChunk));
   CHECK_THROWS_WITH(
-      convert_gltf(source, "a.glb", kExactProfile),
+      convert_gltf(source, "a.glb", kExactOptions),
       Catch::Contains("a.glb: would have 4294967") && Catch::Contains("(convert it as .gltf with a .bin)"));
 }
 
@@ -312,7 +312,7 @@ TEST_CASE("Materials without textures load no image library", "[assets]") {
   AssetOptions back;
   back.target = AssetTarget::kSpecGloss;
   back.compacts = true;
-  const std::string core = converted_bytes(text, kCoreProfile, &resources);
+  const std::string core = converted_bytes(text, kCoreOptions, &resources);
   CHECK(core == converted_bytes(text));
   CHECK_NOTHROW(converted_bytes(core, back, &resources));
 }

@@ -18,19 +18,19 @@ using namespace remap;
 namespace {
 
 AssetOptions specgloss_target() {
-  AssetOptions options = kCoreProfile;
+  AssetOptions options = kCoreOptions;
   options.target = AssetTarget::kSpecGloss;
   return options;
 }
 
 AssetOptions with_fold() {
-  AssetOptions options = kCoreProfile;
+  AssetOptions options = kCoreOptions;
   options.folds_specular = true;
   return options;
 }
 
 AssetOptions with_compaction() {
-  AssetOptions options = kCoreProfile;
+  AssetOptions options = kCoreOptions;
   options.compacts = true;
   return options;
 }
@@ -216,7 +216,7 @@ TEST_CASE("Folding the exact form of maps gives the maps of core", "[assets]") {
   const std::string bytes =
       container_of({diffuse, specgloss},
                    textured(kBoth + R"(,"diffuseFactor":[0.5,0.6,0.7,1],"specularFactor":[0.9,0.8,1])"));
-  const Reread core = reread(bytes), folded = reread(reread(bytes, kExactProfile).bytes, with_fold());
+  const Reread core = reread(bytes), folded = reread(reread(bytes, kExactOptions).bytes, with_fold());
   for (const auto& [name, tolerance] :
        {std::pair("baseColorTexture", 1.0), std::pair("metallicRoughnessTexture", 1.0)}) {
     const ImagePixels a = core.image(core.material(0)["pbrMetallicRoughness"][name]),
@@ -439,7 +439,7 @@ TEST_CASE("Compacted random containers show what others show", "[assets]") {
     for (const AssetTarget target : {AssetTarget::kMetalRough, AssetTarget::kSpecGloss}) {
       const std::string bytes = RandomContainer(seed).bytes();
       CAPTURE(seed, static_cast<int>(target));
-      AssetOptions options = kCoreProfile, compact = with_compaction();
+      AssetOptions options = kCoreOptions, compact = with_compaction();
       options.target = compact.target = target;
       const Reread before(bytes), plain = reread(bytes, options), after = reread(bytes, compact);
       REQUIRE(pixels_by_place(after) == pixels_by_place(plain));
@@ -520,8 +520,8 @@ TEST_CASE("Maps with different transforms are converted on request", "[assets]")
   CHECK(
       failures_of(bytes).front() ==
       "its diffuse and specular glossiness textures have different KHR_texture_transform, and both decide on "
-      "metallic (use --bake, or --profile extensions)");
-  AssetOptions options = kCoreProfile;
+      "metallic (use --bake, or --extensions)");
+  AssetOptions options = kCoreOptions;
   options.bakes = true;
   const PlainResources resources;
   const AssetConversion result = convert_gltf(MemorySource(bytes), "file", options, &resources);
@@ -547,7 +547,7 @@ TEST_CASE("reports: 08 a texture that repeats is drawn as often as it repeats", 
                           std::byte{220}, std::byte{150}, std::byte{99}}};
   ImagePixels stripes = random_pixels(3, 1);
   const std::string scale = R"("extensions":{"KHR_texture_transform":{"scale":[2,2]}})";
-  AssetOptions options = kCoreProfile;
+  AssetOptions options = kCoreOptions;
   options.bakes = true;
   const PlainResources resources;
   const std::string bytes = container_of(
@@ -610,7 +610,7 @@ TEST_CASE("Pairs that are baked differently are converted apart", "[assets]") {
                     R"("KHR_texture_transform":{"offset":[)" +
                     offset + ",0]}}}");
   };
-  AssetOptions options = kCoreProfile;
+  AssetOptions options = kCoreOptions;
   options.bakes = true;
   const Reread after = reread(container_of({random_pixels(3, 1), random_pixels(4, 2)},
                                            material("0.5") + "," + material("0.25") + "," + material("0.50")),
@@ -655,7 +655,7 @@ class JpegResources final : public AssetResources {
 
 TEST_CASE("Color of JPEG files is JPEG on request, data and alpha never", "[assets]") {
   JpegResources resources;
-  AssetOptions options = kCoreProfile;
+  AssetOptions options = kCoreOptions;
   options.jpeg_quality = 85;
   const auto new_files = [&](const ImagePixels& diffuse, bool is_jpeg) {
     resources.files["a.jpg"] = is_jpeg ? PlainCodec().encode_jpeg(diffuse, 85) : file_of(diffuse);

@@ -53,9 +53,9 @@ Scene scene_of(const std::string& mtl, PlainResources resources = {}, const Asse
   return scene;
 }
 
-AssetOptions with(MaterialProfile profile, std::optional<MtlMaker> maker = std::nullopt) {
+AssetOptions with(bool extensions, std::optional<MtlMaker> maker = std::nullopt) {
   AssetOptions options;
-  options.profile = profile;
+  options.extensions = extensions;
   options.mtl_maker = maker;
   return options;
 }
@@ -95,7 +95,7 @@ TEST_CASE("reports: 01 numbers of Blender's exporter go back exactly", "[assets]
   CHECK(value_of(lines, "map_Kd") == "t.png");
   CHECK(lines.files.empty());
   // Asked for, the text of the format counts.
-  const Scene by_text = scene_of(mtl, resources, with(MaterialProfile::kCore, MtlMaker::kText));
+  const Scene by_text = scene_of(mtl, resources, with(false, MtlMaker::kText));
   CHECK(by_text.number("roughnessFactor", 0) < 0.3);
   CHECK(by_text.number("metallicFactor", 1) == 0.0);
   CHECK(by_text.warnings().empty());
@@ -133,19 +133,19 @@ TEST_CASE("reports: 01 maps of Blender hold roughness and metallic, and levels o
   const AssetConversion lines = converted_mtl(maps, &resources);
   CHECK(value_of(lines, "map_Pr") == "r.png");
   CHECK(value_of(lines, "map_Pm") == "m.png");
-  const auto level = [](const char* ks, MaterialProfile profile) {
+  const auto level = [](const char* ks, bool extensions) {
     return scene_of(kBlender + "newmtl a\nNs 250\nKa 1 1 1\nKd .8 .8 .8\nKs " + ks + "\nillum 2\n", {},
                     with(profile));
   };
-  const Scene weak = level(".1 .1 .1", MaterialProfile::kExtensions);
+  const Scene weak = level(".1 .1 .1", true);
   CHECK(weak.extension("KHR_materials_specular")["specularFactor"].number().value_or(0.0) == Approx(0.2));
-  CHECK_FALSE(level(".5 .5 .5", MaterialProfile::kExtensions).material()["extensions"]);
-  CHECK(level(".1 .1 .1", MaterialProfile::kCore).warnings().find("specular level") != std::string::npos);
-  CHECK(level("0 0 0", MaterialProfile::kCore).number("roughnessFactor") == 1.0);
-  CHECK(level("0 0 0", MaterialProfile::kExtensions).number("roughnessFactor") == Approx(0.5));
+  CHECK_FALSE(level(".5 .5 .5", true).material()["extensions"]);
+  CHECK(level(".1 .1 .1", false).warnings().find("specular level") != std::string::npos);
+  CHECK(level("0 0 0", false).number("roughnessFactor") == 1.0);
+  CHECK(level("0 0 0", true).number("roughnessFactor") == Approx(0.5));
   // A map of roughness counts without the number beside it.
   CHECK(scene_of(kBlender + "newmtl a\nKs .1 .1 .1\nillum 2\nPr .5\nmap_Pr r.png\n", resources,
-                 with(MaterialProfile::kExtensions))
+                 with(true))
             .number("roughnessFactor") == 1.0);
 }
 
@@ -184,24 +184,24 @@ TEST_CASE("reports: 03 a bump map that holds normals is a normal map", "[assets]
 }
 
 TEST_CASE("reports: 14 glass by illum", "[assets]") {
-  const auto glass = [](const std::string& lines, MaterialProfile profile) {
+  const auto glass = [](const std::string& lines, bool extensions) {
     return scene_of("newmtl a\nKd .05 .05 .05\nKs .5 .5 .5\nNs 500\n" + lines, {}, with(profile));
   };
   for (const char* model : {"4", "6", "7", "9"}) {
     const std::string lines = std::string("Ni 1.45\nTf .9 1 1\nd 1\nillum ") + model + "\n";
-    const Scene scene = glass(lines, MaterialProfile::kExtensions);
+    const Scene scene = glass(lines, true);
     CHECK(scene.extension("KHR_materials_transmission")["transmissionFactor"].number() == 1.0);
     CHECK(scene.extension("KHR_materials_ior")["ior"].number().value_or(0.0) == Approx(1.45));
     CHECK_FALSE(scene.extension("KHR_materials_specular"));
     CHECK(scene.base()[0] == Approx(0.9));
     CHECK(scene.json->root()["extensionsUsed"].children().size() == 2);
-    CHECK(glass(lines, MaterialProfile::kCore).warnings().find("is glass") == 0);
+    CHECK(glass(lines, false).warnings().find("is glass") == 0);
   }
   for (const std::string lines : {"illum 2\nNi 1.5\n", "illum 4\nNi 1\n", "illum 4\nNi 1.5\nd .4\n"}) {
-    CHECK(glass(lines, MaterialProfile::kCore).warnings().empty());
-    CHECK_FALSE(glass(lines, MaterialProfile::kExtensions).extension("KHR_materials_transmission"));
+    CHECK(glass(lines, false).warnings().empty());
+    CHECK_FALSE(glass(lines, true).extension("KHR_materials_transmission"));
   }
-  CHECK(glass("illum 7\n", MaterialProfile::kCore).warnings().find("add a line Ni") != std::string::npos);
+  CHECK(glass("illum 7\n", false).warnings().find("add a line Ni") != std::string::npos);
 }
 
 TEST_CASE("reports: 15 bsdf pbr packs roughness and metallic into Ks", "[assets]") {

@@ -46,11 +46,11 @@ struct MadeScene {
 };
 
 MadeScene made(const std::string& obj, PlainResources resources = {}, const std::string& mtl = "",
-               MaterialProfile profile = MaterialProfile::kCore) {
+               bool extensions = false) {
   if (!mtl.empty()) resources.files["a.mtl"] = mtl;
   MadeScene scene;
   AssetOptions options;
-  options.profile = profile;
+  options.extensions = extensions;
   scene.conversion = gltf_of_obj(MemorySource(obj), "file.obj", options, resources);
   for (const AssetPiece& piece : scene.conversion.pieces) scene.bytes += piece.bytes;
   scene.container = read_container(MemorySource(scene.bytes), "made");
@@ -59,7 +59,7 @@ MadeScene made(const std::string& obj, PlainResources resources = {}, const std:
 }
 
 MadeScene of_material(const std::string& lines, const PlainResources& resources = {},
-                      MaterialProfile profile = MaterialProfile::kCore) {
+                      bool extensions = false) {
   return made("mtllib a.mtl\n" + kTriangle + "usemtl m\nf 1/1 2/2 3/3\n", resources, "newmtl m\n" + lines,
               profile);
 }
@@ -167,14 +167,14 @@ TEST_CASE("Materials by the short forms", "[assets]") {
   CHECK(core.number(core.core()["metallicFactor"]) == 0.0);
   CHECK(core.number(core.core()["baseColorFactor"].children()[0]) == Approx(0.64 + lobe.f0[0] - 0.04));
   CHECK_FALSE(core.root()["extensionsUsed"]);
-  const MadeScene exact = of_material(lines, {}, MaterialProfile::kExtensions);
+  const MadeScene exact = of_material(lines, {}, true);
   const SpanValue specular = exact.entry("materials", 0)["extensions"]["KHR_materials_specular"];
   CHECK(exact.number(specular["specularFactor"]) == Approx(lobe.f0[0]));
   CHECK(exact.number(specular["specularColorFactor"].children()[0]) == Approx(25.0));
   CHECK(exact.number(specular["specularColorFactor"].children()[2]) == Approx(12.5));
   CHECK(exact.number(exact.core()["baseColorFactor"].children()[0]) == Approx(0.64 / (1.0 - lobe.f0[0])));
   CHECK(exact.root()["extensionsUsed"].raw() == "[\"KHR_materials_specular\"]");
-  const MadeScene matte = of_material("Kd .5 .5 .5\n", {}, MaterialProfile::kExtensions);
+  const MadeScene matte = of_material("Kd .5 .5 .5\n", {}, true);
   CHECK(matte.number(matte.entry("materials", 0)["extensions"]["KHR_materials_specular"]["specularFactor"]) ==
         0.0);
   const MadeScene later = of_material("Kd .5 .5 .5\nKs 1 1 1\nNs 5\nPr .25\nPm 1\n");
@@ -289,7 +289,7 @@ TEST_CASE("Maps of strength and exponent are converted, and shared", "[assets]")
   CHECK(core.conversion.count(MaterialState::kConverted) == 2);
   CHECK(core.root()["images"].size() == 2);
   CHECK(core.core()["metallicRoughnessTexture"].raw() == core.core(1)["metallicRoughnessTexture"].raw());
-  const MadeScene exact = of_material(lines, resources, MaterialProfile::kExtensions);
+  const MadeScene exact = of_material(lines, resources, true);
   const SpanValue specular = exact.entry("materials", 0)["extensions"]["KHR_materials_specular"];
   CHECK(exact.number(specular["specularFactor"]) == Approx(6.3 / 32.0).epsilon(0.08));
   CHECK(specular["specularColorFactor"].raw() == "[25.0,25.0,25.0]");

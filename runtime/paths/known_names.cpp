@@ -1,0 +1,42 @@
+#include "paths/known_names.hpp"
+
+#include <array>
+
+namespace remap {
+namespace {
+
+constexpr std::array<KnownName, 18> kPrograms = {{
+    {"Arnold", "arnold"},
+    {"Babylon.js", "babylon"},
+    {"Blender", "blender"},
+    {"Cycles 5", "cycles-5"},
+    {"Filament", "filament"},
+    {"Godot", "godot"},
+    {"Marmoset Toolbag", "marmoset"},
+    {"MuJoCo", "mujoco"},
+    {"PlayCanvas", "playcanvas"},
+    {"Poly Haven, ambientCG, Quixel", "metal-rough"},
+    {"POV-Ray", "povray"},
+    {"Radiance", "radiance"},
+    {"Substance 3D", "substance"},
+    {"three.js", "threejs"},
+    {"Unity", "unity"},
+    {"Unity, HDRP", "unity-hdrp"},
+    {"Unity, specular setup", "unity-specular"},
+    {"Unreal Engine", "unreal"},
+}};
+
+constexpr std::array<KnownName, 5> kFormats = {{
+    {"glTF", "gltf"},
+    {"glTF, specular-glossiness", "gltf-specgloss"},
+    {"OBJ and MTL", "mtl"},
+    {"USD", "usd"},
+    {"USD, specular workflow", "usd-specular"},
+}};
+
+}  // namespace
+
+std::span<const KnownName> known_programs() { return kPrograms; }
+std::span<const KnownName> known_formats() { return kFormats; }
+
+}  // namespace remap
