@@ -41,7 +41,7 @@ Reader<Range> number_range() {
 }
 
 ParameterSetting::ParameterSetting(const std::string& option, const std::string& word)
-    : place(option + " " + word), name(word.substr(0, word.find('='))) {
+    : context(option + " " + word), name(word.substr(0, word.find('='))) {
   if (name == word) fail("'=' missing (write NAME=VALUE or NAME=R,G,B)");
   std::istringstream items(word.substr(name.size() + 1));
   for (std::string item; std::getline(items, item, ',');) {
@@ -51,6 +51,6 @@ ParameterSetting::ParameterSetting(const std::string& option, const std::string&
   }
 }
 
-void ParameterSetting::fail(const std::string& reason) const { throw usage_error(place + ": " + reason); }
+void ParameterSetting::fail(const std::string& reason) const { throw usage_error(context + ": " + reason); }
 
 }  // namespace remap

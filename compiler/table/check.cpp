@@ -46,11 +46,11 @@ class Findings {
   }
   // A sample of line `line` that line `first` holds already, with the same target values or with others.
   void add_repeat(bool same, const std::string& sample, std::size_t line, std::size_t first) {
-    const std::string place = sample + " also appears in line " + std::to_string(first);
+    const std::string repeat = sample + " also appears in line " + std::to_string(first);
     if (same)
-      add(Severity::kWarning, "duplicate", line, place + "; it counts twice in a fit");
+      add(Severity::kWarning, "duplicate", line, repeat + "; it counts twice in a fit");
     else
-      add(Severity::kError, "contradiction", line, place + " with other target values");
+      add(Severity::kError, "contradiction", line, repeat + " with other target values");
   }
   void add_light(const Comments& comments, bool accept_light) {
     LightMatch match = light_match(comments);

@@ -11,15 +11,15 @@ namespace {
 void require_strokes(const MaterialRef& material, const std::vector<StrokePair>& strokes,
                      std::vector<std::uint32_t> StrokePair::*side) {
   for (std::size_t k = 0; k < strokes.size(); ++k) {
-    const std::string place = material.name() + ", " + stroke_name(strokes, k);
+    const std::string context = material.name() + ", " + stroke_name(strokes, k);
     bool has_finite = false;
     for (const std::uint32_t texel : strokes[k].*side) {
       if (texel >= material.texel_count())
-        throw input_error(place + ": texel " + std::to_string(texel) + " is out of range (" +
+        throw input_error(context + ": texel " + std::to_string(texel) + " is out of range (" +
                           std::to_string(material.texel_count()) + " texels)");
       has_finite = has_finite || material.takes_part(texel);
     }
-    if (!has_finite) throw input_error(place + ": the stroke marks no texel with finite values");
+    if (!has_finite) throw input_error(context + ": the stroke marks no texel with finite values");
   }
   for (std::size_t k = 0; k < strokes.size(); ++k) {
     const Overlap overlap = largest_overlap(strokes, side, k, material.texel_count());

@@ -51,9 +51,9 @@ Worker::Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesy
   process_ = std::make_unique<ChildProcess>(script_of(entry_));
   const std::string answer = ask(describe_line(++last_id_, limits_.threads), "describe");
   try {
-    description_ = read_description(answer, last_id_, entry_.name, place("describe"));
+    description_ = read_description(answer, last_id_, entry_.name, context("describe"));
   } catch (const Error& error) {
-    fail("describe", without(place("describe") + ": ", error.what()));
+    fail("describe", without(context("describe") + ": ", error.what()));
   }
 }
 
@@ -61,13 +61,13 @@ Worker::~Worker() {
   if (usable_) process_->write_line(quit_line(++last_id_));
 }
 
-std::string Worker::place(const std::string& shown) const {
+std::string Worker::context(const std::string& shown) const {
   return "worker " + (entry_.name.empty() ? entry_.command : entry_.name) + ", request " + shown;
 }
 
 std::string Worker::message_of(const std::string& shown, const std::string& what) const {
   const bool concerns_files = what.find(files_.parent_path().string()) != std::string::npos;
-  return plain(place(shown) + ": " + what + (concerns_files ? kFolderAdvice : ""));
+  return plain(context(shown) + ": " + what + (concerns_files ? kFolderAdvice : ""));
 }
 
 std::string Worker::ended(const std::string& shown, const std::string& what) {
@@ -100,7 +100,7 @@ std::string Worker::next_answer(const std::string& shown) {
     if (limits_.cancelled != nullptr && *limits_.cancelled) {
       process_->end();
       usable_ = false;
-      throw Error(ErrorKind::kInterrupted, place(shown) + ": interrupted");
+      throw Error(ErrorKind::kInterrupted, context(shown) + ": interrupted");
     }
     if (now >= deadline)
       throw LostWorker(ended(shown, "no answer within " + number_text(limits_.seconds) + " s"));
@@ -124,9 +124,9 @@ Image Worker::render(const PictureRequest& request) {
   const std::string answer = ask(render_line(last_id_, request, picture, mesh), request.shown);
   std::optional<std::string> complaint;
   try {
-    complaint = read_answer(answer, last_id_, place(request.shown));
+    complaint = read_answer(answer, last_id_, context(request.shown));
   } catch (const Error& error) {
-    fail(request.shown, without(place(request.shown) + ": ", error.what()));
+    fail(request.shown, without(context(request.shown) + ": ", error.what()));
   }
   // The worker is still usable; after other faults, answers no longer match requests.
   if (complaint) throw input_error(message_of(request.shown, plain(*complaint, kLongestWhat)));

@@ -187,11 +187,11 @@ void exponent_range(const CheckedMaterial& material, const GltfConsumer*, const 
                             " below 0, which convert reads as no highlight",
                         "write the exponent of the highlight as Ns, or 0 for none"});
   if (above_zero == 0) return;
-  const std::string place = material.path.string(), all = std::to_string(above_zero) +
-                                                          (above_zero == 1 ? " exponent" : " exponents") +
-                                                          " (Ns) up to " + number_text(largest);
+  const std::string context = material.path.string(), all = std::to_string(above_zero) +
+                                                            (above_zero == 1 ? " exponent" : " exponents") +
+                                                            " (Ns) up to " + number_text(largest);
   const auto add = [&](Confidence confidence, const std::string& what, const std::string& fix) {
-    findings.push_back({rule.name, confidence, place, "", all + ": " + what, fix});
+    findings.push_back({rule.name, confidence, context, "", all + ": " + what, fix});
   };
   if (largest <= 1.0)
     add(above_zero > 1 ? Confidence::kLikely : Confidence::kPossible,

@@ -86,8 +86,8 @@ MaterialReport look_at(CheckedMaterial material, const CheckOptions& options) {
 }
 
 void print(const MaterialFinding& finding) {
-  const std::string place = finding.context + (finding.channel.empty() ? "" : ":" + finding.channel);
-  std::cout << plain(place + ": " + finding.message) << " [" << finding.rule << ", "
+  const std::string context = finding.context + (finding.channel.empty() ? "" : ":" + finding.channel);
+  std::cout << plain(context + ": " + finding.message) << " [" << finding.rule << ", "
             << name_of(kConfidences, finding.confidence) << "]\n"
             << "    " << plain(finding.fix.text()) << '\n';
 }

@@ -92,21 +92,21 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
   const FolderResources files(job);
   for (const AssetResource& resource : resources) {
     if (resource.kind == UriKind::kRemote) continue;
-    const std::string place =
+    const std::string context =
         display_path(job.input) + ": " + (resource.where.empty() ? "" : resource.where + ": ");
     if (resource.kind == UriKind::kAbsolute)
-      throw input_error(place + display_path(resource.path) +
+      throw input_error(context + display_path(resource.path) +
                         " is an absolute path (name the file relative to the asset)");
     fs::path source, target;
     try {
       source = files.input(resource.path);
       target = files.output(resource.path);
     } catch (const Error& error) {
-      throw input_error(place + error.what());
+      throw input_error(context + error.what());
     }
     std::error_code ignored;
     if (same_file(source, job.input))
-      throw input_error(place + display_path(resource.path) + " names the asset itself as its part");
+      throw input_error(context + display_path(resource.path) + " names the asset itself as its part");
     if (!fs::is_regular_file(source, ignored)) {
       plan.warnings.push_back("names " + display_path(resource.path) + ", which is not there");
       continue;

@@ -277,9 +277,9 @@ TreeManifest ManifestReader::read(const Part& part) {
 
 void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, ContentHash& hash) {
   const auto add = [&](std::string_view line, auto adder) {
-    const std::string place = path_.string();
-    const Json json = parse_json(line, place);
-    (this->*adder)(Field(json, place), manifest.listing);
+    const std::string context = path_.string();
+    const Json json = parse_json(line, context);
+    (this->*adder)(Field(json, context), manifest.listing);
   };
   const auto add_entry =
       manifest.head.kind == ListedKind::kSets ? &ManifestReader::add_set : &ManifestReader::add_asset;

@@ -144,11 +144,11 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
   for (const FoundSet& set : sets->sets) {
     const std::string inferred = model_of_set(set);
     if (inferred.empty()) continue;
-    const std::string place = display_path(set.folder / set.name);
+    const std::string context = display_path(set.folder / set.name);
     if (!first.empty() && inferred != model)
       throw usage_error("--from is required, because the sets differ: " + first + " is of the model " +
-                        model + ", " + place + " of " + inferred + " (convert them apart)");
-    if (first.empty()) first = place;
+                        model + ", " + context + " of " + inferred + " (convert them apart)");
+    if (first.empty()) first = context;
     model = inferred;
     ++count;
   }
