@@ -56,7 +56,7 @@ Layout separate();
 // (docs/presets.md has the links).
 struct NamedLayout {
   std::string_view name;
-  std::string_view words;  // of `--to` that mean it; `--to gltf` means the material alone
+  std::string_view words;   // of `--to` that mean it; `--to gltf` means the material alone
   std::string_view files;   // as layout_from() reads it; empty: separate
   std::string_view format;  // extension; empty for a layout of no engine, and as the inputs
   std::optional<PixelType> type;

@@ -169,7 +169,8 @@ TEST_CASE("texremap layouts: the same material is arranged anew, and no stored v
   for (const Arrangement& to : kArrangements) {
     INFO(to.engine);
     const std::string out = "out_" + to.engine, back = "back_" + to.engine;
-    require_success(session.texremap("convert in --from gltf --to gltf --layout " + to.engine + " -o " + out));
+    require_success(
+        session.texremap("convert in --from gltf --to gltf --layout " + to.engine + " -o " + out));
     const auto held = [&](const Expected& place) {
       return channel(session, out + "/" + place.file + ".png", place.channel);
     };

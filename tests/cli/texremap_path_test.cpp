@@ -73,7 +73,8 @@ TEST_CASE("texremap path: --json holds what the text says") {
 TEST_CASE("texremap list: shows how far pictures differ, and with --models what each model reaches") {
   const Session session;
   CHECK_THAT(session.texremap("list --pairs").output, Contains("note   " + ward_to_as_difference()));
-  CHECK(nlohmann::json::parse(session.texremap("list --pairs --json").output)[0]["rms_error"].contains("image"));
+  CHECK(nlohmann::json::parse(session.texremap("list --pairs --json").output)[0]["rms_error"].contains(
+      "image"));
   CHECK_THAT(
       session.texremap("list --models").output,
       Contains("mitsuba/ward\n  takes    alpha and specular\n") && Contains("  reaches  mitsuba/as, "));

@@ -45,7 +45,8 @@ TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports][slow]") {
   sets.plain("in/textures/old_bench_rough_ao_1k.png", {200, 180, 0});
   const std::string packed = "out/textures/old_bench_occlusionRoughnessMetallic.png";
   SECTION("alone") {
-    require_success(sets.texremap("convert in -r --from polyhaven --to gltf --layout gltf --metallic 0 -o out"));
+    require_success(
+        sets.texremap("convert in -r --from polyhaven --to gltf --layout gltf --metallic 0 -o out"));
     CHECK(sets.texel(packed) == std::vector{180, 200, 0});
   }
   SECTION("beside arm, which holds more of the material") {
@@ -216,8 +217,7 @@ TEST_CASE("reports: what a packed map holds besides comes along as a map", "[rep
 TEST_CASE("reports: 16 an asset for an engine", "[reports][slow]") {
   const ReportedSets sets;
   write_file(sets.path("rock.gltf"), R"({"asset": {"version": "2.0"}, "materials": [{}]})");
-  for (const std::string option :
-       {"--to unity", "--to unreal", "--to blender", "--to three.js"}) {
+  for (const std::string option : {"--to unity", "--to unreal", "--to blender", "--to three.js"}) {
     const ProcessResult refused = sets.texremap("convert rock.gltf -o out " + option);
     INFO(option);
     CHECK(refused.exit_code == 2);

@@ -93,14 +93,16 @@ TEST_CASE("texremap: --converters replaces the shipped converters by those of a 
   write_file(session.path("fits/fit.json"), fit_to_json(fit));
   write_file(session.path("fits/manifest.json"), "{}");  // is not a fit, as in a folder of remapc
   const auto list = [&](const std::string& path) {
-    const ProcessResult result = require_success(session.texremap("list --pairs --converters " + path + " --json"));
+    const ProcessResult result =
+        require_success(session.texremap("list --pairs --converters " + path + " --json"));
     return result.output;
   };
   const std::string of_fit = list("fits/fit.json");
   CHECK_THAT(of_fit, Catch::Contains(fit.id));
   CHECK_THAT(of_fit, !Catch::Contains("mitsuba_ward_to_mitsuba_as"));
   CHECK(list("fits") == of_fit);
-  CHECK(list(REMAP_SOURCE_DIR "/generated/converters.json") == session.texremap("list --pairs --json").output);
+  CHECK(list(REMAP_SOURCE_DIR "/generated/converters.json") ==
+        session.texremap("list --pairs --json").output);
 
   const Words numbers =
       "convert --from " + fit.source.model + " --to " + fit.target.model + " --roughness 0.25 --specular 0.3";

@@ -68,7 +68,7 @@ enum class AssetTarget {
 };
 
 struct AssetOptions {
-  bool extensions = false;  // metal-rough with KHR_materials_specular and _ior, instead of core alone
+  bool extensions = false;     // metal-rough with KHR_materials_specular and _ior, instead of core alone
   double prior = kCleanPrior;  // of the projection (docs/workflows.md)
   InstructionSet instructions = best_instruction_set();
   bool enlarges = false;  // images of a material that are smaller than another one

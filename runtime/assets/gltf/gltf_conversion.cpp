@@ -54,8 +54,7 @@ class GltfConversion {
  public:
   GltfConversion(const GltfSource& source, const AssetOptions& options, const AssetResources* resources)
       : source_(source), root_(source.json.root()), options_(options) {
-    if (options.folds_specular &&
-        (options.target != AssetTarget::kMetalRough || options.extensions))
+    if (options.folds_specular && (options.target != AssetTarget::kMetalRough || options.extensions))
       throw usage_error("KHR_materials_specular is only folded into core (--to gltf without --extensions)");
     if (resources != nullptr) parts_ = std::make_unique<ImageParts>(source, options, *resources);
     const DirectionParts parts{options, parts_ ? &parts_->textures : nullptr};

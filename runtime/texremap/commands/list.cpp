@@ -10,10 +10,10 @@
 #include "command_line/help_text.hpp"
 #include "converter/converter_fields.hpp"
 #include "core/report_text.hpp"
-#include "remap/error.hpp"
-#include "remap/path.hpp"
 #include "paths/known_names.hpp"
 #include "remap/conversion.hpp"
+#include "remap/error.hpp"
+#include "remap/path.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/options/used_converters.hpp"
@@ -216,7 +216,8 @@ void list_names(const ListOptions& options) {
     std::cout << names.dump(2) << '\n';
     return;
   }
-  print_names("Programs: name for --from and --to, and its material where that has another name", known_programs());
+  print_names("Programs: name for --from and --to, and its material where that has another name",
+              known_programs());
   print_names("\nFile formats", known_formats());
   std::cout << "\nRenderers and research models\n";
   print_renderers(models);
@@ -233,8 +234,9 @@ void list(const ListOptions& options) {
 void add_list_command(Command& app) {
   Command* command = app.add_subcommand("list", "List the names for --from and --to");
   ListOptions& options = set_work<ListOptions>(*command, list);
-  command->add_flag("--pairs", options.pairs,
-                    "List the converters instead: their ranges, how far pictures differ, and their self-tests");
+  command->add_flag(
+      "--pairs", options.pairs,
+      "List the converters instead: their ranges, how far pictures differ, and their self-tests");
   command->add_flag("--models", options.models, "List the models, and the models that each one reaches");
   command->add_flag("--workflows", options.workflows,
                     "List the named workflows with their conventions. `convert` combines other models with a "

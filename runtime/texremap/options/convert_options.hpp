@@ -64,10 +64,10 @@ struct ConvertOptions {
 
   std::filesystem::path folder;  // of texture sets, or a glTF file; empty where the options name one set
   std::vector<std::filesystem::path> more_assets;
-  bool assets = false;                     // the folder is of assets, not of texture sets
-  std::filesystem::path asset_root;        // below which assets may name files
-  bool extensions = false;  // of glTF, in place of core
-  std::optional<MtlMaker> mtl_maker;       // of MTL files; none: as they say
+  bool assets = false;                // the folder is of assets, not of texture sets
+  std::filesystem::path asset_root;   // below which assets may name files
+  bool extensions = false;            // of glTF, in place of core
+  std::optional<MtlMaker> mtl_maker;  // of MTL files; none: as they say
   bool fold_specular = false, keep_unused = false, bake = false;
   std::optional<int> jpeg;  // quality
   ModelName from, to;
@@ -127,8 +127,8 @@ struct ConvertOptions {
 
 void add_convert_options(Command& command, ConvertOptions& options);
 
-// The files of the engine that `--layout` or `--to` names, with its format and pixel type where these were not
-// given.
+// The files of the engine that `--layout` or `--to` names, with its format and pixel type where these were
+// not given.
 void choose_files(ConvertOptions& options);
 
 // The direction of green in normal maps of a source or target; none if it is not documented.

@@ -252,8 +252,7 @@ void require_gltf(const ConvertOptions& options, const JobList& list) {
 }
 
 AssetOptions asset_options(const ConvertOptions& options) {
-  AssetOptions asset{options.extensions, options.prior, options.instructions,
-                     options.resample};
+  AssetOptions asset{options.extensions, options.prior, options.instructions, options.resample};
   asset.target = options.to.name == "gltf-specgloss" ? AssetTarget::kSpecGloss : AssetTarget::kMetalRough;
   asset.folds_specular = options.fold_specular;
   asset.mtl_maker = options.mtl_maker;

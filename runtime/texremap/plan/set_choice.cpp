@@ -135,8 +135,7 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
                     options.reads_glossiness(), has(Parameter::kDiffuse));
   if (!sets) {
     if (model.empty())
-      throw usage_error(
-          "--from is required (the maps do not tell it; texremap list shows the names)");
+      throw usage_error("--from is required (the maps do not tell it; texremap list shows the names)");
     return {model, "--from is taken as " + model + ", which has these maps"};
   }
   std::string first;

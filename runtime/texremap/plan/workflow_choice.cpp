@@ -7,13 +7,9 @@ namespace {
 
 // The words of the command line.
 ConversionWords option_words() {
-  return {"--from",
-          "--to",
-          "--from-workflow",
-          "--to-workflow",
-          "--dielectric-f0",
-          "--diffuse-convention",
-          "texremap list"};
+  return {
+      "--from",       "--to", "--from-workflow", "--to-workflow", "--dielectric-f0", "--diffuse-convention",
+      "texremap list"};
 }
 
 void require_estimable(const WorkflowChoice& choice) {

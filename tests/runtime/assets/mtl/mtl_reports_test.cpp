@@ -144,8 +144,7 @@ TEST_CASE("reports: 01 maps of Blender hold roughness and metallic, and levels o
   CHECK(level("0 0 0", false).number("roughnessFactor") == 1.0);
   CHECK(level("0 0 0", true).number("roughnessFactor") == Approx(0.5));
   // A map of roughness counts without the number beside it.
-  CHECK(scene_of(kBlender + "newmtl a\nKs .1 .1 .1\nillum 2\nPr .5\nmap_Pr r.png\n", resources,
-                 with(true))
+  CHECK(scene_of(kBlender + "newmtl a\nKs .1 .1 .1\nillum 2\nPr .5\nmap_Pr r.png\n", resources, with(true))
             .number("roughnessFactor") == 1.0);
 }
 
