@@ -135,7 +135,7 @@ TEST_CASE("reports: 01 maps of Blender hold roughness and metallic, and levels o
   CHECK(value_of(lines, "map_Pm") == "m.png");
   const auto level = [](const char* ks, bool extensions) {
     return scene_of(kBlender + "newmtl a\nNs 250\nKa 1 1 1\nKd .8 .8 .8\nKs " + ks + "\nillum 2\n", {},
-                    with(profile));
+                    with(extensions));
   };
   const Scene weak = level(".1 .1 .1", true);
   CHECK(weak.extension("KHR_materials_specular")["specularFactor"].number().value_or(0.0) == Approx(0.2));
@@ -184,7 +184,7 @@ TEST_CASE("reports: 03 a bump map that holds normals is a normal map", "[assets]
 
 TEST_CASE("reports: 14 glass by illum", "[assets]") {
   const auto glass = [](const std::string& lines, bool extensions) {
-    return scene_of("newmtl a\nKd .05 .05 .05\nKs .5 .5 .5\nNs 500\n" + lines, {}, with(profile));
+    return scene_of("newmtl a\nKd .05 .05 .05\nKs .5 .5 .5\nNs 500\n" + lines, {}, with(extensions));
   };
   for (const char* model : {"4", "6", "7", "9"}) {
     const std::string lines = std::string("Ni 1.45\nTf .9 1 1\nd 1\nillum ") + model + "\n";

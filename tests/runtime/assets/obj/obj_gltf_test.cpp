@@ -61,7 +61,7 @@ MadeScene made(const std::string& obj, PlainResources resources = {}, const std:
 MadeScene of_material(const std::string& lines, const PlainResources& resources = {},
                       bool extensions = false) {
   return made("mtllib a.mtl\n" + kTriangle + "usemtl m\nf 1/1 2/2 3/3\n", resources, "newmtl m\n" + lines,
-              profile);
+              extensions);
 }
 
 ObjScene read(const std::string& text) { return read_obj(MemorySource(text), "file"); }
