@@ -73,6 +73,8 @@ install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
         PATTERN man EXCLUDE PATTERN completions EXCLUDE)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/studies/materials ${PROJECT_SOURCE_DIR}/scripts/studies/summarize
+        DESTINATION ${CMAKE_INSTALL_DOCDIR}/scripts/studies)
 set(data ${CMAKE_INSTALL_FULL_DATADIR}/remap)
 set(headers ${CMAKE_INSTALL_FULL_INCLUDEDIR}/remap)
 set(links fits ${data}/fits examples ${data}/examples generated ${headers} compiler/adapters ${data}/workers

@@ -62,41 +62,22 @@ constexpr double kWidthRatio = 1.085;  // between neighboring alphas
 constexpr int kLeastErrorSamples = 256;
 constexpr double kWidestAlpha = 1.0;  // limit of the built-in models
 
-// Pictures of the target at one alpha, as functions of specular: dark + specular * (bright - dark).
-struct Width {
-  double alpha = 0.0;
-  std::vector<std::vector<float>> dark, bright;  // for each environment
-};
+// Pictures of one material under each environment.
+using Pictures = std::vector<std::vector<float>>;
 
-struct Search {
-  std::vector<std::vector<float>> source;  // display values, for each environment
-  std::array<Width, kWidths> widths;
-};
-
-double mean_rmse(const Search& search, const Width& width, double specular) {
+// The mean RMSE of a target whose pictures are dark + specular * (bright - dark). `source`: display values.
+double mean_rmse(const Pictures& source, const Pictures& dark, const Pictures& bright, double specular) {
   double sum = 0.0;
   std::vector<float> shown;
-  for (std::size_t e = 0; e < search.source.size(); ++e) {
+  for (std::size_t e = 0; e < source.size(); ++e) {
     shown.clear();
-    for (std::size_t i = 0; i < width.dark[e].size(); ++i) {
-      const double dark = static_cast<double>(width.dark[e][i]);
-      shown.push_back(display_value(dark + specular * (static_cast<double>(width.bright[e][i]) - dark)));
+    for (std::size_t i = 0; i < dark[e].size(); ++i) {
+      const double base = static_cast<double>(dark[e][i]);
+      shown.push_back(display_value(base + specular * (static_cast<double>(bright[e][i]) - base)));
     }
-    sum += rms_difference(search.source[e], shown);
+    sum += rms_difference(source[e], shown);
   }
-  return sum / static_cast<double>(search.source.size());
-}
-
-struct Optimum {
-  double specular = 0.0, rmse = 0.0;
-};
-
-// The error has one minimum over specular, because brightness increases with specular.
-Optimum best_specular(const Search& search, const Width& width) {
-  constexpr int kSteps = 16;  // to 5e-4
-  const auto [specular, rmse] =
-      golden_section(0.0, 1.0, kSteps, [&](double value) { return mean_rmse(search, width, value); });
-  return {specular, rmse};
+  return sum / static_cast<double>(source.size());
 }
 
 // The position of the minimum of the parabola through three values at -1, 0 and 1, clamped to [-1, 1].
@@ -105,17 +86,32 @@ double vertex(double before, double middle, double after) {
   return bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;
 }
 
-Conversion best_of(const Search& search, const Conversion& start) {
-  std::array<Optimum, kWidths> optima;
-  for (std::size_t i = 0; i < optima.size(); ++i) optima[i] = best_specular(search, search.widths[i]);
-  const auto least = std::ranges::min_element(optima, {}, &Optimum::rmse);
+// Compares the source, which is `first` of the rendered materials, with the target at the widths after it.
+Conversion best_of(const SpherePictures& pictures, std::span<const SphereMaterial> materials,
+                   std::size_t first, std::size_t environment_count, const Conversion& start) {
+  const auto pictures_of = [&](std::size_t material) {
+    Pictures all;
+    for (std::size_t e = 0; e < environment_count; ++e) all.push_back(pictures.radiance(material, e));
+    return all;
+  };
+  Pictures source = pictures_of(first);
+  for (std::vector<float>& picture : source) picture = display_values(picture);
+  std::array<std::pair<double, double>, kWidths> optima;  // specular and its RMSE
+  for (std::size_t i = 0; i < optima.size(); ++i) {
+    const Pictures dark = pictures_of(first + 1 + 2 * i), bright = pictures_of(first + 2 + 2 * i);
+    // The error has one minimum over specular, because brightness increases with specular.
+    constexpr int kSteps = 16;  // to 5e-4
+    optima[i] = golden_section(0.0, 1.0, kSteps,
+                               [&](double specular) { return mean_rmse(source, dark, bright, specular); });
+  }
+  const auto least = std::ranges::min_element(optima, {}, &std::pair<double, double>::second);
   const auto i = static_cast<std::size_t>(least - optima.begin());
-  Conversion best{start.pair, Method::kBest, start.alpha, search.widths[i].alpha, least->specular};
+  Conversion best{start.pair, Method::kBest, start.alpha, materials[first + 1 + 2 * i].alpha, least->first};
   if (i == 0 || i + 1 == optima.size()) return best;
-  const double offset = vertex(optima[i - 1].rmse, optima[i].rmse, optima[i + 1].rmse);
+  const double offset = vertex(optima[i - 1].second, optima[i].second, optima[i + 1].second);
   best.target_alpha = std::min(kWidestAlpha, best.target_alpha * std::pow(kWidthRatio, offset));
-  const Optimum& towards = offset < 0.0 ? optima[i - 1] : optima[i + 1];
-  best.target_specular += std::fabs(offset) * (towards.specular - best.target_specular);
+  const double towards = optima[offset < 0.0 ? i - 1 : i + 1].first;
+  best.target_specular += std::fabs(offset) * (towards - best.target_specular);
   return best;
 }
 
@@ -132,23 +128,7 @@ void add_materials(const EnvironmentsOptions& options, const Conversion& start,
   }
 }
 
-Search search_of(const SpherePictures& pictures, std::span<const SphereMaterial> materials, std::size_t first,
-                 std::size_t environment_count) {
-  Search search;
-  for (std::size_t e = 0; e < environment_count; ++e) {
-    search.source.push_back(display_values(pictures.radiance(first, e)));
-    for (std::size_t i = 0; i < search.widths.size(); ++i) {
-      search.widths[i].alpha = materials[first + 1 + 2 * i].alpha;
-      search.widths[i].dark.push_back(pictures.radiance(first + 1 + 2 * i, e));
-      search.widths[i].bright.push_back(pictures.radiance(first + 2 + 2 * i, e));
-    }
-  }
-  return search;
-}
-
 }  // namespace
-
-std::string pair_name(const StudyPair& pair) { return pair.source + " -> " + pair.target; }
 
 std::string method_name(Method method) {
   constexpr std::array<const char*, 6> kNames = {"copy",      "paper",   "natural-1",
@@ -156,8 +136,7 @@ std::string method_name(Method method) {
   return kNames[static_cast<std::size_t>(method)];
 }
 
-std::vector<Conversion> conversions_of(const EnvironmentsOptions& options,
-                                       std::vector<std::string>* remarks) {
+std::vector<Conversion> conversions_of(const EnvironmentsOptions& options) {
   const auto renderer = make_builtin_renderer();
   std::vector<Conversion> conversions;
   const auto add = [&](std::size_t pair, Method method, const Parameters& parameters) {
@@ -173,7 +152,6 @@ std::vector<Conversion> conversions_of(const EnvironmentsOptions& options,
     add(p, Method::kNatural2, matched(options, *renderer, pair, "natural-2"));
     const Fit* fit = find_pair(options.fits, pair);
     add(p, Method::kShipped, fit == nullptr ? Parameters{} : shipped(options, *fit));
-    if (fit == nullptr) remarks->push_back(pair_name(pair) + " has no fit, so `shipped` is not compared");
   }
   std::ranges::stable_sort(conversions, {}, &Conversion::alpha);
   return conversions;
@@ -188,8 +166,7 @@ std::vector<Conversion> best_conversions(const EnvironmentsOptions& options, con
   const SpherePictures pictures = render_spheres(pyramid, materials, sampling);
   std::vector<Conversion> best(starts.size());
   run_parallel(starts.size(), options.jobs, [&](std::size_t i) {
-    const Search search = search_of(pictures, materials, i * (1 + 2 * kWidths), options.environments.size());
-    best[i] = best_of(search, starts[i]);
+    best[i] = best_of(pictures, materials, i * (1 + 2 * kWidths), options.environments.size(), starts[i]);
   });
   return best;
 }

@@ -20,9 +20,6 @@ struct StudyPair {
   std::string source, target;
 };
 
-// Returns `source -> target`.
-std::string pair_name(const StudyPair& pair);
-
 enum class Method {
   kCopy,      // alpha and specular are copied
   kPaper,     // match by the objective `paper`
@@ -55,8 +52,8 @@ struct Conversion {
 };
 
 // Returns every pair and alpha converted by every method that applies to the pair, sorted by alpha, pair and
-// method. Adds a remark for each pair without a fit in `options.fits`.
-std::vector<Conversion> conversions_of(const EnvironmentsOptions& options, std::vector<std::string>* remarks);
+// method. kShipped applies to pairs with a fit in `options.fits`.
+std::vector<Conversion> conversions_of(const EnvironmentsOptions& options);
 
 // The height of the pictures that the search compares, which is also its number of progress calls per alpha.
 inline constexpr int kLeastErrorResolution = 48;

@@ -8,9 +8,12 @@
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "remap/error.hpp"
+#include "remap/version.hpp"
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
 #include "report/contact_sheet.hpp"
+#include "report/sheet_labels.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 namespace {
@@ -39,22 +42,6 @@ LitPicture picture_of(const SpherePictures& pictures, std::size_t material, std:
   return picture;
 }
 
-// The distinct source and target materials at one alpha.
-struct RenderedMaterials {
-  std::vector<SphereMaterial> materials;
-  std::size_t place(const SphereMaterial& material) {
-    const auto found = std::find(materials.begin(), materials.end(), material);
-    if (found != materials.end()) return static_cast<std::size_t>(found - materials.begin());
-    materials.push_back(material);
-    return materials.size() - 1;
-  }
-};
-
-struct ComparedPair {
-  Conversion conversion;
-  std::size_t source, target;  // indices into RenderedMaterials::materials
-};
-
 // The mean square sampling error of the difference of two pictures. It is estimated from the differences that
 // each half of the light directions gives: the error of their mean is half of their difference.
 double squared_noise(const LitPicture& source, const LitPicture& target) {
@@ -67,34 +54,27 @@ double squared_noise(const LitPicture& source, const LitPicture& target) {
   return sum / static_cast<double>(source.halves[0].size());
 }
 
-// Places the pictures of one environment on its sheet.
-void fill_sheet(const std::vector<ComparedPair>& pairs, const std::vector<LitPicture>& shots,
-                const SpherePictures& pictures, Image* sheet) {
-  for (const ComparedPair& pair : pairs) {
-    const std::size_t row = pair.conversion.pair;
-    const std::size_t column = 1 + static_cast<std::size_t>(pair.conversion.method);
-    const auto place = [&](std::size_t material, std::size_t at) {
-      place_picture(sheet, pictures.resolution(), row, at, pictures.pixels(), shots[material].display.colors);
-    };
-    place(pair.source, 0);
-    place(pair.target, column);
-  }
-}
-
 // Renders all materials of one alpha together and compares them.
 void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                    std::span<const Conversion> conversions, EnvironmentsResult* result) {
-  RenderedMaterials rendered;
-  std::vector<ComparedPair> pairs;
+  std::vector<SphereMaterial> materials;  // distinct
+  const auto place_of = [&](const SphereMaterial& material) {
+    const auto found = std::ranges::find(materials, material);
+    const auto place = static_cast<std::size_t>(found - materials.begin());
+    if (found == materials.end()) materials.push_back(material);
+    return place;
+  };
+  std::vector<std::pair<std::size_t, std::size_t>> places;  // of source and target of each conversion
   for (const Conversion& c : conversions) {
     const StudyPair& pair = options.pairs[c.pair];
-    pairs.push_back(
-        {c, rendered.place({builtin_brdf(pair.source), c.alpha, options.specular, options.diffuse}),
-         rendered.place({builtin_brdf(pair.target), c.target_alpha, c.target_specular, options.diffuse})});
+    const std::size_t source =
+        place_of({builtin_brdf(pair.source), c.alpha, options.specular, options.diffuse});
+    places.emplace_back(
+        source, place_of({builtin_brdf(pair.target), c.target_alpha, c.target_specular, options.diffuse}));
   }
-  const SpherePictures pictures = render_spheres(pyramid, rendered.materials, options);
+  const SpherePictures pictures = render_spheres(pyramid, materials, options);
   const std::size_t environment_count = options.environments.size();
-  std::vector<EnvironmentComparison> comparisons(pairs.size() * environment_count);
+  std::vector<EnvironmentComparison> comparisons(places.size() * environment_count);
   const bool on_sheet = options.sheet_alpha == conversions.front().alpha;
   if (on_sheet)
     result->sheets.assign(environment_count, contact_sheet(options.pairs.size(),
@@ -102,17 +82,23 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
                                                            options.resolution));
   run_parallel(environment_count, options.jobs, [&](std::size_t e) {
     std::vector<LitPicture> shots;
-    for (std::size_t m = 0; m < rendered.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
-    if (on_sheet) fill_sheet(pairs, shots, pictures, &result->sheets[e]);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const LitPicture &source = shots[pairs[i].source], &target = shots[pairs[i].target];
+    for (std::size_t m = 0; m < materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const LitPicture &source = shots[places[i].first], &target = shots[places[i].second];
       comparisons[i * environment_count + e] = {
-          pairs[i].conversion,
+          conversions[i],
           e,
-          {100.0 * rms_difference(source.display.colors, target.display.colors),
-           sphere_similarity(source.display, target.display, pictures.pixels(), pictures.resolution()),
-           target.mean / source.mean - 1.0},
+          100.0 * rms_difference(source.display.colors, target.display.colors),
+          sphere_similarity(source.display, target.display, pictures.pixels(), pictures.resolution()),
+          target.mean / source.mean - 1.0,
           squared_noise(source, target)};
+      if (!on_sheet) continue;
+      const auto place = [&](std::size_t column, const LitPicture& picture) {
+        place_picture(&result->sheets[e], pictures.resolution(), conversions[i].pair, column,
+                      pictures.pixels(), picture.display.colors);
+      };
+      place(0, source);
+      place(1 + static_cast<std::size_t>(conversions[i].method), target);
     }
   });
   result->comparisons.insert(result->comparisons.end(), comparisons.begin(), comparisons.end());
@@ -126,6 +112,14 @@ void add_best(const EnvironmentsOptions& options, const RadiancePyramid& pyramid
     if (conversion.method == Method::kNatural2) starts.push_back(conversion);
   const std::vector<Conversion> best = best_conversions(options, pyramid, starts);
   conversions->insert(conversions->end(), best.begin(), best.end());
+}
+
+SheetLabels sheet_labels(const EnvironmentsOptions& options) {
+  SheetLabels labels{{"source"}, {}};
+  for (std::size_t method = 0; method < kMethodCount + (options.least_error ? 1 : 0); ++method)
+    labels.columns.push_back(method_name(static_cast<Method>(method)));
+  for (const StudyPair& pair : options.pairs) labels.rows.push_back(pair.source + "\n-> " + pair.target);
+  return labels;
 }
 
 void require_options(const EnvironmentsOptions& options) {
@@ -169,7 +163,7 @@ std::size_t progress_steps(const EnvironmentsOptions& options) {
 EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
   require_options(options);
   EnvironmentsResult result;
-  const std::vector<Conversion> conversions = conversions_of(options, &result.remarks);
+  const std::vector<Conversion> conversions = conversions_of(options);
   const RadiancePyramid pyramid(options.environments);
   for (auto begin = conversions.begin(); begin != conversions.end();) {
     const auto end =
@@ -179,30 +173,32 @@ EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
     compare_alpha(options, pyramid, at_alpha, &result);
     begin = end;
   }
-  double sum = 0.0;
-  for (const EnvironmentComparison& comparison : result.comparisons) sum += comparison.squared_noise;
-  result.noise = 100.0 * std::sqrt(sum / static_cast<double>(result.comparisons.size()));
+  for (Image& sheet : result.sheets) sheet = labelled(sheet, sheet_labels(options));
   return result;
 }
 
-std::vector<const EnvironmentComparison*> comparisons_of(const EnvironmentsResult& result, Method method,
-                                                         std::size_t pair) {
-  std::vector<const EnvironmentComparison*> chosen;
-  for (const EnvironmentComparison& comparison : result.comparisons)
-    if (comparison.conversion.method == method && (pair == kAllPairs || comparison.conversion.pair == pair))
-      chosen.push_back(&comparison);
-  return chosen;
-}
-
-PictureSimilarity mean_similarity(const std::vector<const EnvironmentComparison*>& comparisons) {
-  PictureSimilarity mean;
-  const auto count = static_cast<double>(comparisons.size());
-  for (const EnvironmentComparison* comparison : comparisons) {
-    mean.rmse += comparison->image_similarity.rmse / count;
-    mean.ssim += comparison->image_similarity.ssim / count;
-    mean.energy += std::fabs(comparison->image_similarity.energy) / count;
+std::string environments_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  double sum = 0.0;
+  for (const EnvironmentComparison& comparison : result.comparisons) sum += comparison.squared_noise;
+  const double noise = 100.0 * std::sqrt(sum / static_cast<double>(result.comparisons.size()));
+  // All environments have the same mean luminance, up to rounding of their floats.
+  const double luminance = std::round(1e6 * mean_luminance(options.environments.front())) / 1e6;
+  CsvText csv(
+      "source,target,alpha,specular,environment,method,target_alpha,target_specular,rmse_percent,ssim,"
+      "energy_error",
+      {{"tool", std::string("remap-study ") + kVersion},
+       {"resolution", std::to_string(options.resolution)},
+       {"samples", std::to_string(options.samples)},
+       {"diffuse", number_text(options.diffuse)},
+       {"mean_luminance", number_text(luminance)},
+       {"noise_percent", number_text(rounded_up(noise, 2))}});
+  for (const EnvironmentComparison& comparison : result.comparisons) {
+    const Conversion& c = comparison.conversion;
+    csv.add_row(options.pairs[c.pair].source, options.pairs[c.pair].target, c.alpha, options.specular,
+                options.environments[comparison.environment].name, method_name(c.method), c.target_alpha,
+                c.target_specular, comparison.rmse, comparison.ssim, comparison.energy);
   }
-  return mean;
+  return csv.text();
 }
 
 }  // namespace remap

@@ -17,41 +17,29 @@ std::vector<double> default_alphas();
 std::size_t progress_steps(const EnvironmentsOptions& options);
 
 // The difference between two pictures over the pixels that show the sphere.
-struct PictureSimilarity {
-  double rmse = 0.0;    // of display values over all channels, percent of the display range
-  double ssim = 0.0;    // of luma; 1 for equal pictures
-  double energy = 0.0;  // mean linear luminance of the target over that of the source, minus 1
-};
-
 struct EnvironmentComparison {
   Conversion conversion;
   std::size_t environment = 0;  // index into EnvironmentsOptions::environments
-  PictureSimilarity image_similarity;
-  double squared_noise = 0.0;  // mean square sampling error of the difference, display values
+  double rmse = 0.0;            // of display values over all channels, percent of the display range
+  double ssim = 0.0;            // of luma; 1 for equal pictures
+  double energy = 0.0;          // mean linear luminance of the target over that of the source, minus 1
+  double squared_noise = 0.0;   // mean square sampling error of the difference, display values
 };
 
 struct EnvironmentsResult {
   std::vector<EnvironmentComparison> comparisons;  // sorted by alpha, pair, method, environment
-  std::vector<std::string> remarks;                // what was not compared, one sentence each
-  // One sheet for each environment if `sheet_alpha` is set, in display values: one row for each pair; the
-  // source, then the result of each method. Dark where a method does not apply to a pair.
+  // One labelled sheet for each environment if `sheet_alpha` is set, in display values: one row for each
+  // pair; the source, then the result of each method. Dark where a method does not apply to a pair.
   std::vector<Image> sheets;
-  // RMS sampling error of the difference of two compared pictures, percent of the display range. It adds to
-  // an RMSE in squares.
-  double noise = 0.0;
 };
 
-// Compares every pair, alpha, method and environment. Pairs without a fit have a remark in place of
-// comparisons of kShipped. Throws kUsage for unknown models, numbers out of range, empty lists and repeated
-// environment names, kNumeric if a fit cannot be lowered, and kInterrupted.
+// Compares every pair, alpha, method and environment. Pairs without a fit have no comparisons of kShipped.
+// Throws kUsage for unknown models, numbers out of range, empty lists and repeated environment names,
+// kNumeric if a fit cannot be lowered, and kInterrupted.
 EnvironmentsResult study_environments(const EnvironmentsOptions& options);
 
-// Means over the comparisons; `energy` is the mean of the absolute values.
-PictureSimilarity mean_similarity(const std::vector<const EnvironmentComparison*>& comparisons);
-
-// The comparisons of one method, over all pairs or of the pair with index `pair`.
-inline constexpr std::size_t kAllPairs = static_cast<std::size_t>(-1);
-std::vector<const EnvironmentComparison*> comparisons_of(const EnvironmentsResult& result, Method method,
-                                                         std::size_t pair = kAllPairs);
+// A row for each comparison. The comments are the settings and the sampling noise: the RMS error of the
+// difference of two compared pictures, which adds to an RMSE in squares.
+std::string environments_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result);
 
 }  // namespace remap

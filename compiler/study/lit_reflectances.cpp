@@ -92,27 +92,26 @@ class MetallicSearch {
   }
 
  private:
-  // Sums over the pixels of a strip: the squared error and its derivatives for Newton's method.
-  struct Sums {
-    double square = 0.0, slope = 0.0, bend = 0.0;
-  };
-  Sums sums_of(const Strip& strip, double metallic, double albedo) const {
+  // Returns the sum of squared errors over the pixels of a strip, and adds its derivatives for Newton's
+  // method.
+  double squared_error(const Strip& strip, double metallic, double albedo, double* slope_sum,
+                       double* bend_sum) const {
     const double n = 1.0 - metallic;
     const auto by_diffuse = static_cast<float>(reflection_.diffuse_of_albedo * n);
     const auto by_slope = static_cast<float>(metallic);
     const auto base = static_cast<float>(reflection_.dielectric_f0 * n), a = static_cast<float>(albedo);
     const DisplayCurve& curve = display_curve();
-    Sums sums;
+    double square = 0.0;
     for (std::size_t i = 0; i < strip.source.size(); ++i) {
       const float growth = by_diffuse * strip.diffuse[i] + by_slope * strip.slope[i];
       const auto [value, slope] = curve(strip.dark[i] + base * strip.slope[i] + a * growth);
       const auto error = static_cast<double>(value - strip.source[i]);
       const auto change = static_cast<double>(slope * growth);
-      sums.square += error * error;
-      sums.slope += error * change;
-      sums.bend += change * change;
+      square += error * error;
+      *slope_sum += error * change;
+      *bend_sum += change * change;
     }
-    return sums;
+    return square;
   }
 
   // Returns the least mean RMSE at one metallic, and sets `best` if it is the least so far. Each step of
@@ -121,22 +120,21 @@ class MetallicSearch {
     Rgb albedo = start;
     double least = 1e300;
     const std::size_t lights = strips_.size() / 3;
-    std::vector<std::array<Sums, 3>> sums(lights);
     for (int step = 0; step <= kNewtonSteps; ++step) {
       double mean = 0.0;
       std::array<double, 3> slope{}, bend{};
       for (std::size_t light = 0; light < lights; ++light) {
         double square = 0.0;
-        for (std::size_t c = 0; c < 3; ++c) {
-          sums[light][c] = sums_of(strips_[3 * light + c], metallic, albedo[c]);
-          square += sums[light][c].square;
-        }
+        std::array<double, 3> light_slope{}, light_bend{};
+        for (std::size_t c = 0; c < 3; ++c)
+          square +=
+              squared_error(strips_[3 * light + c], metallic, albedo[c], &light_slope[c], &light_bend[c]);
         const double count = 3.0 * static_cast<double>(strips_[3 * light].source.size());
         const double rmse = std::sqrt(square / count);
         mean += rmse / static_cast<double>(lights);
         for (std::size_t c = 0; c < 3; ++c) {
-          slope[c] += sums[light][c].slope / (rmse + 1e-6);
-          bend[c] += sums[light][c].bend / (rmse + 1e-6);
+          slope[c] += light_slope[c] / (rmse + 1e-6);
+          bend[c] += light_bend[c] / (rmse + 1e-6);
         }
       }
       if (mean < least_) {

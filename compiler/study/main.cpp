@@ -6,7 +6,8 @@
 
 int main(int argc, char** argv) {
   remap::Command app(
-      "Measure the accuracy of the converters. Each study prints a summary and writes tables and plots.",
+      "Measure the accuracy of the converters. Each study prints its comparisons as CSV, from which "
+      "scripts/studies/summarize makes tables and plots.",
       "remap-study");
   app.set_version_flag("--version", remap::version_text("remap-study", REMAP_LIBRARIES));
   app.require_subcommand(1);

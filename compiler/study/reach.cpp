@@ -14,6 +14,8 @@
 #include "measure/picture_taker.hpp"
 #include "measure/polynomial.hpp"
 #include "measure/sweep.hpp"
+#include "remap/version.hpp"
+#include "table/csv.hpp"
 #include "table/light.hpp"
 
 namespace remap {
@@ -56,7 +58,8 @@ class TargetWidths {
     for (double alpha = target_.model.alpha.max; alpha > least; alpha /= kAlphaRatio)
       alphas_.push_back(alpha);
     alphas_.push_back(least);
-    slots_.resize(alphas_.size());
+    pictures_.resize(alphas_.size());
+    are_rendered_ = std::deque<std::once_flag>(alphas_.size());
   }
 
   std::size_t size() const { return alphas_.size(); }
@@ -64,19 +67,16 @@ class TargetWidths {
   const ProbedModel& target() const { return target_; }
   // Renders them when they are first asked for.
   const std::vector<std::vector<float>>& pictures(std::size_t i) const {
-    std::call_once(slots_[i].once, [&] { slots_[i].pictures = take_family(taker_, target_, alphas_[i]); });
-    return slots_[i].pictures;
+    std::call_once(are_rendered_[i], [&] { pictures_[i] = take_family(taker_, target_, alphas_[i]); });
+    return pictures_[i];
   }
 
  private:
-  struct Slot {
-    std::once_flag once;
-    std::vector<std::vector<float>> pictures;
-  };
   const PictureTaker& taker_;
   ProbedModel target_;
   std::vector<double> alphas_;
-  mutable std::deque<Slot> slots_;
+  mutable std::vector<std::vector<std::vector<float>>> pictures_;  // of each width
+  mutable std::deque<std::once_flag> are_rendered_;
 };
 
 // The difference of a source picture from those of a target whose specular is free.
@@ -88,11 +88,9 @@ class Comparison {
         power_(product(source, source)),
         error_factor_(error_factor) {}
 
-  struct Best {
-    double specular = 0.0, error = 0.0;
-  };
-  // The best specular of a width: its loss is a polynomial.
-  Best best(const std::vector<std::vector<float>>& pictures, const SpecularFamily& family) const {
+  // The best specular of a width and its error: the loss is a polynomial.
+  std::pair<double, double> best(const std::vector<std::vector<float>>& pictures,
+                                 const SpecularFamily& family) const {
     std::vector<double> loss = {power_};
     const auto add = [&](double factor, const std::vector<double>& polynomial) {
       loss.resize(std::max(loss.size(), polynomial.size()));
@@ -138,7 +136,7 @@ void find_least(const Comparison& comparison, const TargetWidths& target, Reache
   const SpecularFamily family = target.target().family().value();
   std::vector<double> errors(count, INFINITY);
   const auto look_at = [&](std::size_t i) {
-    if (std::isinf(errors[i])) errors[i] = comparison.best(target.pictures(i), family).error;
+    if (std::isinf(errors[i])) errors[i] = comparison.best(target.pictures(i), family).second;
     return errors[i];
   };
   std::vector<std::size_t> coarse;
@@ -151,7 +149,7 @@ void find_least(const Comparison& comparison, const TargetWidths& target, Reache
   }
   const auto best = static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin());
   material->least_alpha = target.alpha(best);
-  material->least_specular = comparison.best(target.pictures(best), family).specular;
+  material->least_specular = comparison.best(target.pictures(best), family).first;
   material->least_error = best == 0 || best + 1 == count
                               ? errors[best]
                               : least_between(errors[best - 1], errors[best], errors[best + 1]);
@@ -212,18 +210,8 @@ class FitStudy {
 
 std::size_t progress_steps(const ReachOptions& options) { return options.fits.size() * options.materials; }
 
-double FitReach::mean_excess() const {
-  double sum = 0.0;
-  for (const ReachedMaterial& material : materials) sum += material.excess();
-  return sum / static_cast<double>(materials.size());
-}
-
-const ReachedMaterial& FitReach::worst() const {
-  return *std::ranges::max_element(materials, {}, &ReachedMaterial::excess);
-}
-
-std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& options) {
-  std::vector<FitReach> all;
+std::vector<std::vector<ReachedMaterial>> study_reach(const Renderer& renderer, const ReachOptions& options) {
+  std::vector<std::vector<ReachedMaterial>> all(options.fits.size());
   for (std::size_t f = 0; f < options.fits.size(); ++f) {
     const FitStudy study(renderer, f, options);
     std::vector<std::vector<ReachedMaterial>> rows(options.materials);
@@ -233,11 +221,20 @@ std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& 
       rows[row] = study.materials(row);
       if (options.progress) options.progress();
     });
-    FitReach reach{f, {}};
-    for (const auto& row : rows) reach.materials.insert(reach.materials.end(), row.begin(), row.end());
-    all.push_back(std::move(reach));
+    for (const auto& row : rows) all[f].insert(all[f].end(), row.begin(), row.end());
   }
   return all;
+}
+
+std::string reach_csv(const ReachOptions& options, const std::vector<std::vector<ReachedMaterial>>& result) {
+  CsvText csv(
+      "fit,alpha,specular,target_alpha,target_specular,error,least_alpha,least_specular,least_error",
+      {{"tool", std::string("remap-study ") + kVersion}, {"resolution", std::to_string(options.resolution)}});
+  for (std::size_t f = 0; f < result.size(); ++f)
+    for (const ReachedMaterial& m : result[f])
+      csv.add_row(options.fits[f].id, m.alpha, m.specular, m.target_alpha, m.target_specular, m.error,
+                  m.least_alpha, m.least_specular, m.least_error);
+  return csv.text();
 }
 
 }  // namespace remap

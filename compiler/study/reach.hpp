@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "lower/fit.hpp"
@@ -35,17 +36,14 @@ struct ReachedMaterial {
   double excess() const { return error - least_error; }
 };
 
-struct FitReach {
-  std::size_t fit = 0;  // index into ReachOptions::fits
-  std::vector<ReachedMaterial> materials;
-  double mean_excess() const;
-  const ReachedMaterial& worst() const;  // of the largest excess
-};
-
 // Renders every material, its conversion (by the interpreter, with the domain rule), and the target at widths
 // a hundredth apart, each at its best specular in closed form. No search of a sweep takes part. Throws kUsage
 // for models that the renderer does not have, kInput for a fit whose table does not name its objective and
 // for a target without a family (specular_response.hpp), and kInterrupted.
-std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& options);
+// Returns the materials of each fit.
+std::vector<std::vector<ReachedMaterial>> study_reach(const Renderer& renderer, const ReachOptions& options);
+
+// A row for each material, by fits in their order.
+std::string reach_csv(const ReachOptions& options, const std::vector<std::vector<ReachedMaterial>>& result);
 
 }  // namespace remap

@@ -3,7 +3,7 @@
 
 #include "build/fit_folder.hpp"
 #include "remap/error.hpp"
-#include "study/environments_report.hpp"
+#include "study/environments.hpp"
 #include "study/studies.hpp"
 #include "study/study_options.hpp"
 
@@ -14,9 +14,7 @@ struct EnvironmentsCommand {
   std::vector<std::string> pairs;  // SOURCE:TARGET; empty: the six of default_pairs()
   bool plain = false;
   EnvironmentsOptions study;
-  EnvironmentOptions environments;
-  std::filesystem::path fit_folder;  // empty: the default, if it is there
-  OutputOptions output;
+  StudyOptions shared;
 };
 
 StudyPair parse_pair(const std::string& text) {
@@ -26,7 +24,7 @@ StudyPair parse_pair(const std::string& text) {
   return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
-// The variant of a microfacet model with constant reflectance in place of Fresnel. Ward has no Fresnel term.
+// The variant of a microfacet model with constant reflectance instead of Fresnel. Ward has no Fresnel term.
 std::string plain_model(const std::string& name) {
   return name.find("ward") == std::string::npos ? name + "-plain" : name;
 }
@@ -46,19 +44,18 @@ EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
   options.pairs = chosen_pairs(command);
   std::sort(options.alphas.begin(), options.alphas.end());
   options.alphas.erase(std::unique(options.alphas.begin(), options.alphas.end()), options.alphas.end());
-  options.environments = read_environments(command.environments);
-  if (const auto folder = fit_folder_of(command.fit_folder); !folder.empty())
-    options.fits = load_fits(folder);
-  require_folder_for_pictures(command.output);
-  if (command.output.pictures && !options.alphas.empty())
+  options.environments = read_environments(command.shared);
+  if (const auto folder = fit_folder_of(command.shared); !folder.empty()) options.fits = load_fits(folder);
+  if (command.shared.pictures && !options.alphas.empty())
     options.sheet_alpha = options.alphas[options.alphas.size() / 2];
   return options;
 }
 
 void run(const EnvironmentsCommand& command) {
   EnvironmentsOptions options = study_options(command);
-  const EnvironmentsResult result = run_study("environments", options, command.output, study_environments);
-  show_report(command.output, environments_report(options, result));
+  const EnvironmentsResult result = run_study("environments", options, command.shared, study_environments);
+  write_results(command.shared, "environments", environments_csv(options, result));
+  write_sheets(command.shared, "spheres", options.environments, result.sheets);
 }
 
 void add_options(Command& app, EnvironmentsCommand& command) {
@@ -70,18 +67,18 @@ void add_options(Command& app, EnvironmentsCommand& command) {
   app.add_option("--alphas", study.alphas, "Source alphas, comma-separated")->delimiter(',');
   app.add_option("--specular", study.specular, "Specular reflectance of the source, linear");
   app.add_option("--diffuse", study.diffuse, "Diffuse reflectance of source and target, linear");
-  add_environment_options(app, command.environments);
+  add_environment_options(app, command.shared);
   app.add_flag("--least-error", study.least_error,
                "Also search for the parameters of least mean RMSE under these environments (`best`)");
   add_sampling_options(app, study);
-  app.add_option("--fits", command.fit_folder,
+  app.add_option("--fits FOLDER", command.shared.fit_folder,
                  "Folder of the fits for the method `shipped`; default: fits, or the installed ones");
   add_output_options(
-      app, command.output, study.jobs,
-      {"Write environments.csv, environments_summary.csv and environments.svg (needs gnuplot) to this folder",
-       "Also write spheres_<environment>.png at the middle alpha: one row for each pair; columns source, "
-       "copy, paper, natural-1, natural-2, shipped, best",
-       "Results do not depend on it", "Print the means as JSON"});
+      app, command.shared, study.jobs,
+      "Write environments.csv to this folder, its settings to environments.csv.json, instead of printing "
+      "both",
+      "Also write spheres_<environment>.png at the middle alpha: one row for each pair; columns source, "
+      "copy, paper, natural-1, natural-2, shipped, best");
 }
 
 }  // namespace
@@ -95,7 +92,7 @@ void add_environments_study(Command& study) {
   add_options(*command, options);
   command->footer(
       "Example:\n  remap-study environments --environment forest.exr --environment studio.exr \\\n    -o "
-      "study");
+      "study && scripts/studies/summarize study");
 }
 
 }  // namespace remap

@@ -5,31 +5,43 @@
 #include <utility>
 
 #include "build/fit_folder.hpp"
-#include "command_line/run_app.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
-#include "report/gnuplot.hpp"
 #include "table/table_file.hpp"
 
 namespace remap {
 
-void add_environment_options(Command& app, EnvironmentOptions& options) {
+void add_environment_options(Command& app, StudyOptions& options) {
   app.add_option(
-         "--environment", options.files,
+         "--environment", options.environments,
          "Environment map in latitude and longitude (HDR, EXR), repeatable; default: built-in clear sky, "
          "overcast sky and studio")
       ->allow_extra_args(false);
   app.add_option("--exposure", options.exposure, "Scale every environment to this mean luminance");
 }
 
-std::vector<Environment> read_environments(const EnvironmentOptions& options) {
+void add_sampling_options(Command& app, SphereSampling& sampling) {
+  app.add_option("--resolution", sampling.resolution, "Width and height of the pictures in pixels");
+  app.add_option("--samples", sampling.samples, "Light directions per pixel");
+}
+
+void add_output_options(Command& app, StudyOptions& options, unsigned& jobs, const std::string& folder_text,
+                        const std::string& pictures_text) {
+  app.add_option("-o,--output FOLDER", options.folder, folder_text);
+  if (!pictures_text.empty()) app.add_flag("--pictures", options.pictures, pictures_text);
+  app.add_flag("--force", options.force, "Overwrite results that exist");
+  app.add_option("--jobs", jobs, "Number of threads; 0: one per core. Results do not depend on it");
+  app.add_flag("--quiet", options.quiet, "Do not show progress");
+}
+
+std::vector<Environment> read_environments(const StudyOptions& options) {
   if (!(options.exposure > 0.0))
     throw Error(ErrorKind::kUsage,
                 "--exposure: " + number_text(options.exposure) + " is out of range (must be above 0)");
   std::vector<Environment> environments;
-  for (const auto& path : options.files) environments.push_back(load_environment(path));
+  for (const auto& path : options.environments) environments.push_back(load_environment(path));
   if (environments.empty()) environments = builtin_environments();
   for (Environment& environment : environments) {
     const double exposure = options.exposure / mean_luminance(environment);
@@ -38,32 +50,15 @@ std::vector<Environment> read_environments(const EnvironmentOptions& options) {
   return environments;
 }
 
-void add_sampling_options(Command& app, SphereSampling& sampling) {
-  app.add_option("--resolution", sampling.resolution, "Width and height of the pictures in pixels");
-  app.add_option("--samples", sampling.samples, "Light directions per pixel");
-}
-
-void add_output_options(Command& app, OutputOptions& options, unsigned& jobs, const OutputTexts& texts) {
-  app.add_option("-o,--output", options.folder, texts.folder);
-  app.add_flag("--pictures", options.pictures, texts.pictures);
-  app.add_flag("--force", options.force, "Overwrite results that exist");
-  app.add_option("--jobs", jobs, "Number of threads; 0: one per core. " + texts.jobs);
-  app.add_flag("--json", options.json, texts.json);
-  app.add_flag("--quiet", options.quiet, "Do not show progress");
-}
-
-std::filesystem::path fit_folder_of(const std::filesystem::path& given) {
-  if (!given.empty()) return given;
+std::filesystem::path fit_folder_of(const StudyOptions& options) {
+  if (!options.fit_folder.empty()) return options.fit_folder;
   const std::filesystem::path usual = default_fit_folder();
   return std::filesystem::is_directory(usual) ? usual : std::filesystem::path();
 }
 
-void require_folder_for_pictures(const OutputOptions& options) {
+void prepare_folder(const StudyOptions& options, const std::string& name) {
   if (options.pictures && options.folder.empty())
     throw Error(ErrorKind::kUsage, "--pictures requires -o FOLDER");
-}
-
-void prepare_folder(const OutputOptions& options, const std::string& name) {
   if (options.folder.empty()) return;
   create_parent(options.folder / "results");
   std::set<std::filesystem::path> found;
@@ -75,28 +70,17 @@ void prepare_folder(const OutputOptions& options, const std::string& name) {
   for (const std::filesystem::path& path : found) require_new(path, options.force);
 }
 
-std::vector<std::string> write_report(const OutputOptions& options, const StudyReport& report) {
-  std::vector<std::string> names;
-  for (const auto& [name, text] : report.tables) {
-    write_plain_table(options.folder / name, text);
-    names.push_back(name);
-  }
-  for (const auto& [name, sheet] : report.sheets) {
-    write_png(options.folder / name, sheet);
-    names.push_back(name);
-  }
-  for (const auto& [name, script] : report.plots) try {
-      write_drawing(options.folder / name, script);
-      names.push_back(name);
-    } catch (const Error& error) {
-      print_message("remap-study", "warning: " + name + " was not drawn: " + error.what());
-    }
-  return names;
+void write_results(const StudyOptions& options, const std::string& name, const std::string& table) {
+  if (options.folder.empty())
+    std::cout << table;
+  else
+    write_plain_table(options.folder / (name + ".csv"), table);
 }
 
-void show_report(const OutputOptions& options, const StudyReport& report) {
-  if (!options.folder.empty()) write_report(options, report);
-  std::cout << (options.json ? report.figures.dump(2) + "\n" : report.summary);
+void write_sheets(const StudyOptions& options, const std::string& prefix,
+                  const std::vector<Environment>& environments, const std::vector<Image>& sheets) {
+  for (std::size_t e = 0; e < sheets.size(); ++e)
+    write_png(options.folder / (prefix + "_" + environments[e].name + ".png"), sheets[e]);
 }
 
 }  // namespace remap

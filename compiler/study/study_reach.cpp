@@ -4,7 +4,7 @@
 
 #include "build/fit_folder.hpp"
 #include "core/errors.hpp"
-#include "study/reach_report.hpp"
+#include "study/reach.hpp"
 #include "study/studies.hpp"
 #include "study/study_options.hpp"
 #include "table/table.hpp"
@@ -15,10 +15,9 @@ namespace {
 
 struct ReachCommand {
   std::vector<std::string> ids;
-  std::filesystem::path fit_folder;
   ReachOptions study;
   bool records = false;
-  OutputOptions output;
+  StudyOptions shared;
   RendererOptions renderers;
 };
 
@@ -30,7 +29,7 @@ Range sampled_speculars(const std::filesystem::path& table) {
   return {least->specular1, most->specular1};
 }
 
-// The fits that were asked for, else all between models of the built-in renderer that were matched by
+// The fits that were asked for, otherwise all between models of the built-in renderer that were matched by
 // pictures.
 std::vector<Fit> chosen_fits(const ReachCommand& command, const std::filesystem::path& folder) {
   std::vector<Fit> chosen;
@@ -46,14 +45,16 @@ std::vector<Fit> chosen_fits(const ReachCommand& command, const std::filesystem:
 }
 
 void record(const std::filesystem::path& folder, const ReachOptions& options,
-            const std::vector<FitReach>& result) {
+            const std::vector<std::vector<ReachedMaterial>>& result) {
   ReachRecords records = read_reach(folder);
-  for (const FitReach& reach : result) {
-    const std::string& id = options.fits[reach.fit].id;
-    const ReachedMaterial& worst = reach.worst();
+  for (std::size_t f = 0; f < result.size(); ++f) {
+    const std::string& id = options.fits[f].id;
+    const ReachedMaterial& worst = *std::ranges::max_element(result[f], {}, &ReachedMaterial::excess);
+    double sum = 0.0;
+    for (const ReachedMaterial& material : result[f]) sum += material.excess();
     records[id] = {file_sha256(folder / (id + ".json")),
-                   reach.materials.size(),
-                   reach.mean_excess(),
+                   result[f].size(),
+                   sum / static_cast<double>(result[f].size()),
                    worst.excess(),
                    worst.alpha,
                    worst.specular};
@@ -63,17 +64,17 @@ void record(const std::filesystem::path& folder, const ReachOptions& options,
 
 void run(const ReachCommand& command) {
   ReachOptions options = command.study;
-  const std::filesystem::path folder = fit_folder_of(command.fit_folder);
+  const std::filesystem::path folder = fit_folder_of(command.shared);
   if (folder.empty()) throw usage_error("--fits: no folder `fits` here (give --fits FOLDER)");
   options.fits = chosen_fits(command, folder);
   for (const Fit& fit : options.fits)
     options.speculars.push_back(sampled_speculars(folder / "tables" / (fit.id + ".csv")));
   const std::unique_ptr<RendererSet> renderer = make_renderers(command.renderers);
-  const std::vector<FitReach> result =
-      run_study("reach", options, command.output,
+  const std::vector<std::vector<ReachedMaterial>> result =
+      run_study("reach", options, command.shared,
                 [&](const ReachOptions& study) { return study_reach(*renderer, study); });
   if (command.records) record(folder, options, result);
-  show_report(command.output, reach_report(options, result));
+  write_results(command.shared, "reach", reach_csv(options, result));
 }
 
 }  // namespace
@@ -84,21 +85,22 @@ void add_reach_study(Command& app) {
       "Compare converted materials with the best that the target can do, over the whole range of the source");
   ReachCommand& options = set_work<ReachCommand>(*command, run);
   command->add_option("ID", options.ids, "Fits; default: all of the folder between Mitsuba models");
-  command->add_option("--fits", options.fit_folder,
+  command->add_option("--fits FOLDER", options.shared.fit_folder,
                       "Folder of the fits; default: fits, or the installed ones");
   command->add_flag(
       "--record", options.records,
-      "Also write the figures to reach.csv in the folder of fits, from which remapc build reports them");
+      "Also write the mean and the largest excess to reach.csv in the folder of fits, for remapc build");
   command->add_option("--materials", options.study.materials, "Source alphas, and speculars of each")
       ->range(2, 256);
   command->add_option("--resolution", options.study.resolution, "Width and height of the pictures in pixels")
       ->range(16, 1024);
-  add_output_options(*command, options.output, options.study.jobs,
-                     {"Write reach.csv, a row for each material, to this folder", "",
-                      "Number of threads; 0: one per core. Results do not depend on it",
-                      "Print the figures of each fit as JSON"});
+  add_output_options(
+      *command, options.shared, options.study.jobs,
+      "Write reach.csv to this folder, its settings to reach.csv.json, instead of printing both");
   add_renderer_options(*command, options.renderers);
-  command->footer("Example:\n  remap-study reach mitsuba_as_to_mitsuba_ward --materials 16");
+  command->footer(
+      "Example:\n  remap-study reach mitsuba_as_to_mitsuba_ward --materials 16 \\\n    | "
+      "scripts/studies/summarize");
 }
 
 }  // namespace remap

@@ -3,19 +3,27 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
+#include "core/report_text.hpp"
 #include "remap/error.hpp"
+#include "remap/version.hpp"
 #include "renderer/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
+#include "report/sheet_labels.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 namespace {
 
-constexpr double kWorstShare = 0.05;
 constexpr std::size_t kSheetRowsAGroup = 2;
+constexpr double kLeastAlpha = 0.01;
+constexpr const char* kHeadlight = "headlight";  // as a light of the table
+constexpr const char* kColumns[] = {"material",  "group", "alpha", "diffuse_r", "diffuse_g",
+                                    "diffuse_b", "f0_r",  "f0_g",  "f0_b"};
 
 WorkflowConversion conversion_by(WorkflowFormula formula, double f0, DiffuseConvention diffuse) {
   WorkflowConversion conversion;
@@ -53,33 +61,17 @@ MetallicSurface converted(const WorkflowMethod& method, const Reflectances& surf
   return metallic;
 }
 
-// The maps have the same values in both conventions. In the glTF convention, diffuse is scaled by
-// 1 - max(specular).
+// In the glTF convention, diffuse is scaled by 1 - max(specular).
 Reflectances scaled_surface(Reflectances surface) {
   const double left = 1.0 - std::max({surface.f0[0], surface.f0[1], surface.f0[2]});
   for (double& diffuse : surface.diffuse) diffuse *= left;
   return surface;
 }
 
-// One convention and its methods.
-struct WorkflowRun {
-  std::string convention;
-  bool scaled = false;
-  std::vector<WorkflowMethod> methods;
-  MetallicReflection least_error;
-};
-
-// The rendering that all materials of a run share.
-struct Studio {
-  const WorkflowsOptions& options;
-  const LitReflectances& lit;
-
-  DisplayedSphere picture(const StudyMaterial& material, std::size_t light,
-                          const Reflectances& surface) const {
-    return displayed_sphere(lit.radiance(material.alpha, light, surface), lit.pixels(), lit.resolution());
-  }
-  std::size_t light_count() const { return lit.environment_count() + 1; }
-};
+DisplayedSphere picture(const LitReflectances& lit, const StudyMaterial& material, std::size_t light,
+                        const Reflectances& surface) {
+  return displayed_sphere(lit.radiance(material.alpha, light, surface), lit.pixels(), lit.resolution());
+}
 
 double mean_rmse(const WorkflowPictures& pictures, std::size_t environment_count) {
   double sum = 0.0;
@@ -87,80 +79,92 @@ double mean_rmse(const WorkflowPictures& pictures, std::size_t environment_count
   return sum / static_cast<double>(environment_count);
 }
 
-// Compares one material with the results of every method and with the least-error surface.
-std::vector<WorkflowPictures> compared(const Studio& studio, const WorkflowRun& run,
-                                       const StudyMaterial& material) {
-  const Reflectances& maps = material.surface;
-  const Reflectances shown = run.scaled ? scaled_surface(maps) : maps;
-  const double alpha = studio.options.alphas[material.alpha];
+// Compares one material with the results of `methods`, of which the last is the least error.
+std::vector<WorkflowPictures> compared(const LitReflectances& lit, const std::vector<WorkflowMethod>& methods,
+                                       const StudyMaterial& material, const Reflectances& shown,
+                                       double alpha) {
   std::vector<WorkflowPictures> all;
   std::vector<Reflectances> results;
-  for (const WorkflowMethod& method : run.methods) {
-    all.push_back({converted(method, maps, alpha), {}, {}});
-    results.push_back(reflectances_of(all.back().surface, method.reflection));
+  const MetallicReflection& least_error = methods.back().reflection;
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const bool is_searched = m + 1 == methods.size();
+    all.push_back({is_searched ? best_metallic(lit, material.alpha, shown, least_error)
+                               : converted(methods[m], material.surface, alpha),
+                   {},
+                   {}});
+    results.push_back(reflectances_of(all.back().surface, methods[m].reflection));
   }
-  all.push_back({best_metallic(studio.lit, material.alpha, shown, run.least_error), {}, {}});
-  results.push_back(reflectances_of(all.back().surface, run.least_error));
-  for (std::size_t light = 0; light < studio.light_count(); ++light) {
-    const DisplayedSphere source = studio.picture(material, light, shown);
+  for (std::size_t light = 0; light <= lit.headlight(); ++light) {
+    const DisplayedSphere source = picture(lit, material, light, shown);
     for (std::size_t m = 0; m < all.size(); ++m) {
-      const DisplayedSphere target = studio.picture(material, light, results[m]);
+      const DisplayedSphere target = picture(lit, material, light, results[m]);
       all[m].rmse.push_back(100.0 * rms_difference(source.colors, target.colors));
-      all[m].ssim.push_back(sphere_similarity(source, target, studio.lit.pixels(), studio.lit.resolution()));
+      all[m].ssim.push_back(sphere_similarity(source, target, lit.pixels(), lit.resolution()));
     }
   }
-  const std::size_t environments = studio.lit.environment_count();
+  const std::size_t environments = lit.environment_count();
   for (std::size_t m = 0; m + 1 < all.size(); ++m)
-    if (run.methods[m].reflection.dielectric_f0 == run.least_error.dielectric_f0 &&
+    if (methods[m].reflection.dielectric_f0 == least_error.dielectric_f0 &&
         mean_rmse(all[m], environments) < mean_rmse(all.back(), environments))
       all.back() = all[m];
   return all;
 }
 
-WorkflowComparison comparison_of(const Studio& studio, const WorkflowRun& run) {
-  WorkflowComparison comparison{run.convention, {}, {}};
-  for (const WorkflowMethod& method : run.methods) comparison.methods.push_back(method.name);
-  comparison.methods.push_back(kLeastErrorMethod);
-  const std::vector<StudyMaterial>& materials = studio.options.materials;
+WorkflowComparison comparison_of(const WorkflowsOptions& options, const LitReflectances& lit,
+                                 DiffuseConvention diffuse) {
+  const bool is_scaled = diffuse == DiffuseConvention::kScaled;
+  WorkflowComparison comparison{
+      is_scaled ? "gltf" : "plain", is_scaled ? gltf_methods() : plain_methods(options.learned), {}};
+  comparison.methods.push_back(
+      method_of(kLeastErrorMethod, conversion_by(Projection{kCleanPrior}, kCommonDielectricF0, diffuse)));
+  const std::vector<StudyMaterial>& materials = options.materials;
   comparison.pictures.assign(comparison.methods.size(), std::vector<WorkflowPictures>(materials.size()));
-  run_parallel(materials.size(), studio.options.jobs, [&](std::size_t i) {
-    if (studio.options.cancelled != nullptr && *studio.options.cancelled)
+  run_parallel(materials.size(), options.jobs, [&](std::size_t i) {
+    if (options.cancelled != nullptr && *options.cancelled)
       throw Error(ErrorKind::kInterrupted, "study: interrupted; nothing was written");
-    std::vector<WorkflowPictures> all = compared(studio, run, materials[i]);
+    // The maps have the same values in both conventions.
+    const Reflectances shown = is_scaled ? scaled_surface(materials[i].surface) : materials[i].surface;
+    std::vector<WorkflowPictures> all =
+        compared(lit, comparison.methods, materials[i], shown, options.alphas[materials[i].alpha]);
     for (std::size_t m = 0; m < all.size(); ++m) comparison.pictures[m][i] = std::move(all[m]);
-    if (studio.options.progress) studio.options.progress();
+    if (options.progress) options.progress();
   });
   return comparison;
 }
 
 // Indices of the first materials of each group.
 std::vector<std::size_t> sheet_rows(const std::vector<StudyMaterial>& materials) {
-  std::vector<std::size_t> rows, counts(kMaterialGroups);
+  std::vector<std::size_t> rows;
+  std::map<std::string, std::size_t> counts;
   for (std::size_t i = 0; i < materials.size(); ++i)
-    if (counts[static_cast<std::size_t>(materials[i].group)]++ < kSheetRowsAGroup) rows.push_back(i);
+    if (counts[materials[i].group]++ < kSheetRowsAGroup) rows.push_back(i);
   return rows;
 }
 
-void add_sheets(const Studio& studio, const WorkflowRun& run, const WorkflowComparison& comparison,
-                WorkflowsResult* result) {
-  const std::vector<StudyMaterial>& materials = studio.options.materials;
+std::vector<Image> sheets_of(const WorkflowsOptions& options, const LitReflectances& lit,
+                             const WorkflowComparison& comparison) {
+  const std::vector<StudyMaterial>& materials = options.materials;
   const std::vector<std::size_t> rows = sheet_rows(materials);
-  for (const std::size_t row : rows) result->sheet_materials.push_back(materials[row].name);
-  const int side = studio.lit.resolution();
-  for (std::size_t light = 0; light < studio.lit.environment_count(); ++light) {
-    Image sheet = contact_sheet(rows.size(), 1 + comparison.methods.size(), side);
+  SheetLabels labels{{"source"}, {}};
+  for (const WorkflowMethod& method : comparison.methods) labels.columns.push_back(method.name);
+  for (const std::size_t row : rows) labels.rows.push_back(materials[row].name);
+  const int side = lit.resolution();
+  std::vector<Image> sheets;
+  for (std::size_t light = 0; light < lit.environment_count(); ++light) {
+    Image sheet = contact_sheet(rows.size(), labels.columns.size(), side);
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto place = [&](std::size_t column, const Reflectances& surface) {
-        place_picture(&sheet, side, r, column, studio.lit.pixels(),
-                      studio.picture(materials[rows[r]], light, surface).colors);
+        place_picture(&sheet, side, r, column, lit.pixels(),
+                      picture(lit, materials[rows[r]], light, surface).colors);
       };
       place(0, materials[rows[r]].surface);
       for (std::size_t m = 0; m < comparison.methods.size(); ++m)
-        place(1 + m, reflectances_of(comparison.pictures[m][rows[r]].surface,
-                                     m < run.methods.size() ? run.methods[m].reflection : run.least_error));
+        place(1 + m,
+              reflectances_of(comparison.pictures[m][rows[r]].surface, comparison.methods[m].reflection));
     }
-    result->sheets.push_back(std::move(sheet));
+    sheets.push_back(labelled(sheet, labels));
   }
+  return sheets;
 }
 
 void require_options(const WorkflowsOptions& options) {
@@ -168,8 +172,12 @@ void require_options(const WorkflowsOptions& options) {
     throw Error(ErrorKind::kUsage,
                 "workflows: at least one material, one alpha and one environment are required");
   require_names_differ(options.environments);
+  for (const Environment& environment : options.environments)
+    if (environment.name == kHeadlight)
+      throw Error(ErrorKind::kUsage,
+                  "environment: the name headlight means the light at the camera (rename the file)");
   for (const double alpha : options.alphas)
-    if (!(alpha >= 0.01 && alpha <= 1.0))
+    if (!(alpha >= kLeastAlpha && alpha <= 1.0))
       throw Error(ErrorKind::kUsage, "alpha: " + number_text(alpha) + " is out of range (0.01 to 1)");
   for (const StudyMaterial& material : options.materials)
     if (material.alpha >= options.alphas.size())
@@ -195,28 +203,18 @@ MetallicMaterial drawn(FamilyKind kind, std::mt19937_64& generator) {
   return material;
 }
 
-// One tested method: `there` is equation (2); `back` is the conversion under test.
-struct FamilyTrip {
-  std::string name;
-  WorkflowConversion there, back;
-};
-
-FamilyTrip trip_of(const WorkflowMethod& method, const std::string& addition = "") {
-  FamilyTrip trip{method.name + addition, method.conversion, method.conversion};
-  trip.there.formula = Equation2{};
-  return trip;
-}
-
-FamilyErrors errors_of(const FamilyTrip& trip, FamilyKind kind, std::size_t count, std::uint64_t seed) {
+// Converts to the specular workflow by `there`, and back.
+RoundTripErrors round_trip(const WorkflowMethod& method, const WorkflowConversion& there, FamilyKind kind,
+                           std::size_t count, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   double metallic = 0.0, color = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const MetallicMaterial truth = drawn(kind, generator);
-    SpecularMaterial material = to_specular(trip.there, truth);
+    SpecularMaterial material = to_specular(there, truth);
     if (kind != FamilyKind::kExact)
       for (auto* channels : {&material.diffuse, &material.specular})
         for (float& channel : *channels) channel = stored(channel);
-    const MetallicMaterial result = to_metallic(trip.back, material);
+    const MetallicMaterial result = to_metallic(method.conversion, material);
     metallic += std::pow(static_cast<double>(result.metallic - truth.metallic), 2);
     for (std::size_t c = 0; c < 3; ++c)
       color += std::pow(static_cast<double>(display_value(static_cast<double>(result.base_color[c])) -
@@ -225,12 +223,12 @@ FamilyErrors errors_of(const FamilyTrip& trip, FamilyKind kind, std::size_t coun
                3.0;
   }
   const auto all = static_cast<double>(count);
-  return {std::sqrt(metallic / all), std::sqrt(color / all)};
+  return {method.name, kind, std::sqrt(metallic / all), std::sqrt(color / all)};
 }
 
 }  // namespace
 
-std::vector<WorkflowMethod> plain_methods(const std::vector<NamedConversion>& learned) {
+std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned) {
   using namespace remap;
   const auto plain = [](WorkflowFormula formula, double f0) {
     return conversion_by(std::move(formula), f0, DiffuseConvention::kPlain);
@@ -245,11 +243,11 @@ std::vector<WorkflowMethod> plain_methods(const std::vector<NamedConversion>& le
       method_of("Khronos", conversion_by(KhronosSolver{}, kCommonDielectricF0, DiffuseConvention::kScaled));
   khronos.reflection.diffuse_of_albedo = 1.0;
   methods.push_back(khronos);
-  for (const NamedConversion& network : learned) {
+  for (const WorkflowFit& network : learned) {
     WorkflowConversion conversion = network.conversion;
     if (conversion.specular.diffuse != DiffuseConvention::kPlain) continue;
     conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
-    methods.push_back(method_of(network.name, conversion));
+    methods.push_back(method_of(network.id, conversion));
   }
   methods.push_back(method_of("projection", plain(Projection{kCleanPrior}, kCommonDielectricF0)));
   return methods;
@@ -271,72 +269,107 @@ std::size_t progress_steps(const WorkflowsOptions& options) {
          2 * options.materials.size();
 }
 
+void read_materials(const std::string& text, const std::string& name, WorkflowsOptions* options) {
+  const Csv csv = parse_csv(text, name);
+  for (std::size_t c = 0; c < std::size(kColumns); ++c)
+    if (c >= csv.header.cells.size() || csv.header.cells[c].text != kColumns[c])
+      csv.fail(csv.header.number, 1,
+               std::string("the column ") + kColumns[c] +
+                   " is missing (scripts/studies/materials writes such files)");
+  for (const CsvLine& line : csv.lines) {
+    const auto number = [&](std::size_t c, double least) {
+      const double value = csv.number(line, line.cells[c], kColumns[c]);
+      if (!(value >= least && value <= 1.0))
+        csv.fail(line.number, line.cells[c].column,
+                 std::string(kColumns[c]) + ": " + number_text(value) + " is out of range (" +
+                     number_text(least) + " to 1)");
+      return value;
+    };
+    StudyMaterial material{std::string(line.cells[0].text), std::string(line.cells[1].text), {}, 0};
+    const double alpha = number(2, kLeastAlpha);
+    for (std::size_t c = 0; c < 3; ++c) {
+      material.surface.diffuse[c] = number(3 + c, 0.0);
+      material.surface.f0[c] = number(6 + c, 0.0);
+    }
+    const auto found = std::ranges::find(options->alphas, alpha);
+    material.alpha = static_cast<std::size_t>(found - options->alphas.begin());
+    if (found == options->alphas.end()) options->alphas.push_back(alpha);
+    options->materials.push_back(std::move(material));
+  }
+}
+
 WorkflowsResult study_workflows(const WorkflowsOptions& options) {
   require_options(options);
   const LitReflectances lit(options.environments, options.alphas, options);
-  const Studio studio{options, lit};
   WorkflowsResult result;
-  const WorkflowRun plain{"plain", false, plain_methods(options.learned), {kCommonDielectricF0, 1.0}};
-  const WorkflowRun gltf{"gltf", true, gltf_methods(), {kCommonDielectricF0, 1.0 - kCommonDielectricF0}};
-  result.comparisons.push_back(comparison_of(studio, plain));
-  result.comparisons.push_back(comparison_of(studio, gltf));
-  if (options.sheets) add_sheets(studio, plain, result.comparisons.front(), &result);
+  for (const DiffuseConvention diffuse : {DiffuseConvention::kPlain, DiffuseConvention::kScaled})
+    result.comparisons.push_back(comparison_of(options, lit, diffuse));
+  if (options.sheets) result.sheets = sheets_of(options, lit, result.comparisons.front());
   return result;
 }
 
-WorkflowFigures figures_of(const WorkflowsOptions& options, const WorkflowComparison& comparison,
-                           std::size_t method, std::optional<MaterialGroup> group) {
-  WorkflowFigures figures;
-  std::vector<double> similarities;
-  double materials = 0.0;
-  for (std::size_t i = 0; i < options.materials.size(); ++i) {
-    if (group && options.materials[i].group != *group) continue;
-    const WorkflowPictures& pictures = comparison.pictures[method][i];
-    const std::size_t environments = pictures.rmse.size() - 1;
-    figures.rmse += mean_rmse(pictures, environments);
-    similarities.insert(similarities.end(), pictures.ssim.begin(), pictures.ssim.end() - 1);
-    figures.headlight_rmse += pictures.rmse.back();
-    figures.headlight_ssim += pictures.ssim.back();
-    materials += 1.0;
-  }
-  if (materials == 0.0) return figures;
-  figures.rmse /= materials;
-  figures.headlight_rmse /= materials;
-  figures.headlight_ssim /= materials;
-  std::sort(similarities.begin(), similarities.end());
-  const auto worst = std::max<std::size_t>(
-      1, static_cast<std::size_t>(kWorstShare * static_cast<double>(similarities.size())));
-  for (std::size_t i = 0; i < similarities.size(); ++i) {
-    figures.ssim += similarities[i] / static_cast<double>(similarities.size());
-    if (i < worst) figures.worst_ssim += similarities[i] / static_cast<double>(worst);
-  }
-  return figures;
+std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult& result) {
+  CsvText csv(
+      "convention,material,group,alpha,diffuse_r,diffuse_g,diffuse_b,f0_r,f0_g,f0_b,method,base_color_r,"
+      "base_color_g,base_color_b,metallic,light,rmse_percent,ssim",
+      {{"tool", std::string("remap-study ") + kVersion},
+       {"resolution", std::to_string(options.resolution)},
+       {"samples", std::to_string(options.samples)},
+       {"environments", environment_names(options.environments)},
+       {"alphas", listed(options.alphas)}});
+  for (const WorkflowComparison& comparison : result.comparisons)
+    for (std::size_t i = 0; i < options.materials.size(); ++i)
+      for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
+        const StudyMaterial& material = options.materials[i];
+        const WorkflowPictures& pictures = comparison.pictures[m][i];
+        for (std::size_t light = 0; light < pictures.rmse.size(); ++light)
+          csv.add_row(
+              comparison.convention, material.name, material.group, options.alphas[material.alpha],
+              material.surface.diffuse, material.surface.f0, comparison.methods[m].name,
+              pictures.surface.base_color, pictures.surface.metallic,
+              light < options.environments.size() ? options.environments[light].name.c_str() : kHeadlight,
+              pictures.rmse[light], pictures.ssim[light]);
+      }
+  return csv.text();
 }
 
-std::string family_name(FamilyKind kind) {
+std::vector<RoundTripErrors> study_round_trips(const std::vector<WorkflowFit>& learned, std::size_t count,
+                                               std::uint64_t seed, unsigned jobs) {
+  if (count == 0) throw Error(ErrorKind::kUsage, "--family-count must be at least 1");
+  std::vector<WorkflowMethod> methods = plain_methods(learned);
+  std::vector<WorkflowConversion> there;  // by equation (2), for each method
+  for (WorkflowMethod& method : methods) {
+    WorkflowConversion& conversion = there.emplace_back(method.conversion);
+    if (!std::holds_alternative<KhronosSolver>(method.conversion.formula)) continue;
+    // The solver is also tested on maps of the other convention.
+    method.name += ", plain";
+    conversion.specular.diffuse = conversion.metallic.diffuse = DiffuseConvention::kPlain;
+  }
+  for (WorkflowMethod& method : gltf_methods()) {
+    there.push_back(method.conversion);
+    method.name += ", glTF";
+    methods.push_back(std::move(method));
+  }
+  for (WorkflowConversion& conversion : there) conversion.formula = Equation2{};
+  std::vector<RoundTripErrors> trips(methods.size() * kFamilyKinds);
+  run_parallel(trips.size(), jobs, [&](std::size_t i) {
+    const std::size_t method = i / kFamilyKinds;
+    trips[i] =
+        round_trip(methods[method], there[method], static_cast<FamilyKind>(i % kFamilyKinds), count, seed);
+  });
+  return trips;
+}
+
+std::string round_trips_csv(const std::vector<RoundTripErrors>& trips, std::size_t count,
+                            std::uint64_t seed) {
   constexpr std::array<const char*, kFamilyKinds> kNames = {"uniform, exact", "uniform, 8-bit",
                                                             "authored, 8-bit"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
-std::vector<FamilyLine> study_family(const std::vector<NamedConversion>& learned, std::size_t count,
-                                     std::uint64_t seed, unsigned jobs) {
-  if (count == 0) throw Error(ErrorKind::kUsage, "--family-count must be at least 1");
-  std::vector<FamilyTrip> trips;
-  for (const WorkflowMethod& method : plain_methods(learned)) {
-    const bool is_khronos = std::holds_alternative<KhronosSolver>(method.conversion.formula);
-    FamilyTrip& trip = trips.emplace_back(trip_of(method, is_khronos ? ", plain" : ""));
-    // The solver is also tested on maps of the other convention.
-    if (is_khronos) trip.there.specular.diffuse = trip.there.metallic.diffuse = DiffuseConvention::kPlain;
-  }
-  for (const WorkflowMethod& method : gltf_methods()) trips.push_back(trip_of(method, ", glTF"));
-  std::vector<FamilyLine> lines;
-  for (const FamilyTrip& trip : trips) lines.push_back({trip.name, {}});
-  run_parallel(lines.size() * kFamilyKinds, jobs, [&](std::size_t i) {
-    const std::size_t line = i / kFamilyKinds, kind = i % kFamilyKinds;
-    lines[line].errors[kind] = errors_of(trips[line], static_cast<FamilyKind>(kind), count, seed);
-  });
-  return lines;
+  CsvText csv("method,family,metallic_rms,base_color_rms", {{"tool", std::string("remap-study ") + kVersion},
+                                                            {"materials", std::to_string(count)},
+                                                            {"seed", std::to_string(seed)}});
+  for (const RoundTripErrors& trip : trips)
+    csv.add_row(trip.method, kNames[static_cast<std::size_t>(trip.family)], trip.metallic, trip.base_color);
+  return csv.text();
 }
 
 }  // namespace remap

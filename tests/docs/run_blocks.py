@@ -5,8 +5,8 @@
 
 A block fenced as `sh` must succeed. A block fenced as `sh no-test` or `console` is not run; the line above it must be
 an HTML comment that gives the reason, as in <!-- not tested: needs a network -->. Every relative link of the page must
-name a file. FOLDER is emptied; it then has the repository's generated/, examples/, runtime/, compiler/ as links, and
-fits/ as a copy, so that nothing in the repository changes. Exit code: 0 when all holds, 1 otherwise.
+name a file. FOLDER is emptied; it then has the repository's generated/, examples/, runtime/, compiler/, scripts/ as
+links, and fits/ as a copy, so that nothing in the repository changes. Exit code: 0 when all holds, 1 otherwise.
 """
 import os
 import pathlib
@@ -69,7 +69,7 @@ def check_links(page, outside):
 def prepare(folder, repository):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    for name in ("generated", "examples", "runtime", "compiler"):
+    for name in ("generated", "examples", "runtime", "compiler", "scripts"):
         (folder / name).symlink_to(repository / name)
     shutil.copytree(repository / "fits", folder / "fits")
 

@@ -1,25 +1,28 @@
 // The study of workflows on small pictures: the least error is below every method, the projection next to it,
-// and exact for materials that metallic can represent; measured materials if their files are available.
+// and exact for materials that metallic can represent.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
-#include "core/files.hpp"
+#include "core/read_file.hpp"
 #include "remap/error.hpp"
-#include "study/workflows_report.hpp"
-#include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
+#include "study/workflows.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
 
 namespace {
 
-WorkflowsOptions small_study(std::size_t group_count = 6) {
+// `count` of the 60 materials of `scripts/studies/materials --count 20 --alphas 0.15,0.5 --seed 3`, evenly
+// over its groups.
+WorkflowsOptions small_study(std::size_t count) {
   WorkflowsOptions options;
-  options.alphas = {0.15, 0.5};
-  options.materials = study_materials({{}, group_count, options.alphas.size(), 3}).materials;
+  const std::string file = REMAP_SOURCE_DIR "/tests/compiler/study/materials.csv";
+  read_materials(read_file(file), file, &options);
+  const std::vector<StudyMaterial> all = std::exchange(options.materials, {});
+  for (std::size_t i = 0; i < count; ++i) options.materials.push_back(all[i * all.size() / count]);
   options.environments = builtin_environments(64);
   for (Environment& environment : options.environments)
     environment = exposed(environment, 1.0 / mean_luminance(environment));
@@ -29,37 +32,43 @@ WorkflowsOptions small_study(std::size_t group_count = 6) {
 }
 
 std::size_t place_of(const WorkflowComparison& comparison, const std::string& method) {
-  const auto found = std::find(comparison.methods.begin(), comparison.methods.end(), method);
+  const auto found = std::ranges::find(comparison.methods, method, &WorkflowMethod::name);
   REQUIRE(found != comparison.methods.end());
   return static_cast<std::size_t>(found - comparison.methods.begin());
 }
 
-WorkflowFigures figures(const WorkflowsOptions& options, const WorkflowComparison& comparison,
-                        const std::string& method) {
-  return figures_of(options, comparison, place_of(comparison, method));
+// The mean RMSE of a method over materials and environments.
+double mean_rmse(const WorkflowComparison& comparison, std::size_t method) {
+  double sum = 0.0, count = 0.0;
+  for (const WorkflowPictures& pictures : comparison.pictures[method])
+    for (std::size_t light = 0; light + 1 < pictures.rmse.size(); ++light) {
+      sum += pictures.rmse[light];
+      count += 1.0;
+    }
+  return sum / count;
 }
 
 }  // namespace
 
 TEST_CASE("study workflows: floor, projection, equation (3), in this order, in both conventions", "[slow]") {
-  const WorkflowsOptions options = small_study(20);
+  const WorkflowsOptions options = small_study(60);
   const WorkflowsResult result = study_workflows(options);
   REQUIRE(result.comparisons.size() == 2);
   for (const WorkflowComparison& comparison : result.comparisons) {
     INFO(comparison.convention);
-    const WorkflowFigures floor = figures(options, comparison, kLeastErrorMethod);
-    const WorkflowFigures projection = figures(options, comparison, "projection");
+    const double floor = mean_rmse(comparison, place_of(comparison, kLeastErrorMethod));
+    const double projection = mean_rmse(comparison, place_of(comparison, "projection"));
     for (std::size_t m = 0; m + 1 < comparison.methods.size(); ++m) {
-      INFO(comparison.methods[m]);
-      CHECK(floor.rmse <= figures_of(options, comparison, m).rmse);
-      if (comparison.methods[m] == "projection") continue;
-      CHECK(projection.rmse < figures_of(options, comparison, m).rmse);
+      INFO(comparison.methods[m].name);
+      CHECK(floor <= mean_rmse(comparison, m));
+      if (comparison.methods[m].name == "projection") continue;
+      CHECK(projection < mean_rmse(comparison, m));
     }
-    CHECK(projection.rmse < 1.2 * floor.rmse);  // 6 % under lights like those that its weights were fitted to
+    CHECK(projection < 1.2 * floor);  // 6 % under lights like those that its weights were fitted to
   }
   const WorkflowComparison& plain = result.comparisons.front();
-  CHECK(figures(options, plain, "equation (3), weighted, 0.03").rmse <
-        figures(options, plain, "equation (3), mean, 0.03").rmse);
+  CHECK(mean_rmse(plain, place_of(plain, "equation (3), weighted, 0.03")) <
+        mean_rmse(plain, place_of(plain, "equation (3), mean, 0.03")));
 }
 
 TEST_CASE("study workflows: metallic materials come back, and their pictures are the same", "[slow]") {
@@ -68,7 +77,7 @@ TEST_CASE("study workflows: metallic materials come back, and their pictures are
   const MetallicReflection reflection{0.04, 1.0};
   for (const double metallic : {0.0, 0.4, 1.0})
     options.materials.push_back(
-        {"family", MaterialGroup::kRandom, reflectances_of({{0.7, 0.4, 0.2}, metallic}, reflection), 0});
+        {"family", "family", reflectances_of({{0.7, 0.4, 0.2}, metallic}, reflection), 0});
   const WorkflowsResult result = study_workflows(options);
   const WorkflowComparison& plain = result.comparisons.front();
   const auto& projected = plain.pictures[place_of(plain, "projection")];
@@ -106,45 +115,42 @@ TEST_CASE("study workflows: a picture is its reflectances times the basis") {
 TEST_CASE(
     "study workflows: on materials of the family the projection is exact, and the others have their known "
     "errors") {
-  const std::vector<FamilyLine> lines = study_family({}, 4000, 1, 0);
-  const auto line = [&](const std::string& method) {
-    const auto found = std::find_if(lines.begin(), lines.end(),
-                                    [&](const FamilyLine& each) { return each.method == method; });
-    REQUIRE(found != lines.end());
+  const std::vector<RoundTripErrors> trips = study_round_trips({}, 4000, 1, 0);
+  const auto trip = [&](const std::string& method, FamilyKind kind) {
+    const auto found = std::ranges::find_if(
+        trips, [&](const RoundTripErrors& each) { return each.method == method && each.family == kind; });
+    REQUIRE(found != trips.end());
     return *found;
   };
-  const FamilyLine projection = line("projection");
-  CHECK(projection.errors[0].metallic < 0.005);
-  CHECK(projection.errors[1].metallic < 0.005);
-  CHECK(projection.errors[1].base_color < 0.0015);
-  for (const FamilyLine& other : lines) {
-    if (other.method.starts_with("projection")) continue;
+  const RoundTripErrors projection = trip("projection", FamilyKind::kStored);
+  CHECK(trip("projection", FamilyKind::kExact).metallic < 0.005);
+  CHECK(projection.metallic < 0.005);
+  CHECK(projection.base_color < 0.0015);
+  for (const RoundTripErrors& other : trips) {
+    if (other.method.starts_with("projection") || other.family != FamilyKind::kStored) continue;
     INFO(other.method);
-    CHECK(other.errors[1].base_color > projection.errors[1].base_color);
+    CHECK(other.base_color > projection.base_color);
   }
-  CHECK(line("equation (3), mean, 0.04").errors[0].metallic == Approx(0.035).epsilon(0.15));
-  CHECK(line("Khronos, plain").errors[0].metallic == Approx(0.092).epsilon(0.1));
-  CHECK(line("Khronos, glTF").errors[0].metallic < 0.02);
-  CHECK_THROWS_WITH(study_family({}, 0, 1, 0), Contains("--family-count must be at least 1"));
+  CHECK(trip("equation (3), mean, 0.04", FamilyKind::kExact).metallic == Approx(0.035).epsilon(0.15));
+  CHECK(trip("Khronos, plain", FamilyKind::kExact).metallic == Approx(0.092).epsilon(0.1));
+  CHECK(trip("Khronos, glTF", FamilyKind::kExact).metallic < 0.02);
+  CHECK_THROWS_WITH(study_round_trips({}, 0, 1, 0), Contains("--family-count must be at least 1"));
 }
 
 TEST_CASE("study workflows: tables, sheets and the same figures for any number of jobs", "[slow]") {
-  WorkflowsOptions options = small_study(2);
+  WorkflowsOptions options = small_study(6);
   options.sheets = true;
   const WorkflowsResult result = study_workflows(options);
   CHECK(result.sheets.size() == options.environments.size());
-  CHECK(result.sheet_materials.size() == 6);
-  const StudyReport report = workflows_report(options, result, study_family({}, 100, 1, 1), {});
-  const std::string& csv = report.tables[0].second;
-  const std::size_t rows = options.materials.size() *
-                           (result.comparisons[0].methods.size() + result.comparisons[1].methods.size());
-  CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == rows + 6);
-  CHECK_THAT(report.summary,
-             Contains("above the least that any base color and metallic reach") && !Contains("nan"));
-  CHECK_THAT(report.tables[1].second, Contains("plain,projection,paint,"));
-  CHECK_THAT(report.plots[0].second, Contains("1 - SSIM"));
+  const std::string csv = workflows_csv(options, result);
+  const std::size_t methods = result.comparisons[0].methods.size() + result.comparisons[1].methods.size();
+  // Three environments and the headlight; 5 comments and the header.
+  CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == 6 * methods * 4 + 6);
+  CHECK_THAT(csv, Contains(",headlight,") && !Contains("nan"));
   options.jobs = 1;
-  CHECK(workflows_report(options, study_workflows(options), {}, {}).tables[0].second == csv);
+  CHECK(workflows_csv(options, study_workflows(options)) == csv);
+  const std::string trips = round_trips_csv(study_round_trips({}, 100, 1, 1), 100, 1);
+  CHECK_THAT(trips, Contains("# seed: 1\n") && Contains("\n\"projection, glTF\",\"authored, 8-bit\","));
 }
 
 TEST_CASE("study workflows: invalid options are refused") {
@@ -157,33 +163,30 @@ TEST_CASE("study workflows: invalid options are refused") {
   CHECK_THROWS_WITH(study_workflows(options), Contains("is out of range (0.01 to 1)"));
   options.materials.clear();
   CHECK_THROWS_WITH(study_workflows(options), Contains("at least one material, one alpha"));
-  CHECK_THROWS_WITH(study_materials({{}, 0, 1, 1}), Contains("at least one material per group"));
+  options = small_study(1);
+  options.environments.front().name = "headlight";
+  CHECK_THROWS_WITH(study_workflows(options), Contains("the name headlight means the light at the camera"));
 }
 
-TEST_CASE("study workflows: groups without a file are left out, and a bad file is named") {
-  const MaterialSet drawn = study_materials({{}, 3, 2, 1});
-  CHECK(drawn.materials.size() == 9);
-  CHECK(drawn.remarks.size() == 2);
-  const TemporaryFolder folder;
-  write_file(folder.path() / "ngan_ward.fit",
-             "# comment\nred = Aggregate(Lambertian(albedo = [0.1, x, 0]))\n");
-  CHECK_THROWS_WITH(study_materials({folder.path(), 3, 2, 1}),
-                    Contains("ngan_ward.fit:2: cannot find two albedos"));
-  for (const StudyMaterial& material : drawn.materials)
-    for (std::size_t c = 0; c < 3; ++c) {
-      CHECK((material.surface.diffuse[c] >= 0.0 && material.surface.diffuse[c] <= 1.0));
-      CHECK((material.surface.f0[c] >= 0.0 && material.surface.f0[c] <= 1.0));
-    }
-}
-
-TEST_CASE("study workflows: measured materials are read", "[needs]") {
-  const auto path = shared_data("materials/physicallybased.json");
-  if (path.empty()) return;
-  const MaterialSet set = study_materials({path.parent_path(), 40, 5, 1});
-  CHECK(set.remarks.empty());
-  CHECK(set.materials.size() == 200);
-  const auto is_metal = [](const StudyMaterial& material) {
-    return material.group == MaterialGroup::kMeasured && material.surface.diffuse == Rgb{};
+TEST_CASE("study workflows: materials are read from a table, and a bad cell is named") {
+  const std::string header = "material,group,alpha,diffuse_r,diffuse_g,diffuse_b,f0_r,f0_g,f0_b\n";
+  WorkflowsOptions options;
+  read_materials(
+      header + "red,paint,0.5,0.9,0.1,0,0.04,0.04,0.05\nblue,paint,0.2,0,0,1,1,1,1\ngreen,,0.5,0,1,0,0,0,0\n",
+      "m.csv", &options);
+  CHECK(options.alphas == std::vector<double>{0.5, 0.2});
+  REQUIRE(options.materials.size() == 3);
+  CHECK(options.materials[0].name == "red");
+  CHECK(options.materials[0].group == "paint");
+  CHECK(options.materials[0].surface.diffuse == Rgb{0.9, 0.1, 0.0});
+  CHECK(options.materials[0].surface.f0 == Rgb{0.04, 0.04, 0.05});
+  CHECK(options.materials[1].alpha == 1);
+  CHECK(options.materials[2].alpha == 0);
+  const auto fails = [&](const std::string& text, const std::string& message) {
+    CHECK_THROWS_WITH(read_materials(text, "m.csv", &options), Contains(message));
   };
-  CHECK(std::count_if(set.materials.begin(), set.materials.end(), is_metal) > 5);
+  fails("material,group\na,b\n", "m.csv:1:1: the column alpha is missing (scripts/studies/materials writes");
+  fails(header + "red,paint,0,0,0,0,0,0,0\n", "m.csv:2:11: alpha: 0 is out of range (0.01 to 1)");
+  fails(header + "red,paint,1,0,2,0,0,0,0\n", "m.csv:2:15: diffuse_g: 2 is out of range (0 to 1)");
+  fails(header + "red,paint,1,0,0,0,0,0,x\n", "f0_b is \"x\" (must be a number)");
 }
