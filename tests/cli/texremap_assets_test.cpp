@@ -160,15 +160,15 @@ TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended
   session.put("lib/plain.gltf", R"({"asset":{"version":"2.0"}})");
   session.make("lib/maps/none.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   CHECK(session.texremap(command).exit_code == 1);
-  const ProcessResult resumed = session.texremap(command + " --resume");
+  const ProcessResult resumed = session.texremap(command + "");
   CHECK(resumed.exit_code == 0);
   CHECK_THAT(resumed.errors,
              Catch::Matchers::Contains("2 assets converted, 0 failed, 2 done before; 1 material in"));
   CHECK(session.content("out/chairs/c.gltf") == whole);
   CHECK(session.content("out/plain.gltf") == session.content("lib/plain.gltf"));
-  CHECK_THAT(session.texremap(command + " --resume").errors,
+  CHECK_THAT(session.texremap(command + "").errors,
              Catch::Matchers::Contains("0 assets converted, 0 failed, 4 done before"));
-  CHECK_THAT(session.texremap(command + " --resume --extensions").last_error(),
+  CHECK_THAT(session.texremap(command + " --extensions").last_error(),
              Catch::Matchers::Contains("belongs to another conversion"));
   // The same bytes from one thread, without a journal of another run.
   CHECK(session.texremap("convert lib --assets --recursive --to gltf -o one --threads 1").exit_code == 0);
@@ -220,7 +220,7 @@ TEST_CASE("MTL files keep their other lines, and OBJ files become glTF", "[asset
   CHECK(session.texremap("convert o --assets --to gltf --format gltf -o g").exit_code == 0);
   CHECK(std::filesystem::exists(session.path("g/a.gltf")));
   CHECK(std::filesystem::exists(session.path("g/a.bin")));
-  CHECK_THAT(session.texremap("convert o --assets --to gltf --format gltf -o g --resume").errors,
+  CHECK_THAT(session.texremap("convert o --assets --to gltf --format gltf -o g").errors,
              Catch::Matchers::Contains("1 done before"));
   CHECK(session.texremap("convert o/a.obj --to gltf -o a.glb").exit_code == 0);
   CHECK(session.content("a.glb").starts_with("glTF"));

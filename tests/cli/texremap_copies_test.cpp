@@ -92,7 +92,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
   }
 
   const auto states = [&] {
-    return set_states(require_success(convert_copies(session, words + "--resume --json")).output);
+    return set_states(require_success(convert_copies(session, words + "--json")).output);
   };
   CHECK(states() == "dd");
   fs::remove(session.path("out/a/wood_Normal.png"));

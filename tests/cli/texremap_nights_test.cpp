@@ -32,7 +32,7 @@ Words command(const std::string& target, const Words& more = {}) {
 
 // Of a resumed run; or what it said, where it has no sets.
 std::string states(const Tree& tree, const Words& more, const std::string& target = "mitsuba/as") {
-  const ProcessResult result = tree.texremap(command(target, "--resume --json" + more));
+  const ProcessResult result = tree.texremap(command(target, "--json" + more));
   INFO(result.errors);
   const std::string letters = set_states(result.output);
   return letters.empty() ? result.errors : letters;
@@ -61,7 +61,7 @@ TEST_CASE("texremap nights: sets whose names hold control characters are resumed
   CHECK(states(tree, {}) == "d");
 }
 
-TEST_CASE("texremap nights: --resume makes anew what changed, without --force", "[slow]") {
+TEST_CASE("texremap nights: makes anew what changed, without --force", "[slow]") {
   const Tree tree;
   write_sets(tree, 2, "tga");
   tree.map("in/s0_normal.tga", kColor);
@@ -98,15 +98,15 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
                            "wood_issues.png", "deep/wall_mask.png", "deep/wall_issues.png"})
     CHECK(fs::exists(checks / name));
   CHECK(tree.results().size() == 6);
-  CHECK(letters("--resume") == "dd");
+  CHECK(letters("") == "dd");
   CHECK(letters({}) == "ff");
   const std::string before = read_file(checks / "wood_issues.png");
   write_file(checks / "wood_issues.png", "no image");
-  CHECK(letters("--resume") == "dc");
+  CHECK(letters("") == "dc");
   CHECK(read_file(checks / "wood_issues.png") == before);
   write_file(checks / "wood_mask.png", "of nobody");
   fs::remove(tree.path("out/" + std::string(kJournal)));
-  CHECK(letters("--resume") == "ff");
+  CHECK(letters("") == "ff");
   CHECK(read_file(checks / "wood_mask.png") == "of nobody");
   CHECK(letters("--force") == "cc");
   require_success(convert("--force --format exr --type half"));
@@ -120,7 +120,7 @@ TEST_CASE("texremap nights: another converter of the same name is another conver
   write_other_converters(tree.path("c2.json"), 0.5);
   CHECK(states(tree, "--converters c1.json") == "c");
   CHECK(states(tree, "--converters c1.json") == "d");
-  const ProcessResult refused = tree.texremap(command("mitsuba/as", "--resume --converters c2.json"));
+  const ProcessResult refused = tree.texremap(command("mitsuba/as", "--converters c2.json"));
   CHECK(refused.exit_code == 1);
   CHECK_THAT(refused.last_error(), Contains("belongs to another conversion, mitsuba/ward to mitsuba/as") &&
                                        Contains("numbers of the converter"));
@@ -220,7 +220,7 @@ TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
     CHECK(fs::exists(tree.path("out/" + fs::path(name).filename().string() + "_spec.png")));
   // At most the sets that were under way are finished and not told.
   CHECK(tree.results().size() <= 2 * (told.size() + 2));
-  CHECK(tree.texremap(command("mitsuba/as", "--resume")).exit_code == 0);
+  CHECK(tree.texremap(command("mitsuba/as", "")).exit_code == 0);
 }
 
 TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
@@ -248,7 +248,7 @@ TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
   for (int round = 0; round < 5; ++round) {
     // The same conversion: whole, equal results.
     fs::remove_all(tree.path("out"));
-    const Words same = command("mitsuba/as", "--resume");
+    const Words same = command("mitsuba/as", "");
     for (const ProcessResult& result : run_both(same, same)) require_success(result);
     CHECK(content() == alone["mitsuba/as"]);
     // Two conversions: one is refused, with --force the last has the folder; no set is of both.

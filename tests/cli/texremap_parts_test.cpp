@@ -123,7 +123,7 @@ TEST_CASE("texremap parts: a part goes on where it ended, and finds what another
   write_library(tree);
   index(tree);
   const auto states = [&](const std::string& which) {
-    const ProcessResult result = part(tree, which, "--resume");
+    const ProcessResult result = part(tree, which, "");
     INFO(result.errors);
     CHECK(result.exit_code == 0);
     return set_states(result.output);
@@ -141,10 +141,10 @@ TEST_CASE("texremap parts: a part goes on where it ended, and finds what another
   std::string all = states("1/2") + states("2/2");
   std::sort(all.begin(), all.end());
   CHECK(all == "cdddddddd");
-  CHECK(tree.texremap(kOfManifest + "out --resume --quiet").exit_code == 0);
+  CHECK(tree.texremap(kOfManifest + "out --quiet").exit_code == 0);
   // Another conversion is refused, whichever part finds it.
   const ProcessResult other = tree.texremap(
-      "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/ggx -o out --resume --part 7/9");
+      "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/ggx -o out --part 7/9");
   CHECK(other.exit_code == 1);
   CHECK_THAT(other.errors, Contains("belongs to another conversion"));
 }
@@ -163,7 +163,7 @@ TEST_CASE("texremap parts: a part that is not run, or is of another run, is name
   tree.map("in/zz/z_rough.png", kGrey);
   tree.map("in/zz/z_spec.png", kColor);
   index(tree);
-  CHECK(part(tree, "3/3", "--resume").exit_code == 0);
+  CHECK(part(tree, "3/3", "").exit_code == 0);
   summary = merged(tree, 1);
   CHECK_THAT(summary["problems"][0].get<std::string>(), Contains("part-0003-of-0003: manifest"));
   const std::string reports = std::string("out/") + kParts;
@@ -173,7 +173,7 @@ TEST_CASE("texremap parts: a part that is not run, or is of another run, is name
   CHECK_THAT(summary["problems"].dump(),
              Contains("is the report of another part") && Contains("the same set"));
   // A report that lost a line.
-  for (const char* which : {"1/3", "2/3", "3/3"}) CHECK(part(tree, which, "--resume").exit_code == 0);
+  for (const char* which : {"1/3", "2/3", "3/3"}) CHECK(part(tree, which, "").exit_code == 0);
   merged(tree, 0);
   std::string report = tree.content(reports + "/part-0002-of-0003.jsonl");
   const std::size_t line = report.find("{\"set\"");
@@ -281,7 +281,7 @@ TEST_CASE("texremap parts: storage that does not answer is asked again, a full o
   const auto with_faults = [&](const std::string& name, int count, int code) {
     return tree.run(Words("/usr/bin/env LD_PRELOAD=" REMAP_FAULTY_STORAGE " FAULT_NAME=" + name +
                           " FAULT_COUNT=" + std::to_string(count) + " FAULT_CODE=" + std::to_string(code)) +
-                    REMAP_TEXREMAP + kOfManifest + Words("out --part 1/1 --json --resume"));
+                    REMAP_TEXREMAP + kOfManifest + Words("out --part 1/1 --json"));
   };
   for (const int code : {ESTALE, EIO}) {
     const ProcessResult result = with_faults("s0_rough.png", 3, code);
@@ -426,9 +426,9 @@ TEST_CASE("texremap parts: the union of the parts of assets is what one process 
   const auto summary = merged(tree, 0);
   CHECK(summary["assets"] == 4);
   CHECK(summary["converted"] == 4);
-  CHECK(states("--resume") == "dddd");
+  CHECK(states("") == "dddd");
   fs::remove(tree.path("out/b/chair.gltf"));
-  CHECK(states("--resume").find('c') != std::string::npos);
+  CHECK(states("").find('c') != std::string::npos);
 }
 
 TEST_CASE("texremap parts: an asset that fails is named, and files that changed fail their asset alone") {

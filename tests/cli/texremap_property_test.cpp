@@ -625,7 +625,7 @@ void check_library(const Batch& batch, const Set& set) {
 
 // A resumed run changes nothing, and makes anew what was damaged and what changed.
 void check_resumed(const Tree& tree, const Batch& batch, std::vector<Set>& sets, Dice& dice) {
-  const auto resumed = [&] { return run_batch(tree, batch, "out", "--resume").output; };
+  const auto resumed = [&] { return run_batch(tree, batch, "out", "").output; };
   const auto before = content(tree, "out");
   CHECK(set_states(resumed()) == std::string(sets.size(), 'd'));
   CHECK(content(tree, "out") == before);

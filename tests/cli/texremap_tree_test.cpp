@@ -151,7 +151,7 @@ TEST_CASE("texremap tree: the number of threads changes no bit") {
   CHECK(tree.results().size() == 14);
 }
 
-TEST_CASE("texremap tree: --resume makes only missing and changed sets", "[slow]") {
+TEST_CASE("texremap tree: makes only missing and changed sets", "[slow]") {
   const Tree tree;
   const std::string extension = GENERATE("exr", "png", "tif", "tga", "bmp", "jpg");
   const auto named = [&](const std::string& name) { return name + "." + extension; };
@@ -160,7 +160,7 @@ TEST_CASE("texremap tree: --resume makes only missing and changed sets", "[slow]
     tree.map(named(std::string("in/") + set + "_spec"), kColor);
   }
   const auto states = [&](const Words& more) {
-    return set_states(tree.convert_tree("--resume --json" + more).output);
+    return set_states(tree.convert_tree("--json" + more).output);
   };
   CHECK(states({}) == "cccc");
   CHECK(states({}) == "dddd");
@@ -186,7 +186,7 @@ TEST_CASE("texremap tree: --resume makes only missing and changed sets", "[slow]
   CHECK(states("--force") == "cccc");
 }
 
-TEST_CASE("texremap tree: a killed run leaves complete files, and --resume ends like an unbroken run",
+TEST_CASE("texremap tree: a killed run leaves complete files, and ends like an unbroken run",
           "[slow]") {
   const Tree tree;
   for (int i = 0; i < 12; ++i) {
@@ -206,10 +206,10 @@ TEST_CASE("texremap tree: a killed run leaves complete files, and --resume ends 
     if (kill % 5 == 0) fs::remove_all(tree.path("out"));
     const std::string after = "0." + std::to_string(20 + 97 * kill % 60);
     tree.run("/usr/bin/timeout -s KILL " + after + " " REMAP_TEXREMAP " " + kConversion +
-             " in --color-space linear --resume");
+             " in --color-space linear");
     check_files();
   }
-  require_success(tree.convert_tree("--resume"));
+  require_success(tree.convert_tree(""));
   check_files();
   std::size_t whole = 0;
   for (const std::string& name : tree.results()) whole += fs::path(name).filename().string().front() != '.';

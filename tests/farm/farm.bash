@@ -195,9 +195,9 @@ try_odd_names() {
 two_at_once() {
   local i first second
   for i in 1 2; do
-    "$texremap" convert --manifest sets.jsonl --part "$i/2" "${convert[@]}" --resume -o twice &
+    "$texremap" convert --manifest sets.jsonl --part "$i/2" "${convert[@]}" -o twice &
     first=$!
-    "$texremap" convert --manifest sets.jsonl --part "$i/2" "${convert[@]}" --resume -o twice &
+    "$texremap" convert --manifest sets.jsonl --part "$i/2" "${convert[@]}" -o twice &
     second=$!
     wait "$first" || return
     wait "$second" || return
@@ -225,7 +225,7 @@ milliseconds_since() { awk "BEGIN { printf \"%.0f\", 1000 * ($EPOCHREALTIME - $1
 
 print_figures() {
   local n start=$EPOCHREALTIME
-  local -ra empty=("$texremap" convert --manifest sets.jsonl --part 2/1000000 "${convert[@]}" --quiet --resume -o empty)
+  local -ra empty=("$texremap" convert --manifest sets.jsonl --part 2/1000000 "${convert[@]}" --quiet -o empty)
   for n in 1 2 3 4 5 6 7 8 9 10; do "${empty[@]}"; done
   echo "a part without sets, from start to end: $(milliseconds_since "$start" 10) ms"
   if [[ $form == long ]]; then

@@ -44,7 +44,7 @@ std::vector<std::string> convert_words(const PlannedFarm& farm, const PlannedPat
                                     paths.manifest, "--part",  part};
   words.insert(words.end(), farm.options.begin(), farm.options.end());
   for (const std::string& word : {std::string("--threads"), std::to_string(farm.threads),
-                                  std::string("--resume"), std::string("-o"), paths.output})
+                                  std::string("-o"), paths.output})
     words.push_back(word);
   return words;
 }

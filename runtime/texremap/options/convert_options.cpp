@@ -314,6 +314,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
       "unused images are dropped now (remove this option; --compression 9 makes new images smallest)");
   command.retire("--allow-skips",
                  "sets without anything to convert no longer make a run fail (remove this option)");
+  command.retire("--resume", "is what texremap does: it skips what is done (remove this option)");
   command.retire("--preset", "is called --to (files as glTF packs them: --to gltf --layout gltf)");
   command.retire("--profile", "--profile extensions is called --extensions, and core is the default");
   command.retire("--bad-texels", "is called --nan");
@@ -322,14 +323,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--copy-others",
                  "all maps of a set come along now (remove this option; --only-converted leaves them out)");
   command
-      .add_flag("--force", options.force, "Overwrite results; convert maps again that were converted before")
+      .add_flag("--force", options.force, "Overwrite files that exist; convert again what is done")
       ->common()
       ->tag(kForAssets | kNeedsFiles);
-  command
-      .add_flag(
-          "--resume", options.resume,
-          "Skip sets that are done; convert sets again whose inputs, options, converter or results changed")
-      ->tag(kOfPlan | kNeedsTree | kForAssets | kNeedsFiles);
   command.add_flag("--dry-run", options.dry_run, "Show what would happen to each map; write nothing")
       ->common()
       ->tag(kOfPlan | kForAssets | kNeedsFiles);

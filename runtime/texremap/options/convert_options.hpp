@@ -108,7 +108,7 @@ struct ConvertOptions {
   std::filesystem::path diagnose;  // folder for the maps of diagnoses; empty for none
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
-  bool only_converted = false, force = false, resume = false, dry_run = false;
+  bool only_converted = false, force = false, dry_run = false;
   bool json = false, histograms = false, quiet = false, verbose = false;
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core

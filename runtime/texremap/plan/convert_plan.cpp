@@ -316,7 +316,6 @@ ConvertPlan resolve(ConvertOptions options) {
     plan_sets(options, std::move(manifest), plan);
   plan.output = options.output;
   plan.force = options.force;
-  plan.resume = options.resume;
   plan.dry_run = options.dry_run;
   plan.threads = options.threads();
   plan.memory_bytes = options.memory_bytes();

@@ -35,7 +35,7 @@ struct ConvertPlan {
   ConversionNote conversion;
 
   std::filesystem::path output;
-  bool force = false, resume = false, dry_run = false;
+  bool force = false, dry_run = false;
   int threads = 1;
   std::uint64_t memory_bytes = 0;  // of images, in all threads
   std::optional<GivenPart> part;   // of the manifest

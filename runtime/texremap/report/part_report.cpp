@@ -185,7 +185,7 @@ MergedReport ReportMerger::merge() {
     if (!has[i]) missing.push_back(std::to_string(i + 1));
   if (!missing.empty())
     problem("no report of " + counted(missing.size(), "part") + ": " + named(missing) +
-            " (convert them again with --resume)");
+            " (convert them again)");
   for (const auto& [where, cases] : twice_)
     problem("the same " + where + ": " + display_path(cases.second) +
             (cases.first > 1 ? " and " + std::to_string(cases.first - 1) + " more" : "") + " (two " +

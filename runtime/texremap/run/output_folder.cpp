@@ -24,10 +24,9 @@ void OutputFolder::require_free(const fs::path& file) const {
     throw output_error(file.string() + ": is a folder (choose another name)");
   if (plan_.force) return;
   const bool is_own = journal_ && journal_->is_own(file);
-  if (plan_.resume && is_own) return;
-  throw output_error(
-      file.string() + ": already exists" + (plan_.resume ? ", and is not of this conversion (" : " (") +
-      (is_own ? "--resume skips finished " + noun_of(plan_.list.kind) + "s, " : "") + "--force overwrites)");
+  if (is_own) return;
+  throw output_error(file.string() + ": already exists" +
+                     (journal_ ? ", and is not of this conversion" : "") + " (--force overwrites)");
 }
 
 void OutputFolder::take(const fs::path& file, const std::string& owner) const {
@@ -35,8 +34,12 @@ void OutputFolder::take(const fs::path& file, const std::string& owner) const {
     throw output_error(written_twice_text(file, other, owner));
 }
 
+bool OutputFolder::may_be_done(const std::vector<fs::path>& files) const {
+  return !plan_.force && journal_ && !files.empty() && journal_->is_own(files.front());
+}
+
 bool OutputFolder::is_done(const std::string& inputs, const std::vector<fs::path>& files) const {
-  return plan_.resume && journal_ && !files.empty() && journal_->is_done(inputs, files);
+  return may_be_done(files) && journal_->is_done(inputs, files);
 }
 
 std::vector<fs::path> OutputFolder::files_of(const std::string& entry) const {

@@ -19,14 +19,16 @@ class OutputFolder {
   // given.
   explicit OutputFolder(const ConvertPlan& plan);
 
-  // Decides whether a file may be written: if it does not exist, with --force, or with --resume if this
-  // conversion wrote it. Otherwise throws kOutput, with what to do.
+  // Decides whether a file may be written: if it does not exist, if this conversion wrote it, or with --force.
+  // Otherwise throws kOutput, with what to do.
   void require_free(const std::filesystem::path& file) const;
   // Takes the name of a result. Throws kOutput where another job has it.
   void take(const std::filesystem::path& file, const std::string& owner) const;
 
-  // Whether --resume finds that this conversion wrote all files from `inputs`, and that they still are what
-  // it wrote.
+  // Whether it is worth to hash the inputs: this conversion wrote the first of the files.
+  bool may_be_done(const std::vector<std::filesystem::path>& files) const;
+  // Whether this conversion wrote all files from `inputs`, and they still are what it wrote; never with
+  // --force.
   bool is_done(const std::string& inputs, const std::vector<std::filesystem::path>& files) const;
   // The files that this conversion wrote last of an entry.
   std::vector<std::filesystem::path> files_of(const std::string& entry) const;

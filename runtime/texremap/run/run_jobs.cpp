@@ -129,7 +129,7 @@ JobReport report_of(JobWorker& worker, const OutputFolder& folder, const Convert
     if (error.kind() == ErrorKind::kInterrupted)
       throw Error(error.kind(),
                   "interrupted: finished " + noun_of(plan.list.kind) + "s are complete" +
-                      (folder.has_journal() ? " (--resume converts the others)" : ""),
+                      (folder.has_journal() ? " (the same command converts the others)" : ""),
                   plan.part ? EINTR : 0);
     report.failure = error.what();
     report.failure_code = error.system_code();

@@ -316,7 +316,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
   for (const std::filesystem::path& file : results) folder_.take(file, job.owner);
   report.warnings = work.notes;
   report.warnings.insert(report.warnings.end(), targets.left_out.begin(), targets.left_out.end());
-  const bool needs_hash = plan_.resume || !plan_.dry_run;
+  const bool needs_hash = !plan_.dry_run || folder_.may_be_done(results);
   OpenFiles all = files, copied;
   if (needs_hash)
     for (const CopiedFile& copy : work.copies) {
