@@ -209,7 +209,7 @@ bool holds_something(const LayoutFile& file, const TextureSet& set, const Target
 }
 
 // Channels without a meaning have no place in layouts that name their files.
-std::vector<std::string> left_out(const TextureSet& set) {
+std::vector<std::string> unplaced(const TextureSet& set) {
   std::vector<std::string> messages;
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
     const ImageLayout& layout = set.maps[map].layout();
@@ -426,7 +426,7 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
     plan = maps_as_inputs(set, choice);
   } else {
     plan.maps = layout_maps(set, choice);
-    plan.left_out = left_out(set);
+    plan.unplaced = unplaced(set);
   }
   for (const TargetChannel& diagnosis : choice.diagnoses) {
     plan.maps.push_back(new_map(diagnosis_name(diagnosis, choice.names), kGrey, {diagnosis}, set, choice));

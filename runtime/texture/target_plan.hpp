@@ -38,7 +38,7 @@ struct TargetPlan {
   std::vector<PlannedMap> maps;
   std::vector<PlannedCopy> copies;
   std::vector<std::string>
-      left_out;  // a message for each channel of the inputs without a place in the layout
+      unplaced;  // a message for each channel of the inputs without a place in the layout
 };
 
 // Whole numbers stand for 0 to 1, and an exponent for more: throws kUsage where a result of whole numbers

@@ -16,12 +16,12 @@ namespace remap {
 // The lines of a folder's report as one object: the sets by name, what was left out, the conversion and the
 // summary.
 inline nlohmann::json tree_report(const std::string& output) {
-  nlohmann::json report = {{"sets", nlohmann::json::array()}, {"left_out", nlohmann::json::array()}};
+  nlohmann::json report = {{"sets", nlohmann::json::array()}, {"skipped", nlohmann::json::array()}};
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);) {
     const auto json = nlohmann::json::parse(line);
     if (json.contains("set")) report["sets"].push_back(json["set"]);
-    if (json.contains("left_out")) report["left_out"].push_back(json["left_out"]);
+    if (json.contains("skipped")) report["skipped"].push_back(json["skipped"]);
     for (const char* name : {"conversion", "summary"})
       if (json.contains(name)) report[name] = json[name];
   }

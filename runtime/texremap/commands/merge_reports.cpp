@@ -23,7 +23,7 @@ Json summary_json(const MergedReport& merged) {
                   {"converted", merged.converted},
                   {"done_before", merged.done_before},
                   {"failed", merged.failed},
-                  {"left_out", merged.left_out},
+                  {"skipped", merged.skipped},
                   {"bytes_read", merged.bytes_read},
                   {"bytes_written", merged.bytes_written}};
   if (merged.kind == ListedKind::kSets) summary["texels"] = merged.texels;
@@ -54,7 +54,7 @@ void merge(const MergeOptions& options) {
   const std::string text = counted(merged.part_count, "part") + ": " +
                            counted(merged.converted, noun_of(merged.kind)) + " converted, " +
                            std::to_string(merged.failed) + " failed, " + std::to_string(merged.done_before) +
-                           " done before, " + std::to_string(merged.left_out) + " left out; " +
+                           " done before, " + std::to_string(merged.skipped) + " left out; " +
                            fixed(merged.processor_seconds, 1) + " s of processor time";
   if (!merged.problems.empty()) throw input_error(text + "; " + counted(merged.problems.size(), "problem"));
   if (merged.failed > 0) throw input_error(text);

@@ -241,7 +241,7 @@ Json summary_json(const Outcome& outcome) {
                   {"done_before", states["done before"]},
                   {"planned", states["planned"]},
                   {"failed", outcome.failed_count()},
-                  {"left_out", list.skipped.size()},
+                  {"skipped", list.skipped.size()},
                   {"unrecognised_images", paths_json(list.unrecognised)}};
   summary.update(run_json(outcome));
   return summary;

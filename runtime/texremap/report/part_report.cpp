@@ -131,20 +131,20 @@ void ReportMerger::add(const Part& part, const Field& line, std::string_view tex
     constexpr std::int64_t kMost = std::int64_t{1} << 40;  // whose sum is a number, too
     const std::string entries(name_of(kListedKinds, merged_.kind));
     const std::int64_t stated =
-        std::min(summary[entries].count(), kMost) + std::min(summary["left_out"].count(), kMost);
+        std::min(summary[entries].count(), kMost) + std::min(summary["skipped"].count(), kMost);
     if (stated != static_cast<std::int64_t>(lines_of_part_))
       throw input_error(name_of(part) + kPartReport + ": is incomplete");
   }
   const std::string noun = noun_of(merged_.kind);
-  const bool is_entry = line.contains(noun), is_left_out = line.contains("left_out");
-  lines_of_part_ += is_entry || is_left_out;
+  const bool is_entry = line.contains(noun), is_skipped = line.contains("skipped");
+  lines_of_part_ += is_entry || is_skipped;
   if (is_entry) add_entry(part, line[noun]);
-  if (is_left_out) {
-    const bool is_failure = line["left_out"].flag("is_failure");
-    is_failure ? ++merged_.failed : ++merged_.left_out;
-    if (is_failure) merged_.failures.push_back(line["left_out"]["message"].any_text());
+  if (is_skipped) {
+    const bool is_failure = line["skipped"].flag("is_failure");
+    is_failure ? ++merged_.failed : ++merged_.skipped;
+    if (is_failure) merged_.failures.push_back(line["skipped"]["message"].any_text());
   }
-  if (is_entry || is_left_out) take_(text);
+  if (is_entry || is_skipped) take_(text);
 }
 
 void ReportMerger::read(const Part& part) {

@@ -24,7 +24,7 @@ void write_part_report(const std::filesystem::path& output, const Part& part, co
 struct MergedReport {
   ListedKind kind = ListedKind::kSets;
   std::size_t part_count = 0, entry_count = 0;  // as the manifest has them
-  std::size_t converted = 0, done_before = 0, failed = 0, left_out = 0, texels = 0;
+  std::size_t converted = 0, done_before = 0, failed = 0, skipped = 0, texels = 0;
   double processor_seconds = 0.0;
   std::uintmax_t bytes_read = 0, bytes_written = 0;
   std::vector<std::string> failures;  // of sets or assets, each with its reason

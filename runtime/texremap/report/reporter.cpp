@@ -126,7 +126,7 @@ Reporter::Reporter(const ConvertPlan& plan) : plan_(plan) {
   if (plan.part) write(part_json(*plan.part, plan.manifest, plan.conversion));
   write({{"conversion", conversion_json(plan)}});
   for (const SkippedEntry& entry : plan.list.skipped)
-    write({{"left_out", {{"message", entry.message}, {"is_failure", entry.is_failure}}}});
+    write({{"skipped", {{"message", entry.message}, {"is_failure", entry.is_failure}}}});
 }
 
 void Reporter::write(const Json& line) {

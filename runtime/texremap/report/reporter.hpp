@@ -14,7 +14,7 @@
 namespace remap {
 
 // JSON is one object for a single set or asset. For several it is an object a line, each as soon as it is
-// known: `{"part": ...}` of a part of a manifest, `{"conversion": ...}`, `{"left_out": ...}` for each entry
+// known: `{"part": ...}` of a part of a manifest, `{"conversion": ...}`, `{"skipped": ...}` for each entry
 // that is not converted, `{"set": ...}` or `{"asset": ...}`, and `{"summary": ...}` last.
 class Reporter {
  public:

@@ -315,7 +315,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
   const std::vector<std::filesystem::path> results = results_of(targets);
   for (const std::filesystem::path& file : results) folder_.take(file, job.owner);
   report.warnings = work.notes;
-  report.warnings.insert(report.warnings.end(), targets.left_out.begin(), targets.left_out.end());
+  report.warnings.insert(report.warnings.end(), targets.unplaced.begin(), targets.unplaced.end());
   const bool needs_hash = !plan_.dry_run || folder_.may_be_done(results);
   OpenFiles all = files, copied;
   if (needs_hash)
