@@ -24,9 +24,13 @@ void OutputFolder::require_free(const fs::path& file) const {
     throw output_error(file.string() + ": is a folder (choose another name)");
   if (plan_.force) return;
   const bool is_own = journal_ && journal_->is_own(file);
-  if (is_own) return;
+  // Maps of the same name from elsewhere could be meant where a person names the maps.
+  if (is_own && plan_.list.is_of_folder) return;
   throw output_error(file.string() + ": already exists" +
-                     (journal_ ? ", and is not of this conversion" : "") + " (--force overwrites)");
+                     (is_own     ? ", made from other maps"
+                      : journal_ ? ", and is not of this conversion"
+                                 : "") +
+                     " (--force overwrites)");
 }
 
 void OutputFolder::take(const fs::path& file, const std::string& owner) const {

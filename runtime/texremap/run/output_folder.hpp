@@ -19,8 +19,8 @@ class OutputFolder {
   // given.
   explicit OutputFolder(const ConvertPlan& plan);
 
-  // Decides whether a file may be written: if it does not exist, if this conversion wrote it, or with --force.
-  // Otherwise throws kOutput, with what to do.
+  // Decides whether a file may be written: if it does not exist, if this conversion of a folder wrote it, or
+  // with --force. Otherwise throws kOutput, with what to do.
   void require_free(const std::filesystem::path& file) const;
   // Takes the name of a result. Throws kOutput where another job has it.
   void take(const std::filesystem::path& file, const std::string& owner) const;
