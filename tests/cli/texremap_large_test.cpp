@@ -3,9 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "lower/fit_file.hpp"
 #include "support/campaign.hpp"
-#include "support/random_warp.hpp"
 
 using namespace remap;
 
@@ -78,45 +76,4 @@ TEST_CASE("texremap: large maps in bounded memory, equal to the converter texel 
     }
   }
   CHECK(different == 0);
-}
-
-TEST_CASE("texremap: large maps through a warp in bounded memory, equal to the warp in some rows",
-          "[.][large]") {
-  const Session session;
-  const int side = is_full_campaign() ? 4096 : 2048;
-  std::filesystem::create_directories(session.path("wood"));
-  write_large(session.path("wood/oak_diffuse.exr"), {"R", "G", "B"}, side);
-  write_large(session.path("wood/oak_specular.exr"), {"R", "G", "B"}, side);
-  write_large(session.path("wood/oak_roughness.exr"), {"Y"}, side);
-  WarpMapFit fit;
-  fit.id = "stony";
-  fit.source_model = fit.template_model = "mitsuba/ggx";
-  fit.warp = random_warp(3, 4, 33);
-  fit.tool_version = "1.0.0";
-  write_file(session.path("stony.json"), fit_to_json(fit));
-  const ProcessResult result = require_success(session.texremap("convert wood --fit stony.json -o out"));
-  WARN(result.errors << result.peak_kilobytes / 1024 << " MB at most");
-  CHECK(result.peak_kilobytes < most_megabytes() * 1024);
-
-  const auto reader = [&](const std::string& name) { return BandReader(session.path(name)); };
-  BandReader diffuse = reader("wood/oak_diffuse.exr"), specular = reader("wood/oak_specular.exr"),
-             roughness = reader("wood/oak_roughness.exr");
-  BandReader diffuse_out = reader("out/oak_diffuse.exr"), specular_out = reader("out/oak_specular.exr"),
-             roughness_out = reader("out/oak_roughness.exr");
-  double largest = 0.0;
-  for (const int top : {0, side / 2, side - kBand}) {
-    const auto &d = diffuse.read(top), &s = specular.read(top), &r = roughness.read(top);
-    const auto &d_out = diffuse_out.read(top), &s_out = specular_out.read(top),
-               &r_out = roughness_out.read(top);
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      const WarpTexel expected = evaluate_warp(fit.warp, {d[3 * i], d[3 * i + 1], d[3 * i + 2], s[3 * i],
-                                                          s[3 * i + 1], s[3 * i + 2], r[i] * r[i]});
-      for (std::size_t c = 0; c < 3; ++c) {
-        largest = std::max(largest, std::abs(static_cast<double>(d_out[3 * i + c] - expected[c])));
-        largest = std::max(largest, std::abs(static_cast<double>(s_out[3 * i + c] - expected[3 + c])));
-      }
-      largest = std::max(largest, std::abs(static_cast<double>(r_out[i] * r_out[i] - expected[6])));
-    }
-  }
-  CHECK(largest < 2e-3);  // rounding of half pixels
 }
