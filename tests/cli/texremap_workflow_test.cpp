@@ -65,16 +65,16 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
   const Session session;
   write_specular(session);
   const std::string threads = GENERATE("1", "3");
-  const std::string set = GENERATE("baseline", "avx2");
+  const std::string set = GENERATE("baseline", "avx2"), bias = GENERATE("clean", "noisy");
   if (set == "avx2" && !has_avx2()) return;
-  const ProcessResult result =
-      require_success(convert(session, specular_words("specular", "metallic") + "--threads " + threads +
-                                           " --instructions " + set + " --diagnose checks --json"));
+  const ProcessResult result = require_success(
+      convert(session, specular_words("specular", "metallic") + "--threads " + threads + " --instructions " +
+                           set + " --metallic-bias " + bias + " --diagnose checks --json"));
   const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
                   base = session.image("out/base_color.exr"), metal = session.image("out/metallic.exr"),
                   residual = session.image("checks/residual.exr"),
                   width = session.image("checks/metallic_uncertainty.exr");
-  const WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
+  const WorkflowConversion conversion{{}, {}, Projection{bias == "clean" ? kCleanPrior : kNoisyPrior}};
   std::size_t guesses = 0;
   for (int y = 0; y < kWorkflowSize; ++y)
     for (int x = 0; x < kWorkflowSize; ++x) {
@@ -201,26 +201,6 @@ TEST_CASE("texremap workflows: the estimated F0 of the maps is used on request")
   CHECK_THAT(result.errors, Contains("estimated from the maps: 0.055; 0.055 is used"));
   const TestImage metal = session.image("out/metallic.exr");
   CHECK(metal.at(5, 5, 0) < 0.01f);
-}
-
-TEST_CASE("texremap workflows: a folder of sets goes from one workflow to another") {
-  const Session session;
-  std::filesystem::create_directory(session.path("in"));
-  write_colors(session, "in/wood_diffuse.png", base_color, OIIO::TypeUInt8);
-  write_colors(session, "in/wood_specular.png", base_color, OIIO::TypeUInt8);
-  write_grey(session, "in/wood_glossiness.png", roughness, OIIO::TypeUInt8);
-  write_grey(session, "in/wood_ao.png", roughness, OIIO::TypeUInt8);
-  write_grey(session, "in/bare_glossiness.png", roughness, OIIO::TypeUInt8);
-  const ProcessResult result = convert(session, "in --from gltf-specgloss --to gltf --layout orm");
-  CHECK(result.exit_code == 1);
-  CHECK_THAT(result.errors, Contains("bare: no specular map found (or use --specular VALUE"));
-  const TestImage orm = session.image("out/wood_orm.png"), gloss = session.image("in/wood_glossiness.png"),
-                  occlusion = session.image("in/wood_ao.png");
-  for (int x = 0; x < kWorkflowSize; ++x) {
-    REQUIRE(orm.at(x, 2, 1) == Approx(1.0f - gloss.at(x, 2, 0)).margin(1e-6));
-    REQUIRE(orm.at(x, 2, 0) == occlusion.at(x, 2, 0));
-  }
-  CHECK(std::filesystem::exists(session.path("out/wood_base_color.png")));
 }
 
 TEST_CASE(
