@@ -63,7 +63,15 @@ Words specular_words(const std::string& from, const std::string& to) {
 TEST_CASE("texremap workflows: specular to metallic has the bits of the library, on any number of threads",
           "[needs][slow]") {
   const Session session;
-  write_specular(session);
+  // Plastic, metal, and what is neither, where the bias decides.
+  const auto part = [](int y) { return y < 16 ? 0 : y < 28 ? 1 : 2; };
+  write_colors(session, "d.exr", [&](int x, int y, int c) {
+    return part(y) == 1 ? 0.0f : (part(y) == 0 ? 0.4f : 0.1f) * noise(x, y, c);
+  });
+  write_colors(session, "s.exr", [&](int x, int y, int c) {
+    return part(y) == 0 ? 0.04f : part(y) == 1 ? 0.5f + 0.4f * noise(x, y, c) : 0.02f + 0.3f * noise(y, x, c);
+  });
+  write_grey(session, "r.exr", roughness);
   const std::string threads = GENERATE("1", "3");
   const std::string set = GENERATE("baseline", "avx2"), bias = GENERATE("clean", "noisy");
   if (set == "avx2" && !has_avx2()) return;

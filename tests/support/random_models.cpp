@@ -167,10 +167,10 @@ MappingKind random_regressed(const std::string& kind, Random* random, const Doma
 }
 
 // Near 1, with terms that get smaller.
-FactorTerms random_factor(Random* random) {
-  FactorTerms factor(random->count(1, 5));
+FactorTerms random_factor(Random* random, bool is_long) {
+  FactorTerms factor(is_long ? random->count(7, 8) : random->count(1, 5));
   for (std::size_t j = 0; j < factor.size(); ++j)
-    for (std::size_t i = random->count(1, 6); i-- > 0;)
+    for (std::size_t i = random->count(1, is_long ? 12 : 6); i-- > 0;)
       factor[j].push_back(static_cast<float>(0.3 * random->normal() / static_cast<double>(1 + i + j)));
   factor[0][0] = static_cast<float>(1.0 + 0.5 * random->normal());
   return factor;
@@ -198,8 +198,8 @@ std::optional<Fit> random_form_fit(std::uint64_t seed) {
   fit.domain = {{random.between(0.01, 0.21), 1.0}, {0.0, random.magnitude(0.3, 3.0)}};
   CompactForm form;
   form.pole = static_cast<float>(random.magnitude(0.03, 3.0));
-  form.alpha = random_factor(&random);
-  form.specular = random_factor(&random);
+  form.alpha = random_factor(&random, seed % 4 == 3);  // long: by loops instead of padded rows
+  form.specular = random_factor(&random, seed % 4 == 3);
   const auto number = [&](double low, double high) { return static_cast<float>(random.between(low, high)); };
   if (seed % 3 != 0) form.specular_limit = number(0.2, 1.2);
   if (seed % 3 == 1) form.alpha_limit = number(0.5, 1.0);
