@@ -82,7 +82,7 @@ def shown(command, inputs, programs):
         code, text = run_shell(command, folder, programs)
         after = contents(folder)
     text = text.replace(str(folder), "$PWD")
-    text = re.sub(r"\b\d+\.\d\d s\b", "0.00 s", text)
+    text = re.sub(r"\b\d+\.\d\d? s\b", "0.00 s", text)
     text = re.sub(r"unfinished-[\da-f]+-\d+", "unfinished", text)
     lines = [line for line in text.splitlines() if line.strip()] or ["(nothing)"]
     if code != 1:

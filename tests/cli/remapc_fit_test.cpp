@@ -34,14 +34,14 @@ TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it i
 
 TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[slow]") {
   const Session session;
-  require_success(session.remapc(session.sweep("t.csv")));
+  session.write("t.csv", made_table(12, 4));
   const auto fit = [&](const Words& more) { return session.remapc("fit t.csv --force -o fits" + more); };
   const auto kind = [&] {
-    return kind_name(load_fit(session.path("fits/mitsuba_ward_to_mitsuba_as.json")).mapping);
+    return kind_name(load_fit(session.path("fits/made_ward_to_made_as.json")).mapping);
   };
   CHECK(fit("--model svr").exit_code == 0);
   CHECK(kind() == "svr");
-  CHECK(session.remapc("show mitsuba_ward_to_mitsuba_as --fits fits").output.find("Gaussians of alpha") !=
+  CHECK(session.remapc("show made_ward_to_made_as --fits fits").output.find("Gaussians of alpha") !=
         std::string::npos);
   CHECK(fit("--model mlp --layers 4 --starts 1").exit_code == 0);
   CHECK(kind() == "mlp");
@@ -52,13 +52,13 @@ TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[
 
 TEST_CASE("remapc fit: a fit that cannot be lowered is kept with a warning, and has no header", "[slow]") {
   const Session session;
-  require_success(session.remapc(session.sweep("t.csv")));
-  const std::string path = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  session.write("t.csv", made_table(12, 4));
+  const std::string path = session.path("fits/made_ward_to_made_as.json");
   const auto fit = [&](const std::string& tolerance) {
     return require_success(session.remapc("fit t.csv --model parametric --form paper --lower " + tolerance +
                                           " --force -o fits"));
   };
-  CHECK(fit("1e-12").errors.find("warning: mitsuba_ward_to_mitsuba_as: neither texremap nor emit") !=
+  CHECK(fit("1e-12").errors.find("warning: made_ward_to_made_as: neither texremap nor emit") !=
         std::string::npos);
   CHECK_FALSE(load_fit(path).converter.has_value());
   CHECK(session.remapc("show " + path).output.find("No header: ") != std::string::npos);
@@ -92,7 +92,7 @@ TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plott
 
 TEST_CASE("remapc fit: gnuplot's failure is shown", "[slow]") {
   const Session session;
-  require_success(session.remapc(session.sweep("t.csv")));
+  session.write("t.csv", made_table(12, 4));
   session.write("bin/gnuplot",
                 "#!/bin/sh\n[ \"$1\" = --version ] || { echo 'line 3: no such thing' >&2; exit 1; }\n");
   fs::permissions(session.path("bin/gnuplot"), fs::perms::owner_all);
@@ -113,20 +113,20 @@ TEST_CASE("remapc fit: the name of a table is only text for gnuplot", "[slow]") 
 
 TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "[slow]") {
   const Session session;
-  require_success(session.remapc(session.sweep("t.csv")));
+  session.write("t.csv", made_table(12, 4));
   require_success(session.remapc(session.fit("t.csv")));
   const ProcessResult result = require_success(session.remapc("compare t.csv --fits fits"));
-  CHECK(result.output.find("mitsuba_ward_to_mitsuba_as (parametric") != std::string::npos);
+  CHECK(result.output.find("made_ward_to_made_as (parametric") != std::string::npos);
   CHECK(result.output.find("fitted from this table, training rows included") != std::string::npos);
   CHECK(result.output.find("alpha and specular unchanged") != std::string::npos);
-  CHECK(result.output.find("FBX2glTF, Yocto, Blender OBJ, assimp, obj2gltf (mitsuba/ward has alpha, not "
+  CHECK(result.output.find("FBX2glTF, Yocto, Blender OBJ, assimp, obj2gltf (made/ward has alpha, not "
                            "an exponent)") != std::string::npos);
   CHECK(result.output.find("at edge") == std::string::npos);  // a column without figures
 
-  const ProcessResult json = session.remapc("compare t.csv fits/mitsuba_ward_to_mitsuba_as.json --json");
+  const ProcessResult json = session.remapc("compare t.csv fits/made_ward_to_made_as.json --json");
   CHECK(json.output.find("\"fitted_from_this_table\": true") != std::string::npos);
   CHECK(json.output.find("\"name\": \"pbrt-v3\"") != std::string::npos);
-  CHECK(json.output.find("does not apply: mitsuba/ward has alpha, not roughness") != std::string::npos);
+  CHECK(json.output.find("does not apply: made/ward has alpha, not roughness") != std::string::npos);
 }
 
 TEST_CASE("remapc compare: a table without models is compared with formulas that need none") {
@@ -142,8 +142,8 @@ TEST_CASE("remapc compare: fits of one id are told apart by their files", "[slow
   session.write("t.csv", made_table(8, 3));
   require_success(session.remapc(session.fit("t.csv", "a")));
   require_success(session.remapc(session.fit("t.csv", "b")));
-  const std::string a = session.path("a/mitsuba_ward_to_mitsuba_as.json");
-  const std::string b = session.path("b/mitsuba_ward_to_mitsuba_as.json");
+  const std::string a = session.path("a/made_ward_to_made_as.json");
+  const std::string b = session.path("b/made_ward_to_made_as.json");
   const ProcessResult both = session.remapc("compare t.csv " + a + " " + b);
   CHECK(both.output.find(a + " (parametric") != std::string::npos);
   CHECK(both.output.find(b + " (parametric") != std::string::npos);

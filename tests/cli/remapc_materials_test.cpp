@@ -21,7 +21,7 @@ TEST_CASE("remapc sweep: stages and diffuse give columns that check and fit acce
               .starts_with("alpha1,specular1,alpha2,specular2,diffuse1,diffuse2,error,status\n"));
   }
   CHECK(session.remapc("check t2.csv").exit_code == 0);
-  CHECK(session.remapc(session.fit("t2.csv")).exit_code == 0);
+  CHECK(session.remapc(session.fit("t2.csv") + "--source made/ward --target made/as").exit_code == 0);
 }
 
 TEST_CASE("remapc sweep: models with an index are swept in F0") {

@@ -16,13 +16,14 @@ namespace fs = std::filesystem;
 
 TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") {
   const Session session;
-  ProcessResult result = require_success(session.remapc(session.sweep("t.csv")));
+  ProcessResult result =
+      require_success(session.remapc(session.sweep("t.csv", "mitsuba/as-ior", "mitsuba/beckmann-ior")));
   CHECK(session.content("t.csv").starts_with(kHeader));  // plain CSV
-  CHECK(session.content("t.csv.json").find("\"source\": \"mitsuba/ward\",\n") != std::string::npos);
-  CHECK(result.errors.find("36 rows (36 ok)") != std::string::npos);
+  CHECK(session.content("t.csv.json").find("\"source\": \"mitsuba/as-ior\",\n") != std::string::npos);
+  CHECK(result.errors.find("36 rows (3 clamped, 33 ok)") != std::string::npos);
   CHECK(session.remapc("check t.csv").exit_code == 0);
   require_success(session.remapc(session.fit("t.csv")));
-  const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  const std::string fit = session.path("fits/mitsuba_as_ior_to_mitsuba_beckmann_ior.json");
   CHECK(load_fit(fit).table.comments.at("objective") == "natural-2");
   require_success(session.remapc("emit --all --fits fits -o generated"));
   CHECK(fs::exists(session.path("generated/converters.json")));
@@ -31,15 +32,15 @@ TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") 
   CHECK(result.output.find("\"rows\": 36") != std::string::npos);
   CHECK(result.output.find("\"fitted_from_this_table\": true") != std::string::npos);
   CHECK(session.remapc("list --fits fits").output.find("parametric") != std::string::npos);
-  result = session.remapc("show mitsuba_ward_to_mitsuba_as --fits fits");
-  CHECK(result.output.find("mitsuba/as (alpha, f0)") != std::string::npos);
+  result = session.remapc("show mitsuba_as_ior_to_mitsuba_beckmann_ior --fits fits");
+  CHECK(result.output.find("mitsuba/beckmann-ior (alpha, f0)") != std::string::npos);
 }
 
 TEST_CASE("remapc eval --grid: prints what the interpreter gives over the domain, without a table") {
   const Session session;
   session.write("t.csv", made_table(8, 3));
   require_success(session.remapc(session.fit("t.csv")));
-  const std::string path = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  const std::string path = session.path("fits/made_ward_to_made_as.json");
   const Fit fit = load_fit(path);
   std::string expected = "source_alpha,source_specular,target_alpha,target_f0\n";
   const Range widths = own_roughness_range(fit), speculars = specular_range(fit);
@@ -60,11 +61,11 @@ TEST_CASE("remapc: a result that exists is refused, and replaced with --force") 
   const Session session;
   session.write("t.csv", made_table(8, 3));
   require_success(session.remapc(session.fit("t.csv")));
-  const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  const std::string fit = session.path("fits/made_ward_to_made_as.json");
   require_success(session.remapc("emit " + fit + " -o ."));
   require_success(session.remapc("emit " + fit + " -o ."));  // generated headers say that they are
   for (const std::string name :
-       {"s.exr", "grid.csv", "p.png", "c.json", "plain.csv", "own/mitsuba_ward_to_mitsuba_as.hpp"})
+       {"s.exr", "grid.csv", "p.png", "c.json", "plain.csv", "own/made_ward_to_made_as.hpp"})
     session.write(name, "mine");
   const auto check = [&](const Words& words, const std::string& name) {
     const std::string before = session.content(name);
@@ -73,10 +74,11 @@ TEST_CASE("remapc: a result that exists is refused, and replaced with --force") 
     require_success(session.remapc(words + "--force"));
     CHECK((session.content(name) != before || name.starts_with("fits")));
   };
-  check(session.fit("t.csv"), "fits/mitsuba_ward_to_mitsuba_as.json");
-  check("emit " + fit + " -o own", "own/mitsuba_ward_to_mitsuba_as.hpp");
+  check(session.fit("t.csv"), "fits/made_ward_to_made_as.json");
+  check("emit " + fit + " -o own", "own/made_ward_to_made_as.hpp");
   check("eval " + fit + " --grid 3 -o grid.csv", "grid.csv");
-  check("preview " + fit + " --resolution 16 -o p.png", "p.png");
+  check("preview mitsuba_ward_to_mitsuba_ggx --resolution 16 -o p.png --fits " REMAP_SOURCE_DIR "/fits",
+        "p.png");
   check("chain mitsuba_ward_to_mitsuba_ggx mitsuba_ggx_to_cycles_2_7_ggx --id c -o . --fits " REMAP_SOURCE_DIR
         "/fits",
         "c.json");

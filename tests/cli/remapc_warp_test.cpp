@@ -6,6 +6,25 @@
 using namespace remap;
 using namespace remap::warp_cli;
 
+namespace {
+
+// A Lambertian material, as a diffuse map alone represents it.
+WarpTexel albedo_texel(const Latent& at) {
+  const auto u = static_cast<float>(at.u), v = static_cast<float>(at.v);
+  return {0.1f + 0.4f * u, 0.1f + 0.3f * v * v, 0.05f + 0.1f * u * v, 0, 0, 0, 1};
+}
+WarpTexel grey_albedo_texel(const Latent& at) {
+  const auto u = static_cast<float>(at.u);
+  return {0.1f + 0.4f * u, 0.1f + 0.4f * u, 0.1f + 0.4f * u, 0, 0, 0, 1};
+}
+
+void keep_diffuse_alone(const Session& session, const std::string& folder) {
+  std::filesystem::remove(session.path(folder + "/skin_specular.exr"));
+  std::filesystem::remove(session.path(folder + "/skin_roughness.exr"));
+}
+
+}  // namespace
+
 TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel its correct reflectance") {
   const Session session;
   write_materials(session);
@@ -81,12 +100,10 @@ TEST_CASE("remapc warp: strokes that share most of a region give a warning") {
   CHECK(result.errors.find("stroke 2 covers 75 % of stroke 1 in the source") != std::string::npos);
 }
 
-TEST_CASE("remapc warp: --report writes one HTML file with its pictures", "[slow]") {
+TEST_CASE("remapc warp: --report writes one HTML file with its pictures and warnings", "[slow]") {
   const Session session;
   write_materials(session);
-  Words words = mask_words();
-  words += "--report report.html";
-  const ProcessResult result = require_success(run_warp(session, words));
+  require_success(run_warp(session, mask_words() + "--report report.html"));
   const std::string html = session.content("report.html");
   std::size_t pictures = 0;
   for (std::size_t at = html.find("data:image/png;base64,iVBORw0KGgo"); at != std::string::npos;
@@ -97,15 +114,26 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures", "[slow
   CHECK(html.find("<h1>Warp stony</h1>") != std::string::npos);
   CHECK(html.find("<td>folds</td><td>0 %</td>") != std::string::npos);
   CHECK(html.ends_with("</html>\n"));
-}
-
-TEST_CASE("remapc warp: a report contains the warnings") {
-  const Session session;
-  write_materials(session);
-  const Words few = "--box 0,0,20,20 0,0,20,20 --report";
-  Words words = few;
-  words.push_back(session.path("report.html"));
-  require_success(run_warp(session, words));
+  require_success(run_warp(session, "--box 0,0,20,20 0,0,20,20 --report report.html"));
   CHECK(session.content("report.html").find("class=\"warning\">strokes do not determine direction 1") !=
         std::string::npos);
+}
+
+TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its color", "[slow]") {
+  const Session session;
+  write_materials(session);
+  write_set(session, "wood", 0.1, albedo_texel);
+  keep_diffuse_alone(session, "wood");
+  const ProcessResult result = require_success(run_warp(session, mask_words()));
+  CHECK(result.errors.find("the source has a diffuse map only") != std::string::npos);
+  const WarpMapFit fit = read_warp(session);
+  CHECK(is_of_diffuse_alone(fit));
+  CHECK(error_of(fit, albedo_texel) < 0.25);
+  const ProcessResult card = session.remapc("show stony.json");
+  CHECK(card.output.find("source_maps") != std::string::npos);
+
+  write_set(session, "wood", 0.1, grey_albedo_texel);
+  keep_diffuse_alone(session, "wood");
+  CHECK(require_success(run_warp(session, mask_words()))
+            .errors.find("the source varies in 1 dimension and the template in 2") != std::string::npos);
 }

@@ -217,30 +217,14 @@ std::vector<Fault> faults() {
         }},
        {"specgloss-channels", "a set", Help::kWords, "in",
         [=](S s) { s.map("in/a_SpecularGlossiness.png", color); }},
-       {"specgloss-channels", "an asset", Help::kWords, "in/a.gltf",
-        [=](S s) {
-          s.map("in/x.png", color);
-          s.map("in/y.png", color);
-          s.gltf(kGloss, {"x.png", "y.png"});
-        }},
        {"sizes", "a set of three sizes", Help::kCommand, "in",
         [=](S s) {
           s.map("in/a_BaseColor.png", color, "", OIIO::TypeUInt8, 32, 32);
           s.map("in/a_Roughness.png", {bumps}, "", OIIO::TypeUInt8, 64, 64);
           s.map("in/a_Metallic.png", {patches}, "", OIIO::TypeUInt8, 64, 32);
         }},
-       {"metallic-greys", "an asset", Help::kWords, "in/a.gltf",
-        [](S s) {
-          s.map("in/x.png", {flat(1), bumps, bumps});
-          s.gltf(kRoughTexture, {"x.png"});
-        }},
        {"wrong-texture", "a set", Help::kWords, "in",
         [](S s) { s.map("in/a_BaseColor.png", normals(false)); }},
-       {"duplicate-map", "an asset", Help::kWords, "in/a.mtl",
-        [](S s) {
-          s.map("in/x.png", {bumps});
-          s.put("in/a.mtl", "newmtl m\nmap_Pr x.png\nmap_Pm x.png\n");
-        }},
        {"metallic-greys", "a set", Help::kWords, "in", [](S s) { s.map("in/a_Metallic.png", {bumps}); }},
        {"factor-zero", "roughness", Help::kWords, "in/a.gltf",
         [](S s) {
@@ -275,22 +259,12 @@ std::vector<Fault> faults() {
           s.map("in/x.png", normals(true));
           s.gltf(R"("normalTexture":{"index":0})", {"x.png"});
         }},
-       {"wrong-texture", "an asset", Help::kWords, "in/a.gltf",
-        [](S s) {
-          s.map("in/x.png", normals(false));
-          s.gltf(kBaseTexture, {"x.png"});
-        }},
        {"specular-color", "a set", Help::kWords, "in",
         [](S s) {
           const auto linear = [](double, double y) { return y < 0.9 ? 0.04 : 0.9; };
           s.map("in/a_Specular.png", {linear, linear, linear});
         }},
        {"constant-map", "a set", Help::kWords, "in", [](S s) { s.map("in/a_Roughness.png", {flat(0.5)}); }},
-       {"constant-map", "an asset", Help::kWords, "in/a.gltf",
-        [](S s) {
-          s.map("in/x.png", {flat(1), flat(1), flat(1)});
-          s.gltf(kRoughTexture, {"x.png"});
-        }},
        {"banding", "a set", Help::kWords, "in",
         [](S s) { s.map("in/a_Roughness.png", {[](double x, double) { return 0.01 + 0.03 * x; }}); }},
        {"bad-values", "a set", Help::kCommand, "in",

@@ -120,20 +120,6 @@ TEST_CASE("texremap path: --to RENDERER is a part of the plan") {
   CHECK(json_of(path("cycles-5/ggx", "mitsuba", "--json"))["models"].back() == "mitsuba/ggx");
 }
 
-TEST_CASE("texremap path: --to RENDERER takes no model of dielectrics alone") {
-  for (const std::string renderer : {"cycles-5", "mitsuba3", "threejs-r187"}) {
-    const nlohmann::json json = json_of(path("mitsuba/ggx", renderer, "--json"));
-    INFO(renderer << ": " << json["models"].back());
-    CHECK(json["domain"]["specular"][1] >= 0.5);
-  }
-}
-
-TEST_CASE("texremap path: --to RENDERER with --via chooses among the paths that lead there") {
-  const nlohmann::json json = json_of(path("mitsuba/ward", "cycles-5", "--via mitsuba/ggx --json"));
-  CHECK(json["models"][1] == "mitsuba/ggx");
-  CHECK_THAT(json["models"].back().get<std::string>(), !Contains("beckmann"));
-}
-
 TEST_CASE("texremap: a workflow is compared with the models of its own renderer") {
   const ProcessResult gltf = path("mitsuba/ward", "gltf"),
                       principled = path("mitsuba/ward", "cycles-5/principled");

@@ -97,7 +97,10 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
   CHECK(states() == "dd");
   fs::remove(session.path("out/a/wood_Normal.png"));
   CHECK(states() == "cd");
-  CHECK(same_bytes(session, "in/a/wood_Normal.png", "out/a/wood_Normal.png"));
+  write_map(session, "in/b/c/wood_Normal.png", {"R", "G", "B"}, 2 * kCopySize);
+  CHECK(states() == "dc");
+  for (const char* name : {"a/wood_Normal.png", "b/c/wood_Normal.png"})
+    CHECK(same_bytes(session, std::string("in/") + name, std::string("out/") + name));
 }
 
 TEST_CASE("texremap copies: a packed map is not copied as well") {

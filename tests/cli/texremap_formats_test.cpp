@@ -1,13 +1,10 @@
-// Reads the results of texremap with OpenImageIO: converted channels must equal the converter, everything
-// else the input.
+// Reads the results of texremap with OpenImageIO: converted channels must equal the converter.
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "support/skip.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -50,7 +47,6 @@ OIIO::ImageSpec spec_of(const Case& format, const std::vector<std::string>& chan
   OIIO::ImageSpec spec = test_spec(kWidth, kHeight, channels, format.type);
   spec.tile_width = spec.tile_height = format.tile;
   if (!format.compression.empty()) spec.attribute("Compression", format.compression);
-  spec.attribute("Copyright", "nobody");
   if (format.special == Case::kAssociated) spec.erase_attribute("oiio:UnassociatedAlpha");
   if (format.special == Case::kWindowed)
     spec.x = 10, spec.y = -7, spec.full_width = 200, spec.full_height = 100;
@@ -77,31 +73,10 @@ void check_converted(const TestImage& roughness, const TestImage& specular, cons
   }
 }
 
-// Compares the channels from the fourth on, bit for bit.
-void check_passed_through(const TestImage& in, const TestImage& out) {
-  REQUIRE(in.bytes.size() == out.bytes.size());
-  const std::size_t texel = in.spec.pixel_bytes(true), colors = in.spec.pixel_bytes(0, 3, true);
-  for (std::size_t i = 0; i < in.bytes.size(); i += texel)
-    REQUIRE(std::memcmp(&in.bytes[i + colors], &out.bytes[i + colors], texel - colors) == 0);
-}
-
-void check_same_kind(const OIIO::ImageSpec& in, const OIIO::ImageSpec& out) {
-  CHECK(out.format == in.format);
-  CHECK(out.channelformats == in.channelformats);
-  CHECK(out.channelnames == in.channelnames);
-  CHECK(out.alpha_channel == in.alpha_channel);
-  CHECK(out.tile_width == in.tile_width);
-  CHECK(out.tile_height == in.tile_height);
-  CHECK(out.roi() == in.roi());
-  CHECK(out.roi_full() == in.roi_full());
-  for (const char* name : {"Compression", "Copyright", "oiio:ColorSpace"})
-    CHECK(out.get_string_attribute(name) == in.get_string_attribute(name));
-  CHECK(out.get_int_attribute("oiio:UnassociatedAlpha") == in.get_int_attribute("oiio:UnassociatedAlpha"));
-}
-
 }  // namespace
 
-TEST_CASE("texremap: every format keeps its storage and all unconverted channels", "[slow]") {
+// texremap_attributes_test compares storage and all channels that are not converted.
+TEST_CASE("texremap: every format is converted in every kind of storage", "[slow]") {
   for (const Case& format : cases()) {
     const Session session;
     const std::string r = "r." + format.extension, s = "s." + format.extension;
@@ -112,10 +87,8 @@ TEST_CASE("texremap: every format keeps its storage and all unconverted channels
     const TestImage roughness = session.image(r), specular = session.image(s);
     const TestImage roughness_out = session.image("out/" + r);
     const TestImage specular_out = session.image("out/" + s);
-    check_same_kind(roughness.spec, roughness_out.spec);
-    check_same_kind(specular.spec, specular_out.spec);
+    CHECK(specular_out.spec.channelnames == specular.spec.channelnames);
     check_converted(roughness, specular, roughness_out, specular_out);
-    check_passed_through(specular, specular_out);
     CHECK(session.file_count() == 2);
   }
 }
@@ -171,8 +144,7 @@ TEST_CASE("texremap: --type chooses the pixel type, and clipped values are count
   check_converted(session.image("r.exr"), session.image("s.exr"), session.image("out/r.tif"), out);
 }
 
-TEST_CASE("texremap: --compression changes sizes and no texel, and is refused where nothing has a level",
-          "[slow]") {
+TEST_CASE("texremap: --compression changes sizes and no texel", "[slow]") {
   const Session session;
   for (const std::string extension : {"png", "tif", "exr"}) {
     session.write_pair(extension);
@@ -192,14 +164,9 @@ TEST_CASE("texremap: --compression changes sizes and no texel, and is refused wh
       texels = now;
     }
   }
-  session.write_pair("tga");
-  const ProcessResult result = session.convert("r.tga", "s.tga", "--compression 3");
-  CHECK(result.exit_code == 2);
-  CHECK_THAT(result.errors, Contains("applies to nothing"));
-  CHECK_FALSE(fs::exists(session.path("out/r.tga")));
 }
 
-TEST_CASE("texremap: a constant specular becomes a map of the same size") {
+TEST_CASE("texremap: a constant becomes a map of the same size") {
   const Session session;
   session.write_pair("exr");
   const std::string constant = GENERATE("0.5", "0.9,0.6,0.2");
@@ -214,6 +181,13 @@ TEST_CASE("texremap: a constant specular becomes a map of the same size") {
     for (int c = 0; c < out.spec.nchannels; ++c)
       CHECK(out.at(x, 9, c) == as_stored(expected[static_cast<std::size_t>(c) + 1], OIIO::TypeHalf));
   }
+  require_success(session.convert("0.3", "s.exr"));
+  const TestImage colors = session.image("s.exr"), roughness = session.image("out/roughness.exr");
+  CHECK(roughness.spec.channelnames == std::vector<std::string>{"Y"});
+  for (int x = 0; x < 64; ++x)
+    CHECK(roughness.at(x, 2, 0) ==
+          as_stored(converted_texel(0.3f, {colors.at(x, 2, 0), colors.at(x, 2, 1), colors.at(x, 2, 2)})[0],
+                    OIIO::TypeHalf));
 }
 
 TEST_CASE("texremap: a JPEG stays one, with a warning") {
@@ -230,21 +204,6 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
     const std::array<float, 3> specular = {read(0), read(1), read(2)};
     CHECK(out.at(x, 3, 0) == Approx(converted_texel(in.at(x, 3, 0), specular)[0]).margin(4.0 / 255.0));
   }
-}
-
-TEST_CASE("texremap: idiff finds the passed-through alpha unchanged", "[needs]") {
-  const Session session;
-  session.make("r.png", test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
-  session.make("s.png", test_spec(kWidth, kHeight, kRgbaNames, OIIO::TypeUInt16), noise);
-  require_success(session.convert("r.png", "s.png"));
-  const std::string tool = REMAP_OIIOTOOL;
-  if (!fs::exists(tool)) return skip("oiiotool", "not installed");
-  const auto diff = [&](const std::string& channel) {
-    return session.run(tool + " -iconfig oiio:UnassociatedAlpha 1 s.png --ch " + channel +
-                       " out/s.png --ch " + channel + " --diff");
-  };
-  CHECK(diff("A").exit_code == 0);
-  CHECK(diff("R").exit_code != 0);
 }
 
 TEST_CASE("texremap formats: a large Targa is clamped in memory, with a remark", "[slow]") {

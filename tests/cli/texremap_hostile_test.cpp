@@ -11,6 +11,7 @@
 #include "core/owner_tag.hpp"
 
 using namespace remap;
+using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
@@ -94,12 +95,12 @@ TEST_CASE("texremap hostile: images of one stem give new images of two names") {
   folder.put_textured("in/x/a.gltf", "../wood.png");
   const std::string command = "convert in --assets --recursive --to gltf -o out";
   CHECK(folder.texremap(command).exit_code == 0);
-  CHECK_THAT(folder.texremap(command + "").errors, Catch::Matchers::Contains("3 done before"));
+  CHECK_THAT(folder.texremap(command + "").errors, Contains("3 done before"));
   for (const char* name : {"a_wood_baseColor.png", "b_wood_baseColor.png", "a_2_wood_baseColor.png"}) {
     INFO(name);
     CHECK(fs::exists(folder.path(std::string("out/") + name)));
   }
-  CHECK_THAT(folder.content("out/x/a.gltf"), Catch::Matchers::Contains("../a_2_wood_baseColor.png"));
+  CHECK_THAT(folder.content("out/x/a.gltf"), Contains("../a_2_wood_baseColor.png"));
 }
 
 TEST_CASE("texremap hostile: an asset is never the part of another one, nor is what the program notes") {
@@ -110,11 +111,10 @@ TEST_CASE("texremap hostile: an asset is never the part of another one, nor is w
   folder.put("in/.texremap.jsonl", "not a journal");
   const ProcessResult run = folder.texremap("convert in --assets --to gltf -o out --json");
   CHECK(run.exit_code == 1);
-  CHECK_THAT(run.errors,
-             Catch::Matchers::Contains("out/b.gltf: would be written twice, from the conversion of in/b.gltf "
-                                       "and from in/b.gltf") &&
-                 Catch::Matchers::Contains("has a name of texremap's own files (rename it)"));
-  CHECK_THAT(folder.content("out/b.gltf"), Catch::Matchers::Contains("pbrMetallicRoughness"));
+  CHECK_THAT(run.errors, Contains("out/b.gltf: would be written twice, from the conversion of in/b.gltf "
+                                  "and from in/b.gltf") &&
+                             Contains("has a name of texremap's own files (rename it)"));
+  CHECK_THAT(folder.content("out/b.gltf"), Contains("pbrMetallicRoughness"));
   CHECK_FALSE(fs::exists(folder.path("out/z.gltf")));
   CHECK(folder.content("out/.texremap.jsonl").starts_with("{\"conversion\""));
 }
@@ -134,15 +134,14 @@ TEST_CASE("texremap hostile: of two sets that differ in case alone the second is
   const ProcessResult run = folder.texremap(kOfTree);
   CHECK(run.exit_code == 1);
   CHECK_THAT(run.errors,
-             Catch::Matchers::Contains(
-                 "would be written twice, from in/Rock_roughness.png and from in/rock_roughness.png"));
+             Contains("would be written twice, from in/Rock_roughness.png and from in/rock_roughness.png"));
   CHECK(folder.results() == std::vector<std::string>{"Rock_roughness.png", "Rock_specular.png",
                                                      "\xc3\x84"
                                                      "bc_roughness.png",
                                                      "\xc3\x84"
                                                      "bc_specular.png"});
   CHECK_THAT(folder.texremap("index in -o m.jsonl").errors,
-             Catch::Matchers::Contains("(rename one of the sets; case does not count)"));
+             Contains("(rename one of the sets; case does not count)"));
 }
 
 TEST_CASE("texremap hostile: links that others planted in the output folder are not followed") {
@@ -150,8 +149,7 @@ TEST_CASE("texremap hostile: links that others planted in the output folder are 
   folder.map("in/x_roughness.png", kGrey);
   folder.put("rc", "alias ll=ls\n");
   folder.link("../rc", "out/.texremap.jsonl");
-  CHECK_THAT(folder.texremap(kOfTree).last_error(),
-             Catch::Matchers::Contains("out/.texremap.jsonl: is a link, belongs to"));
+  CHECK_THAT(folder.texremap(kOfTree).last_error(), Contains("out/.texremap.jsonl: is a link, belongs to"));
   CHECK(folder.content("rc") == "alias ll=ls\n");
   CHECK_FALSE(fs::exists(folder.path("out/x_roughness.png")));
 
@@ -210,7 +208,7 @@ TEST_CASE("texremap hostile: a manifest leads nowhere else") {
   REQUIRE(folder.texremap("index as --assets -o m.jsonl --quiet --force").exit_code == 0);
   folder.change_manifest(R"("a.gltf")", "\"" + folder.path("as/a.gltf") + "\"");
   CHECK_THAT(folder.texremap("convert --manifest m.jsonl --to gltf -o deep --force").last_error(),
-             Catch::Matchers::Contains("is an absolute path (texremap index again)"));
+             Contains("is an absolute path (texremap index again)"));
 }
 
 TEST_CASE("texremap hostile: links out of the folder of the inputs are read when they are asked for") {
@@ -223,8 +221,8 @@ TEST_CASE("texremap hostile: links out of the folder of the inputs are read when
   folder.link("../real/p.bin", "in/tex/p.bin");
   const ProcessResult run = folder.texremap("convert in --assets --recursive --to gltf -o out");
   CHECK(run.exit_code == 1);
-  CHECK_THAT(run.errors, Catch::Matchers::Contains("in/payload.bin: is a link that leads out of") &&
-                             Catch::Matchers::Contains("(--follow-links reads it)"));
+  CHECK_THAT(run.errors, Contains("in/payload.bin: is a link that leads out of") &&
+                             Contains("(--follow-links reads it)"));
   CHECK_FALSE(fs::exists(folder.path("out/payload.bin")));
   CHECK(folder.content("out/tex/p.bin") == "5678");  // a link inside
   CHECK(folder.texremap("convert in/a.gltf --to gltf -o one").exit_code == 1);
@@ -243,7 +241,7 @@ TEST_CASE("texremap hostile: pipes and files without end in the place of its fil
   folder.map("in/x_roughness.png", kGrey);
   REQUIRE(::mkfifo(folder.path("m.jsonl").c_str(), 0600) == 0);
   CHECK_THAT(folder.texremap("convert --manifest m.jsonl --part 1/1 --to gltf -o out").last_error(),
-             Catch::Matchers::Contains("is a named pipe, not a file"));
+             Contains("is a named pipe, not a file"));
   fs::create_directories(folder.path("in/.texremap-parts"));
   REQUIRE(::mkfifo(folder.path("in/.texremap-parts/a.journal").c_str(), 0600) == 0);
   folder.put("in/.texremap.jsonl", "");
@@ -251,7 +249,7 @@ TEST_CASE("texremap hostile: pipes and files without end in the place of its fil
   CHECK(folder.texremap(kOfTree).exit_code == 0);
   fs::remove(folder.path("out/.texremap.jsonl"));
   REQUIRE(::mkfifo(folder.path("out/.texremap.jsonl").c_str(), 0600) == 0);
-  CHECK_THAT(folder.texremap(kOfTree + "--force").last_error(), Catch::Matchers::Contains("is not a file"));
+  CHECK_THAT(folder.texremap(kOfTree + "--force").last_error(), Contains("is not a file"));
 }
 
 TEST_CASE("texremap hostile: a decoder that crashes costs one set, one asset, one finding", "[slow]") {
@@ -270,7 +268,7 @@ TEST_CASE("texremap hostile: a decoder that crashes costs one set, one asset, on
     fs::remove_all(folder.path("out"));
     const ProcessResult run = crashing(kOfTree + "--threads" + threads);
     CHECK(run.exit_code == 1);
-    CHECK_THAT(run.errors, Catch::Matchers::Contains("failed: in/bad: its process was ended by signal 6"));
+    CHECK_THAT(run.errors, Contains("failed: in/bad: its process was ended by signal 6"));
     CHECK(run.last_error() == "texremap: 1 of 3 sets failed");
     CHECK(folder.results().size() == 4);
     CHECK_FALSE(has_unfinished(folder.path("out")));
@@ -278,16 +276,16 @@ TEST_CASE("texremap hostile: a decoder that crashes costs one set, one asset, on
   const ProcessResult assets =
       crashing(Words("convert as --assets --to gltf -o assets --threads 1"), "bad.png");
   CHECK(assets.exit_code == 1);
-  CHECK_THAT(assets.errors, Catch::Matchers::Contains("2 assets converted, 1 failed") &&
-                                Catch::Matchers::Contains("its process was ended by signal 6"));
+  CHECK_THAT(assets.errors,
+             Contains("2 assets converted, 1 failed") && Contains("its process was ended by signal 6"));
   const ProcessResult one =
       crashing(Words("convert --from mitsuba/ward --to mitsuba/ggx --roughness in/bad_roughness.png "
                      "--specular 0.04 -o one"));
   CHECK(one.exit_code == 1);
-  CHECK_THAT(one.last_error(), Catch::Matchers::Contains("in/bad_roughness.png: its process was ended"));
+  CHECK_THAT(one.last_error(), Contains("in/bad_roughness.png: its process was ended"));
   const ProcessResult checked = crashing(Words("check in"));
   CHECK(checked.exit_code == 1);
-  CHECK_THAT(checked.errors, Catch::Matchers::Contains("its process was ended by signal 6"));
+  CHECK_THAT(checked.errors, Contains("its process was ended by signal 6"));
 }
 
 TEST_CASE(
@@ -310,18 +308,16 @@ TEST_CASE(
   CHECK(run.exit_code == 1);
   CHECK(run.last_error() == "texremap: 5 of 7 sets failed");
   CHECK_THAT(run.errors,
-             Catch::Matchers::Contains(
-                 "bomb_roughness.png: is damaged: its size of 32768x32768 does not fit a file of") &&
-                 Catch::Matchers::Contains("is DPX, which is not read (convert it to PNG)") &&
-                 Catch::Matchers::Contains("is IFF, which is not read") &&
-                 Catch::Matchers::Contains("compression 2 of 24 bits") &&
-                 Catch::Matchers::Contains("a header of 268 bytes"));
-  CHECK_THAT(folder.texremap("check in --quiet").errors, Catch::Matchers::Contains("32768x32768"));
+             Contains("bomb_roughness.png: is damaged: its size of 32768x32768 does not fit a file of") &&
+                 Contains("is DPX, which is not read (convert it to PNG)") &&
+                 Contains("is IFF, which is not read") && Contains("compression 2 of 24 bits") &&
+                 Contains("a header of 268 bytes"));
+  CHECK_THAT(folder.texremap("check in --quiet").errors, Contains("32768x32768"));
   folder.map("large/x_roughness.tif", kColor, OIIO::TypeUInt8, 2048);
   CHECK_THAT(
       folder
           .texremap("convert large --from mitsuba/ward --to mitsuba/ggx --specular 0.04 --memory-limit 1 -o "
                     "limited")
           .errors,
-      Catch::Matchers::Contains("of memory, and an image of this run may take 1 MB (--memory-limit MB"));
+      Contains("of memory, and an image of this run may take 1 MB (--memory-limit MB"));
 }

@@ -64,38 +64,6 @@ TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data t
     }
 }
 
-TEST_CASE("texremap inputs: a constant roughness becomes a map of the size of the specular map") {
-  const Session session;
-  session.write_pair("exr", kInputSize);
-  require_success(convert_ward(session, "--roughness 0.3 --specular s.exr -o out"));
-  const TestImage in = session.image("s.exr"), out = session.image("out/s.exr"),
-                  roughness = session.image("out/roughness.exr");
-  CHECK(roughness.spec.channelnames == std::vector<std::string>{"Y"});
-  for (int x = 0; x < kInputSize; ++x) {
-    const auto expected = converted_texel(0.3f, {in.at(x, 2, 0), in.at(x, 2, 1), in.at(x, 2, 2)});
-    CHECK(roughness.at(x, 2, 0) == as_stored(expected[0], OIIO::TypeHalf));
-    CHECK(out.at(x, 2, 1) == as_stored(expected[2], OIIO::TypeHalf));
-  }
-}
-
-TEST_CASE("texremap inputs: numbers alone are converted and printed", "[slow]") {
-  const Session session;
-  const auto expected = converted_texel(0.3f, {0.04f, 0.5f, 0.2f});
-  const ProcessResult text =
-      require_success(convert_ward(session, "--roughness 0.3 --specular 0.04,0.5,0.2"));
-  CHECK_THAT(text.output, Contains("alpha 0.") && Contains("\nf0 0."));
-  const ProcessResult result = convert_ward(session, "--roughness 0.3 --specular 0.04,0.5,0.2 --json");
-  const auto values = nlohmann::json::parse(result.output)["values"];
-  CHECK(values["alpha"].get<float>() == expected[0]);
-  CHECK(values["f0"].get<std::vector<float>>() == std::vector<float>{expected[1], expected[2], expected[3]});
-  const ProcessResult squared =
-      convert_ward(session,
-                   "--roughness 0.09 --roughness-encoding squared --output-encoding "
-                   "roughness --specular 0.04,0.5,0.2 --json");
-  CHECK(nlohmann::json::parse(squared.output)["values"]["roughness"].get<double>() ==
-        Approx(std::sqrt(static_cast<double>(expected[0]))).epsilon(1e-6));
-}
-
 TEST_CASE("texremap inputs: factors are applied once") {
   const Session session;
   session.write_pair("exr", kInputSize);
@@ -122,7 +90,11 @@ TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
                });
   const Words words = maps("r.exr", "s.exr") + "--json --force --nan";
   const ProcessResult kept = require_success(convert_ward(session, words + "keep"));
-  CHECK(nlohmann::json::parse(kept.output)["first_bad"] == std::vector<int>{6, 4});
+  const auto json = nlohmann::json::parse(kept.output);
+  CHECK(json["first_bad"] == std::vector<int>{6, 4});
+  CHECK(json["texels"] == kInputSize * kInputSize);
+  for (const char* kind : {"nan", "infinite", "negative"}) CHECK(json[kind] == 1);
+  CHECK(json["specular"] == "out/s.exr");
   CHECK_THAT(kept.errors, Contains("1 texel with NaN; first bad texel: (6, 4)"));
   CHECK(std::isnan(session.image("out/s.exr").at(6, 4, 1)));
 

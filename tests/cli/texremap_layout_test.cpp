@@ -62,34 +62,6 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
   CHECK(channel(session, named("packed/" + layout), 1) == channel(session, named("plain/roughness"), 0));
 }
 
-TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every color", "[slow]") {
-  const Session session;
-  const std::string extension = GENERATE("png", "tif", "exr", "tga");
-  const auto named = [&](const std::string& name) { return name + "." + extension; };
-  session.make(named("r"), test_spec(kLayoutSize, kLayoutSize, {"Y"}, OIIO::TypeUInt8), noise);
-  session.make(named("s"), test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8),
-               [](int x, int y, int c) { return noise(x, y, c + 1); });
-  const bool grey = GENERATE(false, true);
-  require_success(convert(
-      session, "mitsuba/ward", "mitsuba/as",
-      "--roughness " + named("r") + " --specular " + (grey ? "0.3" : named("s")) + " --layout specgloss",
-      "out"));
-  const TestImage r = session.image(named("r")), s = session.image(named("s")),
-                  out = session.image(named("out/specular_glossiness"));
-  CHECK(out.spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
-  for (int y = 0; y < kLayoutSize; ++y)
-    for (int x = 0; x < kLayoutSize; ++x) {
-      const std::array<float, 3> specular = grey ? std::array{0.3f, 0.3f, 0.3f}
-                                                 : std::array{color_read(s.at(x, y, 0), s.spec.format),
-                                                              color_read(s.at(x, y, 1), s.spec.format),
-                                                              color_read(s.at(x, y, 2), s.spec.format)};
-      const auto expected = converted_texel(r.at(x, y, 0), specular);
-      for (int c = 0; c < 3; ++c)
-        REQUIRE(is_color_stored(out.at(x, y, c), expected[static_cast<std::size_t>(c) + 1], out.spec.format));
-      REQUIRE(out.at(x, y, 3) == Approx(1.0f - std::sqrt(expected[0])).margin(0.501 / 255.0));
-    }
-}
-
 TEST_CASE("texremap layouts: missing maps give a warning") {
   const Session session;
   session.make("r.png", test_spec(kLayoutSize, kLayoutSize, {"Y"}, OIIO::TypeUInt8), noise);

@@ -61,21 +61,6 @@ TEST_CASE("texremap nights: sets whose names hold control characters are resumed
   CHECK(states(tree, {}) == "d");
 }
 
-TEST_CASE("texremap nights: makes anew what changed, without --force", "[slow]") {
-  const Tree tree;
-  write_sets(tree, 2, "tga");
-  tree.map("in/s0_normal.tga", kColor);
-  CHECK(states(tree, {}) == "cc");
-  tree.make("in/s1_rough.tga", test_spec(kTreeMapSize, kTreeMapSize, kGrey, OIIO::TypeUInt8),
-            [](int, int, int) { return 0.5f; });
-  CHECK(states(tree, {}) == "dc");
-  tree.make("in/s0_normal.tga", test_spec(kTreeMapSize, kTreeMapSize, kColor, OIIO::TypeUInt8),
-            [](int, int, int) { return 0.25f; });
-  CHECK(states(tree, {}) == "cd");
-  CHECK(tree.content("in/s0_normal.tga") == tree.content("out/s0_normal.tga"));
-  CHECK(states(tree, {}) == "dd");
-}
-
 TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their own", "[slow]") {
   const Tree tree;
   for (const std::string name : {"wood", "deep/wall"}) {

@@ -90,23 +90,6 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   }
 }
 
-TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision that JPEG loses",
-          "[needs][slow]") {
-  const fs::path map = shared_data("textures/king_black_roughness.jpg");
-  if (map.empty()) return;
-  const Tree tree;
-  const ProcessResult result =
-      require_success(tree.texremap(words("--roughness " + map.string() + " --format png --type uint16 ")));
-  CHECK(count_of(result.errors, "compression changes values") == 0);
-  const TestImage in = read_image(map), out = tree.image("out/king_black_roughness.png");
-  REQUIRE(out.spec.format == OIIO::TypeUInt16);
-  const std::array<float, 256> expected = converted_roughness();
-  double largest = 0.0;
-  for (std::size_t i = 0; i < in.bytes.size(); ++i)
-    largest = std::max(largest, static_cast<double>(std::abs(expected[in.bytes[i]] - out.values[i])));
-  CHECK(largest <= 0.51 / 65535.0);
-}
-
 TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile", "[needs]") {
   const fs::path tiles = shared_data("textures/grid_udim");
   if (tiles.empty()) return;
@@ -126,26 +109,4 @@ TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile", "
     CHECK(same_channel(in, out, 1));
     CHECK(same_channel(in, out, 2));
   }
-}
-
-TEST_CASE("texremap real sets: a tile that one map lacks is named, the others are converted", "[needs]") {
-  const fs::path tiles = shared_data("textures/grid_udim");
-  if (tiles.empty()) return;
-  const Tree tree;
-  fs::create_directory(tree.path("specular"));
-  for (const auto& entry : fs::directory_iterator(tiles))
-    if (entry.path().filename() != "grid.1012.png")
-      fs::create_symlink(entry.path(), tree.path("specular/" + entry.path().filename().string()));
-  const ProcessResult result =
-      tree.convert((tiles / "grid.<UDIM>.png").string() + ":R", "specular/grid.<UDIM>.png:G",
-                   "--only roughness --roughness-encoding roughness --json");
-  INFO(result.errors);
-  CHECK(result.exit_code == 1);
-  CHECK_THAT(result.errors,
-             Contains("specular/grid.1012.png: not found, but other maps of the set have this tile"));
-  const auto sets = tree_report(result.output)["sets"];
-  REQUIRE(sets.size() == 1);
-  CHECK(sets[0]["tiles"] == std::vector<std::string>{"1001", "1002", "1003", "1011", "1013"});
-  CHECK(tree.results() == std::vector<std::string>{"grid.1001.png", "grid.1002.png", "grid.1003.png",
-                                                   "grid.1011.png", "grid.1013.png"});
 }

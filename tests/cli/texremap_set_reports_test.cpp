@@ -199,10 +199,6 @@ TEST_CASE("reports: a set for an engine is complete, by --to as by --layout", "[
   std::filesystem::remove_all(sets.path("out"));
   require_success(sets.texremap("convert in --only-converted -o out " + words));
   CHECK(sets.results() == made);
-  const ProcessResult refused = sets.texremap("convert in --copy-others -o two " + words);
-  CHECK(refused.exit_code == 2);
-  CHECK_THAT(refused.errors, Contains("--copy-others: all maps of a set come along now (remove this option; "
-                                      "--only-converted leaves them out)"));
 }
 
 TEST_CASE("reports: what a packed map holds besides comes along as a map", "[reports][slow]") {
@@ -212,100 +208,6 @@ TEST_CASE("reports: what a packed map holds besides comes along as a map", "[rep
   require_success(sets.texremap("convert in --from unreal --to unity --metallic 0 -o out"));
   CHECK(sets.texel("out/T_Rock_height.png") == std::vector{33});
   CHECK(sets.texel("out/T_Rock_Occlusion.png") == std::vector{250});
-}
-
-TEST_CASE("reports: 16 an asset for an engine", "[reports][slow]") {
-  const ReportedSets sets;
-  write_file(sets.path("rock.gltf"), R"({"asset": {"version": "2.0"}, "materials": [{}]})");
-  for (const std::string option : {"--to unity", "--to unreal", "--to blender", "--to three.js"}) {
-    const ProcessResult refused = sets.texremap("convert rock.gltf -o out " + option);
-    INFO(option);
-    CHECK(refused.exit_code == 2);
-    CHECK_THAT(refused.errors,
-               Contains("textures are not taken out of assets such as rock.gltf (convert it by --to gltf"));
-  }
-  CHECK(sets.texremap("convert rock.gltf --to metal-rough -o out").exit_code == 0);
-}
-
-TEST_CASE("reports: 10 formats that are not read", "[reports][slow]") {
-  const ReportedSets sets;
-  const auto refused = [&](const std::string& file, const std::string& name, const std::string& remedy) {
-    write_file(sets.path(file), "x");
-    for (const std::string& command : {"convert " + file + " --to gltf -o out", "check " + file}) {
-      INFO(command);
-      const ProcessResult result = sets.texremap(command);
-      CHECK(result.exit_code == 2);
-      CHECK_THAT(result.errors, Contains(file + ": " + name +
-                                         " files are not read; texremap reads glTF, GLB, OBJ "
-                                         "and MTL files (" +
-                                         remedy));
-    }
-  };
-  for (const auto& [file, name] : std::map<std::string, std::string>{{"cube.dae", "COLLADA"},
-                                                                     {"cube.FBX", "FBX"},
-                                                                     {"cube.blend", "Blender"},
-                                                                     {"cube.max", "3ds Max"},
-                                                                     {"cube.3ds", "3ds Max"},
-                                                                     {"cube.ma", "Maya"},
-                                                                     {"cube.stl", "STL"},
-                                                                     {"cube.ply", "PLY"}})
-    refused(file, name, "convert it to glTF or OBJ first");
-  for (const std::string extension : {"usd", "usda", "usdc", "usdz"})
-    refused("scene." + extension, "USD",
-            "the Python package converts its materials: texremap usd scene." + extension + ")");
-  refused("arm.xml", "MuJoCo or Mitsuba",
-          "write its numbers, 128 times shininess: texremap convert --from mujoco");
-  refused("arm.mjcf", "MuJoCo", "write its numbers, 128 times shininess: texremap convert --from mujoco");
-  refused("table.sdf", "SDF", "write its numbers: texremap convert --from opengl");
-  refused("table.urdf", "URDF", "write its numbers: texremap convert --from opengl");
-  refused("paint.mat", "Radiance, Unity or MATLAB",
-          "write its numbers: texremap convert --from radiance/plastic");
-  refused("paint.mtlx", "MaterialX", "export its textures and convert their folder");
-  refused("paint.sbsar", "Substance", "export its textures and convert their folder");
-  // The commands of the remedies run.
-  for (const std::string values :
-       {"mujoco --roughness 64 --specular 0.2", "opengl --roughness 64 --specular 0.2",
-        "radiance/plastic --roughness 0.1 --specular 0.05"})
-    require_success(sets.texremap("convert --to gltf --diffuse 0.5 --from " + values));
-}
-
-TEST_CASE("reports: messages name what was typed", "[reports][slow]") {
-  const ReportedSets sets;
-  std::filesystem::create_directories(sets.path("My Textures"));
-  std::filesystem::create_directories(sets.path("Other"));
-  const auto said = [&](const std::vector<std::string>& words) {
-    const ProcessResult result = sets.texremap(Words(words));
-    CHECK(result.exit_code == 2);
-    return result.errors;
-  };
-  CHECK_THAT(
-      said({"convert", "My", "Textures", "--to", "gltf", "-o", "out"}),
-      Contains("Textures: not a glTF, MTL or OBJ file (put paths with spaces in quotes: \"My Textures\")"));
-  CHECK_THAT(said({"convert", "My Textures", "Other", "--to", "gltf", "-o", "out"}),
-             Contains("Other: not a glTF, MTL or OBJ file (convert one folder at a time)"));
-  CHECK_THAT(said({"convert", "Other", "--to", "gltf", "--out", "out"}),
-             Contains("unknown option --out (did you mean --output?)"));
-  CHECK_THAT(said({"convert", "Other", "--to", "ggx", "-o", "out"}), !Contains("nearest: glb"));
-  CHECK_THAT(said({"convert", "Other", "--to", "gltf", "--zzzzzzz", "1", "-o", "out"}),
-             !Contains("did you mean"));
-}
-
-TEST_CASE("reports: per cent and 0 to 255 are errors that name the right form", "[reports][slow]") {
-  const ReportedSets sets;
-  const auto said = [&](const std::string& words) {
-    const ProcessResult result = sets.texremap("convert --from gltf --to usd " + words);
-    CHECK(result.exit_code == 2);
-    return result.errors;
-  };
-  CHECK_THAT(said("--roughness 30 --base-color 0.5 --metallic 0"),
-             Contains("--roughness 30: values lie between 0 and 1 (write --roughness 0.3)"));
-  CHECK_THAT(
-      said("--roughness 0.3 --base-color 80,40,20 --metallic 0"),
-      Contains("--base-color 80,40,20: values lie between 0 and 1 (write --base-color 0.31,0.16,0.08)"));
-  CHECK_THAT(said("--roughness 0.3 --base-color 0.5 --metallic 100"), Contains("(write --metallic 1)"));
-  sets.plain("in/a_baseColor.png", {1, 2, 3});
-  CHECK_THAT(sets.texremap("convert in --from gltf --to unity --roughness 60 --metallic 0 -o out").errors,
-             Contains("(write --roughness 0.6)"));
 }
 
 TEST_CASE("reports: a folder prints one line a set where nothing is visible", "[reports][slow]") {

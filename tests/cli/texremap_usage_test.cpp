@@ -24,39 +24,6 @@ TEST_CASE("texremap: version and list answer on standard output", "[slow]") {
   CHECK(json[0]["source"]["model"].is_string());
 }
 
-TEST_CASE("texremap: a roughness map that is not grey has a channel that is") {
-  const Session session;
-  session.write_pair("exr");
-  fs::copy_file(session.path("s.exr"), session.path("color.exr"));
-  CHECK(session.convert("color.exr:G", "s.exr").exit_code == 0);
-  const TestImage in = session.image("color.exr"), out = session.image("out/color.exr");
-  CHECK(out.at(3, 4, 0) == in.at(3, 4, 0));
-  CHECK(out.at(3, 4, 2) == in.at(3, 4, 2));
-  CHECK(out.at(3, 4, 1) ==
-        as_stored(converted_texel(in.at(3, 4, 1), {in.at(3, 4, 0), in.at(3, 4, 1), in.at(3, 4, 2)})[0],
-                  OIIO::TypeHalf));
-}
-
-TEST_CASE("texremap: NaN, infinite and negative texels are converted and counted") {
-  const Session session;
-  session.write_pair("exr");
-  session.make("s.exr", test_spec(64, 64, {"R", "G", "B"}, OIIO::TypeHalf), [](int x, int y, int c) {
-    if (y == 0 && c == 1) return x < 2 ? NAN : x < 5 ? INFINITY : x < 9 ? -0.5f : 0.25f;
-    return 0.25f;
-  });
-  const ProcessResult result = require_success(session.convert("r.exr", "s.exr", "--json"));
-  const auto json = nlohmann::json::parse(result.output);
-  CHECK(json["texels"] == 64 * 64);
-  CHECK(json["nan"] == 2);
-  CHECK(json["infinite"] == 3);
-  CHECK(json["negative"] == 4);
-  CHECK(json["converter"] == "mitsuba_ward_to_mitsuba_as");
-  CHECK(json["specular"] == "out/s.exr");
-  CHECK_THAT(result.errors, Contains("texremap: 2 texels with NaN") && Contains("3 texels with infinite") &&
-                                Contains("4 texels with negative"));
-  CHECK(std::isnan(session.image("out/s.exr").at(1, 0, 1)));
-}
-
 TEST_CASE("texremap: --quiet prints nothing") {
   const Session session;
   session.write_pair("jpg", 64, OIIO::TypeUInt8);

@@ -41,25 +41,6 @@ void write_sets(const Session& session, const fs::path& textures) {
   write_small(textures / "king_shared_metallic.jpg", session.path("king/king_metallic.png"));
 }
 
-void check_range(const std::string& path, int channels) {
-  const TestImage image = read_image(path);
-  CHECK(image.spec.width == kSize);
-  CHECK(image.spec.height == kSize);
-  CHECK(image.spec.nchannels == channels);
-  float least = 1.0f, largest = 0.0f;
-  bool finite = true;
-  for (const float value : image.values) {
-    finite = finite && std::isfinite(value);
-    least = std::min(least, value);
-    largest = std::max(largest, value);
-  }
-  CAPTURE(path, least, largest);
-  CHECK(finite);
-  CHECK(least >= 0.0f);
-  CHECK(largest <= 1.0f);
-  CHECK(largest > least + 0.02f);  // the pattern stays
-}
-
 }  // namespace
 
 TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[needs][slow]") {
@@ -69,13 +50,13 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
   write_sets(session, textures);
   const fs::path strokes = fs::path(REMAP_SOURCE_DIR) / "tests/cli/strokes";
   struct Direction {
-    std::string source, source_strokes, target, target_strokes, stem;
+    std::string source, source_strokes, target, target_strokes;
     double folds, used;  // at most, at least
   };
-  for (const Direction& way : {Direction{"box", "boom_box.png", "king", "king.png", "BoomBox", 0.005, 0.4},
-                               Direction{"king", "king.png", "box", "boom_box.png", "king", 0.15, 0.25}}) {
+  for (const Direction& way : {Direction{"box", "boom_box.png", "king", "king.png", 0.005, 0.4},
+                               Direction{"king", "king.png", "box", "boom_box.png", 0.15, 0.25}}) {
     CAPTURE(way.source);
-    const std::string fit = "as_" + way.target + ".json", out = session.path(way.source + "_out");
+    const std::string fit = "as_" + way.target + ".json";
     const ProcessResult warp = require_success(session.remapc(
         "warp " + way.source + " " + way.target + " --strokes " + (strokes / way.source_strokes).string() +
         " " + (strokes / way.target_strokes).string() + " --json -o " + fit));
@@ -91,11 +72,5 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
     // says so.
     const bool warned = report["warnings"].dump().find("is folded by the warp") != std::string::npos;
     CHECK(warned == (found["fold_share"] > 0.005));
-    require_success(session.run(REMAP_TEXREMAP " convert " + way.source + " --fit " + fit +
-                                " --from-workflow metallic --type float --format exr -o " + out));
-    const std::string stem = out + "/" + way.stem;
-    check_range(stem + "_diffuse.exr", 3);
-    check_range(stem + "_specular.exr", 3);
-    check_range(stem + "_roughness.exr", 1);
   }
 }

@@ -8,7 +8,7 @@ rm -rf "$folder"
 mkdir -p "$folder"
 for target in ggx beckmann; do
   "$remapc" sweep --source mitsuba/ward --target "mitsuba/$target" --objective paper --roughness-range 0.03,1 \
-    --roughness-samples 24 --specular-samples 5 --resolution 256 -o "$folder/$target.csv" --quiet
+    --roughness-samples 12 --specular-samples 3 --resolution 256 -o "$folder/$target.csv" --quiet
 done
 for python in python3 /usr/bin/python3; do
   if "$python" -c 'import numpy' 2>/dev/null; then

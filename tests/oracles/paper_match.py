@@ -66,7 +66,7 @@ def best(picture, model, start, cosine, irradiance):
 
     golden = (math.sqrt(5.0) - 1.0) / 2.0
     low, high = math.log(start / 2.5), math.log(min(1.0, start * 1.8))
-    for _ in range(60):
+    for _ in range(40):
         a, b = high - golden * (high - low), low + golden * (high - low)
         if fit(a)[0] < fit(b)[0]:
             high = b

@@ -1,18 +1,24 @@
-// Every shipped header, as a user's compiler builds it, against texremap's pass of the same converter as
-// data: bit for bit, on every instruction set. Many headers a compiler run: a process for each would take
-// minutes.
+// Every shipped header, and those of random forms, as a user's compiler builds them, against texremap's pass
+// of the same converter as data: bit for bit, on every instruction set. Many headers a compiler run: a
+// process for each would take minutes. That the converters stay within their bound of the interpreter is
+// tested in lowered_converter_test.
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include <catch2/catch.hpp>
 
 #include "core/files.hpp"
 #include "core/parallel.hpp"
+#include "emit/emit.hpp"
 #include "remap/shipped_converters.hpp"
 #include "runtime/convert/texel_rows.hpp"
+#include "support/campaign.hpp"
+#include "support/fitted_converter.hpp"
 #include "support/header_flags.hpp"
+#include "support/random_models.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -79,18 +85,19 @@ bool calls_functions_of_texels(const std::filesystem::path& library) {
          0;
 }
 
-// Compiles the headers of all shipped converters; the entries stay as long as the program.
-std::map<std::string, Entry> compiled_headers(const std::filesystem::path& folder) {
+// Compiles headers of `includes` into libraries in `folder`; the entries stay as long as the program.
+std::map<std::string, Entry> compiled_headers(const std::filesystem::path& folder,
+                                              const std::filesystem::path& includes,
+                                              const std::vector<std::string>& ids) {
   std::vector<std::vector<std::string>> batches(kBatches);
-  const auto& all = shipped_converters();
-  for (std::size_t i = 0; i < all.size(); ++i) batches[i % kBatches].push_back(all[i]->info().id);
+  for (std::size_t i = 0; i < ids.size(); ++i) batches[i % kBatches].push_back(ids[i]);
   std::vector<int> results(kBatches, -1);
   run_parallel(kBatches, 2, [&](std::size_t b) {
     const auto source = folder / ("batch_" + std::to_string(b) + ".cpp");
     write_file(source, batch_source(batches[b]));
     results[b] =
-        std::system(("g++ -std=c++17 -O1 -ffp-contract=off -shared -fPIC -I " REMAP_SOURCE_DIR "/generated " +
-                     source.string() + " -o " + library(folder, b).string())
+        std::system((std::string("g++ -std=c++17 -O1 -ffp-contract=off -shared -fPIC") + kHeaderFlags +
+                     "-I " + includes.string() + " " + source.string() + " -o " + library(folder, b).string())
                         .c_str());
   });
   std::map<std::string, Entry> entries;
@@ -105,22 +112,42 @@ std::map<std::string, Entry> compiled_headers(const std::filesystem::path& folde
   return entries;
 }
 
+void check_header(const Entry& entry, const Converter& converter, std::size_t texels) {
+  INFO(converter.info().id << " on " << instruction_set_name(converter.info().instructions));
+  CHECK(entry.self_test());
+  CHECK(same_bits(converter, Header{entry}, odd_and_random_texels(converter.info(), texels)));
+}
+
 }  // namespace
 
 TEST_CASE("shipped headers: bit for bit what texremap gives of the same converters as data", "[slow]") {
   const TemporaryFolder folder;
-  const std::map<std::string, Entry> headers = compiled_headers(folder.path());
-  REQUIRE(headers.size() == shipped_converters().size());
+  std::vector<std::string> ids;
+  for (const auto& converter : shipped_converters()) ids.push_back(converter->info().id);
+  const auto headers = compiled_headers(folder.path(), REMAP_SOURCE_DIR "/generated", ids);
+  REQUIRE(headers.size() == ids.size());
   for (std::size_t b = 0; b < kBatches; ++b)
     CHECK_FALSE(calls_functions_of_texels(library(folder.path(), b)));
   for (const InstructionSet set : instruction_sets())
-    for (const auto& converter : shipped_converters(set)) {
-      const ConverterInfo& info = converter->info();
-      INFO(info.id << " on " << instruction_set_name(set));
-      const Header header{headers.at(info.id)};
-      CHECK(header.entry.self_test());
-      CHECK(same_bits(*converter, header, odd_and_random_texels(info, 5000)));
+    for (const auto& converter : shipped_converters(set))
+      check_header(headers.at(converter->info().id), *converter, 5000);
+}
+
+TEST_CASE("generated headers: random forms give the bits of their converters", "[slow][campaign]") {
+  const TemporaryFolder folder;
+  std::vector<Fit> fits;
+  std::vector<std::string> ids;
+  const auto seeds = static_cast<std::uint64_t>(campaign_length(200));
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    if (const std::optional<Fit> fit = random_form_fit(seed)) {
+      fits.push_back(lowered_fit(*fit));
+      ids.push_back(fit->id);
+      write_file(folder.path() / (fit->id + ".hpp"), emit_header(fits.back()));
     }
+  CHECK(fits.size() >= seeds / 4);
+  const auto headers = compiled_headers(folder.path(), folder.path(), ids);
+  for (const InstructionSet set : instruction_sets())
+    for (const Fit& fit : fits) check_header(headers.at(fit.id), *make_lowered_converter(fit, set), 600);
 }
 
 TEST_CASE("shipped headers: templates wrap those of each kind, without a warning by the flags of engines",

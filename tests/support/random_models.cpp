@@ -4,6 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include "lower/form_fit.hpp"
+#include "support/example_fit.hpp"
+
 namespace remap {
 namespace {
 
@@ -163,6 +166,16 @@ MappingKind random_regressed(const std::string& kind, Random* random, const Doma
   return Mlp{alpha, random_network(random, domain, random->chance(0.9), activation)};
 }
 
+// Near 1, with terms that get smaller.
+FactorTerms random_factor(Random* random, bool is_long) {
+  FactorTerms factor(is_long ? random->count(7, 8) : random->count(1, 5));
+  for (std::size_t j = 0; j < factor.size(); ++j)
+    for (std::size_t i = random->count(1, is_long ? 12 : 6); i-- > 0;)
+      factor[j].push_back(static_cast<float>(0.3 * random->normal() / static_cast<double>(1 + i + j)));
+  factor[0][0] = static_cast<float>(1.0 + 0.5 * random->normal());
+  return factor;
+}
+
 }  // namespace
 
 std::vector<std::string> random_kinds() { return {"parametric", "svr", "mlp"}; }
@@ -175,6 +188,34 @@ RandomModel random_model(const std::string& kind, std::uint64_t seed) {
   // Most do not vanish with specular.
   domain.specular.min = std::max(domain.specular.min, 0.02 * domain.specular.max);
   return {random_regressed(kind, &random, domain), domain};
+}
+
+std::optional<Fit> random_form_fit(std::uint64_t seed) {
+  Random random(seed);
+  Fit fit = example_fit();
+  fit.id = "random_" + std::to_string(seed);
+  fit.target.roughness = RoughnessEncoding::kAlpha;
+  fit.domain = {{random.between(0.01, 0.21), 1.0}, {0.0, random.magnitude(0.3, 3.0)}};
+  CompactForm form;
+  form.pole = static_cast<float>(random.magnitude(0.03, 3.0));
+  form.alpha = random_factor(&random, seed % 4 == 3);  // long: by loops instead of padded rows
+  form.specular = random_factor(&random, seed % 4 == 3);
+  const auto number = [&](double low, double high) { return static_cast<float>(random.between(low, high)); };
+  if (seed % 3 != 0) form.specular_limit = number(0.2, 1.2);
+  if (seed % 3 == 1) form.alpha_limit = number(0.5, 1.0);
+  if (seed % 3 != 0) form.hinge = {number(-0.5, 0.5), number(-0.5, 0.5), number(0.0, 1.0), number(0.0, 1.0)};
+  fit.mapping = form;
+  return is_sound(form, fit.domain) ? std::optional(fit) : std::nullopt;
+}
+
+float factor_in_floats(const FactorTerms& factor, float alpha, float t) {
+  float sum = 0.0f;
+  for (std::size_t j = factor.size(); j-- > 0;) {
+    float row = factor[j].back();
+    for (std::size_t i = factor[j].size() - 1; i-- > 0;) row = row * alpha + factor[j][i];
+    sum = j + 1 == factor.size() ? row : sum * t + row;
+  }
+  return sum;
 }
 
 }  // namespace remap

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,12 @@ struct RandomModel {
 // widths spread over orders of magnitude; some domains are tiny, begin next to alpha 0 or at bright specular.
 RandomModel random_model(const std::string& kind, std::uint64_t seed);
 std::vector<std::string> random_kinds();
+
+// A fit of a compact form: any number of terms, with and without limits and hinges. None where the form is
+// not sound over its domain.
+std::optional<Fit> random_form_fit(std::uint64_t seed);
+
+// A factor in float arithmetic, in the order of operations of generated headers.
+float factor_in_floats(const FactorTerms& factor, float alpha, float t);
 
 }  // namespace remap

@@ -1,4 +1,5 @@
-// Tables made from a known parametric form, and their fits.
+// Tables made from a known parametric form, and their fits. No renderer knows their models: fits would
+// compare pictures, which takes nine seconds.
 #pragma once
 
 #include <string>
@@ -16,8 +17,8 @@ using namespace remap;
 inline Table table_of(const Parametric& form, double low = 0.02, double high = 1.0, int widths = 25) {
   Table table;
   table.name = "made.csv";
-  table.source = {"mitsuba/ward", RoughnessEncoding::kAlpha, "specular"};
-  table.target = {"mitsuba/as", RoughnessEncoding::kAlpha, "f0"};
+  table.source = {"made/ward", RoughnessEncoding::kAlpha, "specular"};
+  table.target = {"made/as", RoughnessEncoding::kAlpha, "f0"};
   std::size_t line = 2;
   for (int i = 0; i < widths; ++i) {
     for (int j = 1; j <= 6; ++j) {

@@ -53,12 +53,6 @@ double error_of(const WarpSet& set, const AppearanceMatch& match, const Material
   return std::sqrt(sum / count) / radius;
 }
 
-WarpOptions by(AppearanceDistance distance) {
-  WarpOptions options;
-  options.distance = distance;
-  return options;
-}
-
 // Profiles albedo * exp(-r / l) / (2 pi l^2), whose integral over the plane is the albedo.
 TabulatedMaterial profiles(const std::vector<double>& radii,
                            const std::vector<std::array<double, 2>>& albedo_and_length) {
@@ -168,42 +162,6 @@ TEST_CASE("profiles: the distance of section 4, for different radii", "[warp]") 
   CHECK((first - second).squaredNorm() == Approx(squares).epsilon(0.01));
 }
 
-TEST_CASE("profiles: retargeted by strokes", "[warp][slow]") {
-  // Two latent variables, albedo and length, which differ between the waxes by monotone functions.
-  const auto radii = even_radii(0.05, 80);
-  constexpr std::size_t kEdge = 24;
-  std::vector<std::array<double, 2>> source, target;
-  for (std::size_t i = 0; i < kEdge * kEdge; ++i) {
-    const double u = static_cast<double>(i % kEdge) / (kEdge - 1),
-                 v = static_cast<double>(i / kEdge) / (kEdge - 1);
-    source.push_back({0.3 + 0.5 * u, 0.5 + 0.3 * v});
-    target.push_back({0.9 - 0.4 * u, 0.4 + 0.35 * v * v});
-  }
-  const TabulatedMaterial from = profiles(radii, source), to = profiles(radii, target);
-  std::vector<StrokePair> strokes(4);
-  for (std::uint32_t i = 0; i < kEdge * kEdge; ++i) {
-    const std::uint32_t x = i % kEdge, y = i / kEdge;
-    const bool is_corner = (x < 5 || x >= kEdge - 5) && (y < 5 || y >= kEdge - 5);
-    if (is_corner) {
-      StrokePair& stroke = strokes[(x < 5 ? 0u : 1u) + (y < 5 ? 0u : 2u)];
-      stroke.source.push_back(i);
-      stroke.target.push_back(i);
-    }
-  }
-  const AppearanceMatch match = match_appearances(from, to, strokes, by(AppearanceDistance::kPlain));
-  const auto copy = copy_exactly(match, from, to);
-  double error = 0.0, unrelated = 0.0;
-  for (std::size_t i = 0; i < copy.size(); ++i) {
-    const auto &own = target[copy[i]], &truth = target[i], &other = target[i * 7919 % copy.size()];
-    error += std::abs(own[0] - truth[0]);
-    unrelated += std::abs(other[0] - truth[0]);
-  }
-  CAPTURE(match.diagnostics.dimensions, error / unrelated);
-  CHECK(match.diagnostics.dimensions >= 2);
-  CHECK(error < 0.35 * unrelated);
-  CHECK(match.diagnostics.fold_share < 0.02);
-}
-
 TEST_CASE("tables: incompatible materials are refused", "[warp]") {
   const WarpSet set = leaf_set(32);
   const TabulatedMaterial wax = profiles(even_radii(0.1, 20), {{0.8, 0.5}, {0.5, 0.3}});
@@ -213,6 +171,8 @@ TEST_CASE("tables: incompatible materials are refused", "[warp]") {
                     Catch::Contains("choose plain"));
   TabulatedMaterial damaged = wax;
   damaged.samples(3, 1) = -1.0f;
-  CHECK_THROWS_WITH(match_appearances(damaged, wax, {{{0}, {0}}}, by(AppearanceDistance::kPlain)),
+  WarpOptions plain;
+  plain.distance = AppearanceDistance::kPlain;
+  CHECK_THROWS_WITH(match_appearances(damaged, wax, {{{0}, {0}}}, plain),
                     Catch::Contains("negative or not finite"));
 }

@@ -255,14 +255,24 @@ TEST_CASE("warp: texels that are not finite are skipped", "[warp]") {
   CHECK(std::isnan(evaluate_warp(fit.compiled, set.source.texels[5])[0]));
 }
 
-TEST_CASE("warp: one stroke does not determine all directions, with a warning", "[warp]") {
+TEST_CASE("warp: few strokes do not determine all directions, and some contradict each other", "[warp]") {
   const WarpSet set = small_leaf();
-  const WarpFit fit = fit_warp(set.source, set.target, {strokes_of(set, 0)[0]});
-  CHECK(fit.diagnostics.fixed_directions == 0);
-  const auto warnings = warnings_of(fit.diagnostics);
-  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-    return warning.find("strokes do not determine direction 1 of 2") != std::string::npos;
-  }));
+  const auto strokes = strokes_of(set, 0);
+  const auto warned = [&](const std::vector<StrokePair>& some, std::size_t fixed, const std::string& words) {
+    const WarpFit fit = fit_warp(set.source, set.target, some);
+    CHECK(fit.diagnostics.fixed_directions == static_cast<int>(fixed));
+    std::string all;
+    for (const std::string& warning : warnings_of(fit.diagnostics)) all += warning + "\n";
+    CHECK_THAT(all, Catch::Contains(words));
+    return all;
+  };
+  warned({strokes[0]}, 0, "strokes do not determine direction 1 of 2");
+  CHECK_THAT(warned({strokes[0], strokes[1]}, 1, "strokes do not determine direction 2 of 2"),
+             !Catch::Contains("direction 1 of 2"));
+  // The first region again, by other texels, with the template's opposite corner as its partner.
+  std::vector<StrokePair> twice = strokes_of(set, 0);
+  twice.push_back({strokes_of(set, 1)[2].source, strokes_of(set, 1)[3].target});
+  warned(twice, 2, "strokes contradict each other");
 }
 
 TEST_CASE("warp: invalid input is refused", "[warp]") {
@@ -288,7 +298,10 @@ TEST_CASE("warp: invalid input is refused", "[warp]") {
                fit_warp(set.source, set.target, {{{1, 2}, {1}}, {{2}, {7}}});
              }),
              Contains("stroke 2: lies within stroke 1"));
-  WarpMaterial black = set.source, plain = set.target;
+  WarpMaterial black = set.source, plain = set.target, torn = set.source;
+  for (auto& texel : torn.texels) texel.fill(std::numeric_limits<float>::quiet_NaN());
+  CHECK_THAT(message([&] { fit_warp(torn, set.target, strokes); }),
+             Contains("leaf source: contains no texel with finite values"));
   for (auto& texel : black.texels) texel = {0, 0, 0, 0, 0, 0, 0.3f};
   for (auto& texel : plain.texels) texel = plain.texels[0];
   CHECK_THAT(message([&] { fit_warp(black, set.target, strokes); }),
@@ -330,6 +343,20 @@ TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", 
         refused("\"indices\": \"", "\"indices\": \"////", "whole numbers of 2 bytes");
         refused("\"palette\": \"", "\"palette\": \"AAAA", "whole numbers of 4 bytes");
         refused("\"kind\": \"copied\"", "\"kind\": \"other\"", "blended or copied");
+        // What base64 hides.
+        const auto invalid = [&](const auto& change, const std::string& message) {
+          CompiledWarp warp = fit.warp;
+          change(std::get<CopiedNodes>(warp.table.entries));
+          CHECK_THROWS_WITH(require_valid(warp, "leaf"), Catch::Contains("leaf: " + message));
+        };
+        invalid(
+            [](CopiedNodes& nodes) { nodes.indices[5] = static_cast<std::uint16_t>(nodes.palette.size()); },
+            "an index is beyond the end of the palette");
+        for (const float value : {std::numeric_limits<float>::quiet_NaN(), -0.5f})
+          invalid([&](CopiedNodes& nodes) { nodes.palette[1][3] = value; },
+                  "the palette holds an invalid value");
+        invalid([](CopiedNodes& nodes) { nodes.palette.clear(); },
+                "the palette has the wrong size (1 to 65536 texels)");
       } else {
         refused("\"codes\": \"", "\"codes\": \"A", "base64 in whole groups");
       }

@@ -1,93 +1,20 @@
-// Whole materials between workflows, as a texture pass converts them.
+// Whole materials between workflows, as a texture pass converts them. texremap_workflow_test compares
+// specular to metallic with the reference, bit for bit.
 #include <array>
 #include <random>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "reference/workflow_conversion.hpp"
-#include "runtime/stages/materials.hpp"
 #include "stages/workflow_stages.hpp"
 
 using namespace remap;
-using namespace workflow_test;
 
 namespace {
 
 constexpr std::size_t kTexels = 700;  // more than a block
-const std::array<Parameter, 3> kSourceOrder = {Parameter::kDiffuse, Parameter::kSpecular,
-                                               Parameter::kRoughness};
-const std::array<Parameter, 3> kTargetOrder = {Parameter::kBaseColor, Parameter::kMetallic,
-                                               Parameter::kRoughness};
-
-// Rows of a material, and where the parameters of `order` lie among them.
-template <std::size_t Count>
-struct Rows {
-  std::array<std::vector<float>, Count> rows;
-
-  Rows() { rows.fill(std::vector<float>(kTexels)); }
-  template <typename Float>
-  std::array<Float*, Count> all() {
-    std::array<Float*, Count> pointers{};
-    for (std::size_t r = 0; r < Count; ++r) pointers[r] = rows[r].data();
-    return pointers;
-  }
-  template <typename Float>
-  MaterialRows<Float> material(const std::array<Parameter, 3>& order) {
-    MaterialRows<Float> material;
-    std::size_t r = 0;
-    for (const Parameter parameter : order) {
-      ParameterRows<Float>& own = material[parameter];
-      own.count = is_color(parameter) ? 3 : 1;
-      for (std::size_t c = 0; c < own.count; ++c) own.row[c] = rows[r++].data();
-    }
-    return material;
-  }
-};
-
-Rows<7> random_rows() {
-  Rows<7> all;
-  std::mt19937 random(4);
-  for (std::size_t i = 0; i < kTexels; ++i) {
-    const SpecularMaterial material = random_specular(random);
-    for (std::size_t c = 0; c < 3; ++c) {
-      all.rows[c][i] = material.diffuse[c];
-      all.rows[3 + c][i] = material.specular[c];
-    }
-    all.rows[6][i] = material.width;
-  }
-  return all;
-}
-
-// The largest difference between the converter of maps and that of the library.
-double largest_difference(const WorkflowConversion& conversion, InstructionSet set) {
-  Rows<7> source = random_rows();
-  Rows<5> expected, found;
-  convert_workflow(conversion, kTexels, source.all<const float>(), expected.all<float>());
-  WorkflowStages stages;
-  stages.source = conversion.specular;
-  stages.target = conversion.metallic;
-  stages.width = conversion.metallic.width;
-  stages.prior = std::get<Projection>(conversion.formula).prior;
-  make_workflow_converter(stages, set)
-      ->convert(kTexels, source.material<const float>(kSourceOrder), found.material<float>(kTargetOrder));
-  double largest = 0.0;
-  for (std::size_t r = 0; r < expected.rows.size(); ++r)
-    for (std::size_t i = 0; i < kTexels; ++i)
-      largest = std::max(largest, std::fabs(static_cast<double>(expected.rows[r][i] - found.rows[r][i])));
-  return largest;
-}
 
 }  // namespace
-
-TEST_CASE("workflow converter: maps become metallic by the projection, whatever the prior") {
-  for (const double prior : {0.0, kCleanPrior, kNoisyPrior}) {
-    WorkflowConversion conversion = gltf(Projection{prior});
-    conversion.specular.width = conversion.metallic.width;  // without a BRDF between, both ends have one
-    CAPTURE(prior);
-    CHECK(largest_difference(conversion, InstructionSet::kBaseline) < 1e-5);
-  }
-}
 
 TEST_CASE("workflow converter: a grey diffuse row becomes three, of which it is the first") {
   constexpr std::size_t kCount = 1500;  // more than a block

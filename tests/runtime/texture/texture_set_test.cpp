@@ -146,20 +146,8 @@ TEST_CASE("texture set: a packed file is opened once") {
 TEST_CASE("texture set: a missing channel is refused with the existing ones") {
   const Files files;
   const auto odd = files.image("odd.exr", {"first", "second"});
-  const auto plain = files.image("plain.exr", {"Y"});
-  CHECK_THROWS_WITH(opened(MapName{odd, {}}, kGrey),
-                    Contains("has the channels first, second") && Contains("FILE:CHANNEL"));
-  CHECK_THROWS_WITH(opened(MapName{plain, {}}, MapName{odd, {}}),
-                    Contains("odd.exr: has the channels first, second instead of R, G and B"));
   CHECK_THROWS_WITH(opened(MapName{odd, {"secand"}}, kGrey),
                     Contains("no channel 'secand' (did you mean second?)"));
-}
-
-TEST_CASE("texture set: maps of different size are refused with both sizes") {
-  const Files files;
-  CHECK_THROWS_WITH(opened(MapName{files.image("r.exr", {"Y"}, 4, 3), {}},
-                           MapName{files.image("s.exr", {"R", "G", "B"}, 8, 6), {}}),
-                    Contains("size 8x6 does not match") && Contains("(4x3)"));
 }
 
 TEST_CASE("texture set: colors in whole numbers are read as sRGB, unless the file says linear") {
