@@ -24,7 +24,8 @@ struct Lock {
   bool operator==(const Lock&) const = default;
 };
 
-// Returns an empty lock, so that all is remade, if the folder has none or one of an unknown version.
+// Returns an empty lock if the folder has no lock, or a lock of an unknown version. Everything is then made
+// again.
 Lock load_lock(const std::filesystem::path& fit_folder);
 void save_lock(const std::filesystem::path& fit_folder, const Lock& lock);
 

@@ -30,7 +30,8 @@ MaterialCode material_code(const WarpHeader& header);
 // functions of one activation. Both use `kBlock`, `bits` and `float_from_bits` of the header.
 std::string network_helpers(Activation activation);
 std::string network_function(const std::string& name, const Network& network);
-// The kBlock, up to 128, with which the rows of all layers fit the first-level cache.
+// Returns kBlock: the largest block, up to 128, with which the rows of all layers fit into the first-level
+// cache.
 int network_block(const Network& network);
 
 }  // namespace remap

@@ -1,4 +1,5 @@
-// Finds the numbers of a compact form: by rows, or by any errors that depend on what the form gives for rows.
+// Finds the numbers of a compact form from rows of a table, or from any error function of the form's results
+// for these rows.
 #pragma once
 
 #include <functional>
@@ -41,8 +42,8 @@ CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers);
 CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
                      const FormShape& shape, const std::vector<CompactForm>& sound = {});
 
-// What a search minimises: for each texel, the gradient and the curvature (an approximation of it that has no
-// negative eigenvalue) of its error by target alpha and target specular.
+// The error of one texel, which a search minimises, with its gradient by target alpha and target specular.
+// The curvature is approximated so that it has no negative eigenvalue.
 struct TexelError {
   double value = 0.0;
   double by_alpha = 0.0, by_specular = 0.0;

@@ -16,7 +16,7 @@ namespace {
 constexpr int kSampledAlphas = 48, kSampledSpeculars = 24;  // of the samples to which a form is fitted
 constexpr std::size_t kMostLoweredPowers = 8, kMostLoweredTerms = 12;
 constexpr double kLoosest = 10.0;     // times the tolerances
-constexpr std::size_t kBoxes = 6000;  // that a proof may examine: a second
+constexpr std::size_t kBoxes = 6000;  // the most boxes that a proof examines; takes about a second
 
 // From the fewest numbers on. A mapping in which t does not count needs one power.
 std::vector<FormShape> lowering_shapes(const MappingKind& mapping) {

@@ -227,7 +227,7 @@ template <int N>
 struct GaussianSeries {
   std::array<double, N + 1> coefficients{};
   double total = 0.0;     // sum of magnitudes, and what is left out
-  double rounding = 0.0;  // how far the coefficients are from those of real arithmetic, all together
+  double rounding = 0.0;  // how far all coefficients together are from exact real arithmetic
 
   GaussianSeries(double gamma, double distance, double half_width) {
     constexpr double kUnit = Taylor<1, N>::kUnit;

@@ -157,7 +157,7 @@ class FamilyProbe {
 
   const PictureTaker& picture_taker_;
   const ModelDescription& model_;
-  SpecularFamily axis_;  // range and coordinate only
+  SpecularFamily axis_;  // only the fields range and coordinate_kind are used
   std::vector<Width> widths_;
 };
 

@@ -55,7 +55,7 @@ void require_options(const SweepOptions& options, const ModelDescription& source
                 "stages: " + std::to_string(options.stages) + " is out of range (choose 1, 2 or 3)");
   if (!has_diffuse(options)) return;
   target.parameter(ParameterRole::kDiffuse);  // throws if the target has none to match
-  // A source may have diffuse light without a parameter for it: one base color for both.
+  // A source without a diffuse parameter may still have diffuse light, if one base color sets both lobes.
   if (options.stages == 1 && options.diffuse == 0.0 && !source.has(ParameterRole::kDiffuse)) return;
   const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
   if (!diffuses.contains(options.diffuse))

@@ -66,7 +66,7 @@ inline bool is_learned(const WorkflowFormula& formula) noexcept {
 
 // `equation-2`, `projection`, `equation-3`, `khronos`, `network`.
 std::string_view formula_name(const WorkflowFormula& formula);
-// A description for cards.
+// A description of the formula, for reports and headers.
 std::string formula_text(const WorkflowFormula& formula);
 
 // A conversion of whole materials. The formula determines the direction.
@@ -126,8 +126,9 @@ struct MetallicDiagnosis {
   // Square root of the remaining weighted squared error; 0 for an exact match. Pictures under natural light
   // differ by about 0.42 of it, as root mean square of display values.
   float residual = 0.0f;
-  // Share of [0, 1] in which metallic, with the best base color for it, has a squared error within (1/255)^2
-  // of the least one. Above 0.2 metallic is undetermined, without effect on the picture.
+  // The range of metallic values, as a fraction of [0, 1], whose squared error (with the best base color for
+  // each) is within (1/255)^2 of the least one. Above 0.2 metallic is undetermined, which does not change the
+  // picture.
   float metallic_uncertainty = 0.0f;
   // Whether a parameter, or by more than half a step of 8 bits the base color of a channel, was outside [0,
   // 1].

@@ -32,13 +32,13 @@ std::string default_light(const Fit& fit, const std::vector<Shape>& shapes);
 struct PreviewOptions {
   std::vector<PreviewLight> lights;
   std::vector<Shape> shapes = {Shape::kSphere, Shape::kTorus};
-  std::vector<double> alphas;    // of the source, canonical; empty: preview_alphas()
+  std::vector<double> alphas;    // alphas of the source; if empty, preview_alphas()
   std::vector<double> specular;  // of the source, in the fit's unit: one value, or red, green, blue; empty:
                                  // half of the domain
   double diffuse = 0.0;          // reflectance of a Lambertian lobe that all pictures have, 0 to 1
   int resolution = 160;          // width and height of each picture, pixels
   int samples_per_axis = 2;      // N x N samples in each pixel; under an environment of its coverage only
-  int directions = 64;           // of an environment's light, for each pixel
+  int directions = 64;           // samples of an environment's light for each pixel
   std::function<void(double share)> progress;  // of the whole, 0 to 1; from any thread. It may throw
 };
 

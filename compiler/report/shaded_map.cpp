@@ -13,7 +13,7 @@ namespace {
 using Vector = std::array<double, 3>;  // x to the right, y up, z to the camera
 using Radiance = std::array<double, 3>;
 
-constexpr double kSteepest = 0.7;      // tangent of the cushion's slope at its ends
+constexpr double kSteepest = 0.7;      // tangent of the slope at the edges of the cushion
 constexpr double kSurroundings = 0.3;  // uniform radiance from all sides
 constexpr double kLeastAlpha = 0.02;   // narrower highlights would be smaller than a pixel
 

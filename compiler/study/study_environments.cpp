@@ -24,7 +24,8 @@ StudyPair parse_pair(const std::string& text) {
   return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
-// The variant of a microfacet model with constant reflectance instead of Fresnel. Ward has no Fresnel term.
+// Returns the variant of a microfacet model that has a constant reflectance instead of Fresnel. Ward has no
+// Fresnel term, so its name stays.
 std::string plain_model(const std::string& name) {
   return name.find("ward") == std::string::npos ? name + "-plain" : name;
 }

@@ -53,7 +53,7 @@ void read_materials(const std::string& text, const std::string& name, WorkflowsO
 // One material converted by one method.
 struct WorkflowPictures {
   MetallicSurface surface;
-  std::vector<double> rmse;  // for each light: of display values, percent of the display range
+  std::vector<double> rmse;  // for each light: error of display values, in percent of the display range
   std::vector<double> ssim;  // for each light: of luma
 };
 

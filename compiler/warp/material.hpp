@@ -27,7 +27,7 @@ struct WarpMaterial {
 // P(r) of the diffuse component of a BSSRDF (Song et al. 2009).
 struct TabulatedMaterial {
   std::string name;  // for messages
-  // The radii of profiles in increasing order, above 0. Empty for BRDFs, whose samples are at the directions
+  // The radii of profiles in increasing order, above 0. Empty for BRDFs: their samples are at the directions
   // of half_vector_quadrature().
   std::vector<double> radii;
   Eigen::MatrixXf samples;             // red, then green, then blue; one column per entry; finite, at least 0

@@ -25,10 +25,10 @@ struct Occupancy {
   double spacing = 0.0;                   // width of a bin
 };
 
-// Searches the width of the bins so that about 350 of them contain at least four texels. Any number from
-// 300 to 1200 points gives results within one percentage point of error. `positions`: of texels, NaN is
-// ignored. `strokes`: indices of texels. A stroke whose texels are all in sparse bins gets the point nearest
-// to its centre.
+// Searches the width of the bins so that about 350 bins contain at least four texels. Any number from 300 to
+// 1200 points gives results within one percentage point of error. `positions` are those of texels; NaN is
+// ignored. `strokes` are indices of texels. If all texels of a stroke are in sparse bins, the stroke gets the
+// point closest to its centre.
 Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
 
 // The grid of `occupancy_of`: finds the bin of a position.

@@ -17,7 +17,7 @@ using Color = std::uint32_t;  // 0xRRGGBB
 constexpr Color kTransparent = Color{1} << 24;
 
 constexpr double kColorRadius = 40.0;         // colors within it count as one
-constexpr double kPairRadius = 48.0;          // colors of two images within it match
+constexpr double kPairRadius = 48.0;          // colors of two images match within this distance
 constexpr double kShadeRadius = 80.0;         // for shades of the background next to strokes, from JPEG
 constexpr double kBlendRadius = 60.0;         // from the line between two colors to their blend
 constexpr double kMostBlends = 0.4;           // share of the texels; thin strokes have long edges

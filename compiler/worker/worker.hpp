@@ -62,7 +62,7 @@ class Worker {
   // Sends a line and waits for the answer to it.
   std::string ask(const std::string& line, const std::string& shown);
   std::string next_answer(const std::string& shown);
-  // The message of an error: the place, what is wrong, and what to do if that concerns a file.
+  // Returns the message of an error: the place, what is wrong, and what to do if the error is about a file.
   std::string message_of(const std::string& shown, const std::string& what) const;
   // Ends the process and returns such a message with the end of its log.
   std::string ended(const std::string& shown, const std::string& what);

@@ -417,7 +417,7 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     MaterialUse green = use;
     green.channels = Channels::kGreen;
     const Curl curl = curl_of(rgb, texels.columns, texels.rows);
-    constexpr double kClear = 2.0;  // noise and rounding add the same to both
+    constexpr double kClear = 2.0;  // factor; noise and rounding add the same amount to both curls
     const Orientation seen = curl.down > kClear * curl.up   ? Orientation::kOpenGl
                              : curl.up > kClear * curl.down ? Orientation::kDirectX
                                                             : Orientation::kUnknown;

@@ -82,8 +82,8 @@ enum class MaterialKind { kFolder, kGltf, kMtl };
 struct CheckedMaterial {
   MaterialKind kind = MaterialKind::kFolder;
   std::string name;             // `assets/robot`, `model.glb: material "Paint"`
-  std::filesystem::path path;   // the folder or the asset file
-  std::filesystem::path below;  // its folder as seen from the checked path; empty for that itself
+  std::filesystem::path path;   // a folder or an asset file
+  std::filesystem::path below;  // its folder, relative to the checked path; empty for the checked path itself
   std::vector<MaterialMap> maps;
   std::vector<MaterialUse> uses;
   std::vector<MaterialUse> unread;  // that a factor of 0 turns off: nothing in them can be wrong

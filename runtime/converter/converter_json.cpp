@@ -1,4 +1,5 @@
-// The file of converters: one number has one text, and what a review compares stands on a line of its own.
+// This file writes and reads converters.json. Each number has exactly one text and each field its own line,
+// so that a review shows only real changes.
 #include <algorithm>
 #include <cmath>
 

@@ -28,8 +28,8 @@ void remove_unfinished(const std::filesystem::path& folder);
 std::string with_final_name(std::string message, const std::filesystem::path& unfinished,
                             const std::filesystem::path& path);
 
-// Whether a result waits until the disk has it, so that a power cut leaves the old file or the new one. Only
-// what its reader can verify and make again does without.
+// Whether the program waits until a result is on the disk, so that after a power cut the file is the old or
+// the new one. kNo is only for files that their reader can verify and make again.
 enum class Flush { kYes, kNo };
 
 // Gives the finished file its final name. On failure it removes `unfinished` and throws kOutput; a final name

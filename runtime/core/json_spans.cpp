@@ -299,7 +299,7 @@ std::optional<double> SpanValue::number() const {
   return is(SpanKind::kNumber) ? parse_number(raw()) : std::nullopt;
 }
 
-// `2.0` is a whole number, too: some exporters write indices so.
+// `2.0` is an integer, too, because some exporters write indices like this.
 std::optional<std::size_t> SpanValue::whole() const {
   constexpr double kMost = 9007199254740992.0;  // 2^53
   const std::optional<double> value = number();

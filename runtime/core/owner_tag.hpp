@@ -14,9 +14,9 @@ std::string owner_tag();
 // Letters of the system's random numbers, for names that nobody can know before they are there.
 std::string random_letters();
 
-// Whether `mark` names a process of this machine and this space that has ended. False for every other text,
-// and for a mark of another machine, where nobody can tell. A number that a new process has taken counts as
-// alive until that one ends, too.
+// Returns whether `mark` names a process of this machine and namespace that has ended. Returns false for
+// every other text, and for a mark of another machine, because nobody can check it. If a new process has the
+// same number, the mark is treated as alive until that process ends, too.
 bool is_stale_owner(std::string_view mark);
 
 }  // namespace remap

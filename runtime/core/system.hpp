@@ -1,5 +1,6 @@
-// What differs between systems. Nothing else of the runtime asks which one it is: of the files system_*.cpp,
-// CMake takes those of POSIX, of Windows, or of WebAssembly with what its host knows.
+// This file declares everything that differs between operating systems. No other part of the runtime asks
+// which system it runs on: CMake chooses the system_*.cpp of POSIX, Windows or WebAssembly (with what its
+// host knows).
 #pragma once
 
 #include <cstddef>

@@ -154,7 +154,7 @@ struct NameReading {
 
 struct NameParts;
 
-// Habits, indexed for reading names. Copies are independent.
+// Naming holds naming conventions, indexed for reading names. Copies are independent.
 class Naming {
  public:
   // Of habits that match equally well, the earlier wins. `ignored_words` are as in the file.

@@ -197,7 +197,7 @@ std::vector<TargetChannel> channels_of(const LayoutContent& content, const Textu
   return channels;
 }
 
-// Whether a file of the layout has something of the material; else nobody needs it.
+// Returns whether a file of the layout has any value of the material. Nobody needs the other files.
 bool holds_something(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
   return std::ranges::any_of(file.content, [&](const LayoutContent& content) {
     if (const auto* own = std::get_if<LayoutParameter>(&content)) return is_wanted(choice, own->parameter);

@@ -25,7 +25,8 @@ struct SpecularForm {
   std::string_view summary;
   std::vector<int> powers;  // in increasing order, repetitions allowed; includes 1
   bool pole = false;        // whether the factor of specular1 has the term pole / alpha1
-  // Whether the term repeats the power of the term before it, which then holds the constant of both.
+  // Whether the term has the same power as the term before it. The earlier term then holds the constant of
+  // both.
   bool is_repeated(std::size_t term) const;
   std::size_t coefficient_count() const;
 };

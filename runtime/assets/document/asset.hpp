@@ -139,12 +139,12 @@ struct AssetResource {
 
 struct AssetConversion {
   std::vector<AssetMaterial> materials;
-  std::vector<std::string> warnings;  // of the file
-  std::string text;                   // of the materials, edited, as UTF-8; as it was where nothing changed
-  std::vector<TextSpan> touched;      // bytes of the text that were replaced or removed
-  bool changed = false;               // whether a material was converted
-  std::vector<AssetPiece> pieces;     // of the converted file; empty where nothing was converted
-  std::vector<NewResource> files;     // new images
+  std::vector<std::string> warnings;     // of the file
+  std::string text;                      // edited text of the materials, as UTF-8; the rest is unchanged
+  std::vector<TextSpan> touched;         // bytes of the text that were replaced or removed
+  bool changed = false;                  // whether a material was converted
+  std::vector<AssetPiece> pieces;        // of the converted file; empty where nothing was converted
+  std::vector<NewResource> files;        // new images
   std::vector<AssetResource> resources;  // that the asset names, each path once, in the order of the text
 
   std::size_t count(MaterialState state) const { return count_of(materials, state); }

@@ -1,5 +1,5 @@
-// Encodings of texts: bytes as they are, UTF-8 among them, or UTF-16, as tools of Windows write it. A text is
-// read and edited as UTF-8.
+// This file has the encodings of texts: single bytes (among them UTF-8), or UTF-16, as Windows tools write
+// it. Texts are read and edited as UTF-8.
 #pragma once
 
 #include <cstddef>

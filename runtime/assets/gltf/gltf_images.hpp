@@ -38,8 +38,8 @@ class GltfImages {
 
   // Throws kInput for an index or a transform that cannot be read.
   TextureInfo info_of(SpanValue texture_info) const;
-  // The best image of a texture that can be decoded: that of an extension, else its own. Throws kInput,
-  // naming the image.
+  // Loads the best image of a texture that can be decoded: the image of an extension, otherwise the texture's
+  // own. Throws kInput with the name of the image.
   AssetImage load(const TextureInfo& info);
   // Whether two textures repeat their images alike.
   bool wraps_alike(std::size_t texture, std::size_t other) const;

@@ -81,7 +81,7 @@ void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
   for (NewTexture& texture : new_textures_) write_texture(texture, edits);
   empty_spares(edits);
   if (tail_.appended.empty() && !tail_.kept) return;
-  // A buffer has a byte at least.
+  // glTF requires that a buffer has at least one byte.
   if (tail_.appended.empty() && *tail_.kept == 0) tail_.kept = 1;
   const std::uint64_t length = tail_.appended.empty() ? *tail_.kept : chunk_start_ + tail_.appended.size();
   if (length > std::numeric_limits<std::uint32_t>::max())

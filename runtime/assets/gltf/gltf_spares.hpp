@@ -15,11 +15,12 @@
 namespace remap {
 
 struct GltfSpares {
-  std::vector<std::size_t> textures, images, views;  // views of the binary chunk; each in order
+  std::vector<std::size_t> textures, images, views;  // sorted indices; views of the binary chunk
   std::optional<std::uint64_t> chunk_end;            // of what is still used; none: nothing is cut
 };
 
-// Finds nothing, and adds a warning, where extensions that are unknown or name images themselves are used.
+// Finds the textures, images and views that nothing uses after the edits. If the file uses extensions that
+// are unknown, or that name images themselves, it finds nothing and adds a warning.
 GltfSpares find_spares(const SpannedJson& json, const GltfContainer& container,
                        const std::vector<MaterialEdit>& edits, std::vector<std::string>& warnings);
 

@@ -15,7 +15,7 @@
 namespace remap {
 namespace {
 
-// Names what the extension holds and core has no place for.
+// Adds a warning for values of the extension that core glTF has no place for.
 void note_lost_members(SpanValue extension, std::vector<std::string>& warnings) {
   constexpr std::array<std::string_view, 6> kRead = {"diffuseFactor",    "diffuseTexture",
                                                      "specularFactor",   "specularGlossinessTexture",

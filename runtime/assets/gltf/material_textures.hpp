@@ -46,7 +46,7 @@ struct UsedTextures {
 
 // Why textures must lie on one grid, for messages.
 struct GridReason {
-  std::string_view decided;    // `metallic`: what all of them decide on
+  std::string_view decided;    // the parameters that all textures determine together, such as `metallic`
   std::string_view otherwise;  // `, or --extensions`: what needs no grid; empty for nothing
 };
 

@@ -40,7 +40,7 @@ struct SpecGlossMaps {
   bool keeps_color = false;  // diffuse is the map of color times `diffuse_factors`
   float alpha = 1.0f;        // of a map of color that a factor replaces
   std::array<float, 3> diffuse_factors = {1.0f, 1.0f, 1.0f};
-  std::optional<ImagePixels> specgloss;  // specular in sRGB, glossiness as alpha; none where both are factors
+  std::optional<ImagePixels> specgloss;  // sRGB specular, with glossiness as alpha; none if both are factors
   std::array<float, 3> specular = {1.0f, 1.0f, 1.0f};
   float glossiness = 1.0f;
 };

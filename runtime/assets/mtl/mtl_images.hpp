@@ -35,7 +35,8 @@ class MtlImages {
   // may be read counts as its file name beside the MTL file, or beside the asset, and appends a warning. None
   // where nothing is there.
   std::optional<std::string> find(const std::string& file, std::vector<std::string>& warnings);
-  // As find(), or the path where the file would have to be; none if the name cannot be a file.
+  // Like find(), but if the file is missing, returns the path where it would have to be. None if the name
+  // cannot be a file.
   std::optional<std::string> place_of(const std::string& file);
 
   // The bytes of a file that find() found. Throws kInput.

@@ -29,7 +29,7 @@ struct MtlMap {
   char channel = '\0';                                            // -imfchan; 0 where it is not said
   double base = 0.0, gain = 1.0;     // -mm: base + gain times a stored value, kept within 0 to 1
   std::vector<TextSpan> levels;      // where -mm stands, with the white space behind it
-  bool is_color = false;             // else all channels are values, alpha among them
+  bool is_color = false;             // if false, all channels are data, also alpha
   std::vector<std::string> unusual;  // options that change what it looks like, and are not applied
 
   // Whether it lies in the same place on the surface.

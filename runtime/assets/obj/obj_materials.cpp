@@ -230,7 +230,7 @@ void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
         textures_.add_pixels(draft.library.images, *pixels, *model, "_metallicRoughness"), *model);
 }
 
-// A level of 1 is glTF's own F0 of 0.04, and a metal has none.
+// Level 1 is the F0 of 0.04 that glTF has by default. Metals have no specular level.
 void ObjMaterials::set_specular_level(MaterialDraft& draft) {
   constexpr double kSeen = 0.25;  // F0 0.03 to 0.05 look alike
   const double level = draft.surface.specular_level.value_or(1.0);

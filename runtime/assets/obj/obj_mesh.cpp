@@ -239,7 +239,7 @@ class ObjStream final : public std::streambuf {
   std::string made_, text_;  // lines to come, and those that are being read
   std::vector<std::string_view> corners_;
   std::size_t dropped_ = 0, small_ = 0, fans_ = 0;
-  std::size_t vertices_ = 0, faces_ = 0, farthest_ = 0;  // farthest: vertex that faces of this part name
+  std::size_t vertices_ = 0, faces_ = 0, farthest_ = 0;  // farthest_: largest vertex index in this part
   std::vector<ObjMaterialName> materials_;
   std::vector<std::string> groups_;
   std::map<std::string, std::string> numbers_;  // of materials

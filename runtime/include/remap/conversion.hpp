@@ -57,7 +57,7 @@ struct ConversionChoice {
   std::optional<WorkflowEnd> source, target;
   double prior = kCleanPrior;
   bool changes_nothing = false;          // both ends are one material: files and encodings alone change
-  std::vector<std::string> notes;        // what the names mean that were given for models
+  std::vector<std::string> notes;        // explain what the model names of the user mean
   std::vector<std::string> assumptions;  // one message per assumption
 
   bool is_material() const noexcept { return source.has_value(); }

@@ -99,8 +99,8 @@ struct ModelSide {
 // become underscores.
 std::string converter_id(const std::string& source_model, const std::string& target_model);
 
-// The most letters of an id and of a model: file systems end at 255, of which unfinished files and extensions
-// need some.
+// The most letters of an id and of a model. File systems allow 255 letters in a name, and the names of
+// unfinished files and extensions need some of them.
 inline constexpr std::size_t kLongestName = 128;
 
 // The rule for ids, for messages.

@@ -101,7 +101,7 @@ inline std::size_t store(const ChannelView& view, const Segment& segment, const 
 // The transfer curve from linear to stored values.
 enum class Transfer {
   kLinear,
-  kSrgb,  // IEC 61966-2-1, odd below 0 and extended by the same formula above 1
+  kSrgb,  // IEC 61966-2-1; below 0 the curve is odd, above 1 the same formula continues
 };
 inline constexpr NamedValues<Transfer, 2> kTransfers = {
     {{Transfer::kLinear, "linear"}, {Transfer::kSrgb, "srgb"}}};

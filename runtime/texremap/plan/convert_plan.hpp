@@ -1,4 +1,5 @@
-// What a run of `texremap convert` does: its options, resolved once. What runs and reports knows no options.
+// ConvertPlan holds what a run of `texremap convert` does. The options are resolved here once, so the code
+// that runs and reports does not know them.
 #pragma once
 
 #include <cstdint>

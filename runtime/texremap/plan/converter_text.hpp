@@ -10,7 +10,8 @@
 
 namespace remap {
 
-// Below this share of the display's range or of the texels nothing is seen: details are for --verbose.
+// Nobody sees differences below this fraction of the display's range or of the texels, so only --verbose
+// reports them.
 inline constexpr double kVisible = 0.01;
 
 // Pictures differ by this times the residual of metal-rough, on the mean.

@@ -35,7 +35,7 @@ struct AssetWork {
   std::string image_prefix = {};                  // of new images beside it
   std::vector<std::filesystem::path> files = {};  // that it names and that are there; of several assets only
 
-  // The path at which the result finds a file below the input root.
+  // Returns the path of the copy that the result uses for `file`, a file below the input root.
   std::filesystem::path copy_of(const std::filesystem::path& file) const {
     return output_root / file.lexically_relative(input_root.lexically_normal());
   }

@@ -22,7 +22,7 @@ std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>
                                      const std::vector<std::string>& prefer,
                                      std::optional<RoughnessEncoding> own);
 
-// A source that the names of maps or the options of maps tell, where --from is left out.
+// The source model that texremap infers from the names of maps or from the map options, if --from is missing.
 struct InferredSource {
   std::string model;  // `metallic`, `gltf-specgloss`, `specular`
   std::string note;   // what told it

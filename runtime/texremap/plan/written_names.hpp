@@ -15,9 +15,9 @@ std::string name_key(const std::filesystem::path& path);
 
 class WrittenNames {
  public:
-  // Takes the name of a file for `owner`: an asset, a set, or the file that is copied. Returns who has it
-  // already; empty where it was free, or is the owner's. The program's own names are never free. Callable
-  // from many threads.
+  // Reserves the name of a file for `owner`: an asset, a set, or the file that is copied. Returns the other
+  // owner if the name is reserved already, otherwise an empty text. The program's own names are never free.
+  // Safe to call from many threads.
   std::string take(const std::filesystem::path& path, const std::string& owner);
 
  private:

@@ -152,7 +152,8 @@ std::vector<fs::path> journals_of(const fs::path& folder) {
   return journals;
 }
 
-// One journal of another part, by which a part knows whose the folder is; none without one.
+// Returns one journal of another part, or nothing if there is none. From it a part knows which conversion
+// owns the folder.
 std::vector<fs::path> other_part(const fs::path& folder, const fs::path& own) {
   std::vector<fs::path> names = journals_of(folder);
   std::erase_if(names, [&](const fs::path& name) { return name == kJournalName || name == own; });
@@ -347,7 +348,7 @@ void Journal::commit(const std::string& set, const std::string& inputs,
   const std::lock_guard lock(state_->mutex);
   const auto folder = state_->lock();
   state_->content.read_own(state_->folder, state_->file);
-  if (state_->is_claimed) state_->require_own();  // another run may have taken the folder by --force
+  if (state_->is_claimed) state_->require_own();  // a run with --force may own the folder now
   for (const FinishedFile& file : files) {
     std::error_code ignored;
     if (!force && fs::exists(file.path, ignored) && state_->entry_of_existing(file.path) == nullptr)

@@ -284,7 +284,7 @@ void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const
                        const std::string& context) {
   const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
   const std::uint64_t bytes = spec.image_bytes(true), row = spec.scanline_bytes(true);
-  if (spec.width < 1 || spec.height < 1) return;  // which has words of its own
+  if (spec.width < 1 || spec.height < 1) return;  // the caller reports empty images with its own message
   if (spec.image_pixels() > kMostTexels)
     throw input_error(context + ": has " + size + " texels, more than the most that are read (" +
                       std::to_string(kMostTexels) + ")");

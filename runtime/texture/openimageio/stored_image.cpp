@@ -209,7 +209,7 @@ class OpenedImage : public StoredImage {
   int part_ = 0;
   int part_count_ = 0;
   int level_ = 0;
-  int next_row_ = 0;                     // after the last one that was read
+  int next_row_ = 0;                     // the row after the last one that was read
   std::vector<OIIO::ImageSpec> levels_;  // of the levels of the part, at the size that new images follow
   ImageLayout layout_;                   // of `level_`, as stored
 };
