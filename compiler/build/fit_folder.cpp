@@ -72,7 +72,8 @@ AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder
     for (const WorkflowFit& fit : loaded.workflows) known.push_back(fit.id);
     for (const WarpMapFit& fit : loaded.warps) known.push_back(fit.id);
   }
-  throw usage_error(name + ": neither a file nor a fit in " + folder.string() + suggestion(name, known));
+  throw usage_error(name + ": no file of this name, and no fit in " + folder.string() +
+                    suggestion(name, known));
 }
 
 Fit find_fit(const std::string& name, const std::filesystem::path& folder) {

@@ -131,7 +131,8 @@ std::string read_id(const Field& field, const std::vector<ManifestItem>& items) 
   for (const ManifestItem& item : items) known.push_back(item.id);
   const std::string id = field.text();
   if (std::find(known.begin(), known.end(), id) == known.end())
-    field.fail("unknown item " + id + " (items must be defined before their use)" + suggestion(id, known));
+    field.fail("unknown item " + id + " (an item must stand before those that use it)" +
+               suggestion(id, known));
   return id;
 }
 

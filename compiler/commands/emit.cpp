@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
+#include "core/report_text.hpp"
 #include "emit/languages.hpp"
 #include "remap/error.hpp"
 
@@ -93,8 +94,7 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
     const bool known = std::any_of(files.begin(), files.end(), [&](const GeneratedFile& file) {
       return file.path.filename() == entry.path().filename();
     });
-    if (!known)
-      found.push_back(entry.path().string() + ": no fit of this name in " + options.fit_folder.string());
+    if (!known) found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string());
   }
   return found;
 }
@@ -117,8 +117,9 @@ void run(const EmitCommand& options) {
   const std::vector<std::string> found = differences(options, files);
   for (const std::string& difference : found) std::cout << difference << "\n";
   if (!found.empty())
-    throw Error(ErrorKind::kInput, options.output.string() + ": " + std::to_string(found.size()) +
-                                       " files are out of date (run `remapc emit --all`)");
+    throw Error(ErrorKind::kInput, options.output.string() + ": " + counted(found.size(), "file") +
+                                       (found.size() == 1 ? " is" : " are") +
+                                       " out of date (run `remapc emit --all`)");
 }
 
 }  // namespace

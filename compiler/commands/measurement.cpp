@@ -51,7 +51,8 @@ void add_role_options(Command& app, const std::string& side, ParameterRoles& rol
   app.add_option(prefix + "-diffuse NAME", roles.diffuse, "Parameter that is its diffuse");
   const auto value = [](const ParameterSetting& setting) {
     if (setting.values.size() != 1)
-      setting.fail(std::to_string(setting.values.size()) + " values given (give one: sweeps are grey)");
+      setting.fail(std::to_string(setting.values.size()) +
+                   " values given (give one: materials of a sweep are grey)");
     return setting.values.front();
   };
   add_settings<double>(app, prefix + "-set NAME=VALUE", roles.fixed, value,

@@ -179,10 +179,9 @@ void require_valid(const WorkflowConversion& conversion, const std::string& cont
   const bool scaled = conversion.specular.diffuse == DiffuseConvention::kScaled &&
                       conversion.metallic.diffuse == DiffuseConvention::kScaled;
   if (!scaled || conversion.metallic.dielectric_f0 == 0.0)
-    throw Error(ErrorKind::kInput,
-                context +
-                    ": Khronos' solver requires a dielectric F0 above 0 and scaled diffuse "
-                    "on both sides");
+    throw Error(ErrorKind::kInput, context +
+                                       ": formula khronos needs a dielectric F0 above 0 and scaled diffuse "
+                                       "on both sides");
 }
 
 std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion) {

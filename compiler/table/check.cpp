@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "remap/error.hpp"
 #include "table/light.hpp"
 
@@ -116,9 +117,9 @@ class TableCheck : Findings {
     for (const auto& [alpha, group] : by_alpha_) rows += group.size();
     if (by_alpha_.size() < kFewestAlphas || rows < kFewestGridRows)
       add(Severity::kError, "rows", 0,
-          std::to_string(rows) + " usable rows with " + std::to_string(by_alpha_.size()) +
-              " different alpha1 (at least " + std::to_string(kFewestGridRows) + " and " +
-              std::to_string(kFewestAlphas) + " are needed)");
+          counted(rows, "usable row") + " and " + counted(by_alpha_.size(), "value") +
+              " of alpha1 (a fit needs at least " + std::to_string(kFewestGridRows) + " rows and " +
+              std::to_string(kFewestAlphas) + " values)");
   }
 
   void check_repeats() {

@@ -75,7 +75,7 @@ bool alpha_needs_specular(const std::vector<TableRow>& rows) {
 std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model) {
   const std::string chosen = id.empty() ? converter_id(source_model, target_model) : id;
   if (!is_valid_id(chosen))
-    throw usage_error("id: '" + plain(chosen, 60) + "' is not valid (use " + kIdRule + ")");
+    throw usage_error("--id: '" + plain(chosen, 60) + "' is not valid (use " + kIdRule + ")");
   return chosen;
 }
 

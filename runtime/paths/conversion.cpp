@@ -101,7 +101,7 @@ void choose_diffuse(const ConversionRequest& request, const WorkflowModel& sourc
   }
   const bool is_plain = diffuse_of(known) == DiffuseConvention::kPlain;
   choice.assumptions.push_back(
-      "diffuse of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
+      "the diffuse color of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
       (open.size() == 1 ? ", as in " + model_of(known) : "") + " (" + request.words.diffuse_convention + " " +
       (is_plain ? "scaled" : "plain") + " changes that)");
 }

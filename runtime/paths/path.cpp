@@ -187,7 +187,7 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
     if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
       throw Error(ErrorKind::kUsage,
                   model +
-                      ": the path would visit this model twice (choose a source, a target and models "
+                      ": the path would use this model twice (choose a source, a target and models "
                       "between that differ)");
     nodes.push_back(node(model));
   };

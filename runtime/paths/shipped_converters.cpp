@@ -60,9 +60,10 @@ ConverterList read_converters(const fs::path& path, InstructionSet set) {
                                        "of fits)");
   std::vector<ConverterData> data = read_data(path);
   if (data.empty())
-    throw Error(ErrorKind::kInput, path.string() +
-                                       ": holds no converter (name a file of `remapc emit --all`, a fit or "
-                                       "a folder of fits)");
+    throw Error(ErrorKind::kInput,
+                path.string() +
+                    ": contains no converter (give the converters.json of `remapc emit --all`, a fit or "
+                    "a folder of fits)");
   return make_converters(std::move(data), set);
 }
 

@@ -37,9 +37,9 @@ Chunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string& co
   const std::string header = source.read(at, kChunkHeaderSize);
   const std::uint64_t length = number_in(header, 0);
   if (length > left - kChunkHeaderSize)
-    throw input_error(context + ": the chunk at byte " + std::to_string(at) + " states " +
-                      std::to_string(length) + " bytes, but the file has " +
-                      std::to_string(left - kChunkHeaderSize) + " more (it is cut off or damaged)");
+    throw input_error(context + ": the chunk at byte " + std::to_string(at) + " should have " +
+                      std::to_string(length) + " bytes, but the file ends after " +
+                      std::to_string(left - kChunkHeaderSize) + " (it is cut off or damaged)");
   return {number_in(header, 4), at + kChunkHeaderSize, at + kChunkHeaderSize + length};
 }
 
@@ -51,9 +51,8 @@ void require_header(const ByteSource& source, const std::string& context) {
     throw input_error(context + ": is a glTF container of version " + std::to_string(version) +
                       "; version 2 is read");
   if (const std::uint64_t length = number_in(header, 8); length != source.size())
-    throw input_error(context + ": its header states " + std::to_string(length) +
-                      " bytes, but the file has " + std::to_string(source.size()) +
-                      " (it is cut off or damaged)");
+    throw input_error(context + ": its header says " + std::to_string(length) + " bytes, but the file has " +
+                      std::to_string(source.size()) + " (it is cut off or damaged)");
 }
 
 std::string without_padding(std::string json, GltfContainer& container) {

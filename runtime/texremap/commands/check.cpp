@@ -183,7 +183,7 @@ void add_check_command(Command& app) {
   CheckOptions& options = set_work<CheckOptions>(*command, check);
   command->add_option("PATH", options.paths, "Folders of texture sets and assets, glTF and MTL files, maps")
       ->required();
-  command->add_option("--for NAME", options.reader, one_of(gltf_consumers(), "reader"),
+  command->add_option("--for NAME", options.reader, one_of(gltf_consumers(), "importer"),
                       "Also name what this reader ignores or takes otherwise");
   command->add_option("--ignore RULES", options.ignored, rule_names(),
                       "Rules to leave out, with commas between");

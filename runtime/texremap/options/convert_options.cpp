@@ -309,21 +309,22 @@ void add_output_options(Command& command, ConvertOptions& options) {
                 "Write only converted maps, not normal, height, opacity and others")
       ->common()
       ->tag(kChangesResults | kNeedsFolder);
-  command.retire(
-      "--compact",
-      "unused images are dropped now (remove this option; --compression 9 makes new images smallest)");
+  command.retire("--compact",
+                 "texremap always removes unused images (remove this option; --compression 9 makes new "
+                 "images smallest)");
   command.retire("--allow-skips",
                  "sets without anything to convert no longer make a run fail (remove this option)");
   command.retire("--resume", "is what texremap does: it skips what is done (remove this option)");
-  command.retire("--preset", "is called --to (files as glTF packs them: --to gltf --layout gltf)");
-  command.retire("--profile", "--profile extensions is called --extensions, and core is the default");
-  command.retire("--bad-texels", "is called --nan");
-  command.retire("--output-roughness-factor", "is called --exponent-of-white");
-  command.retire("--prior", "is called --metallic-bias");
-  command.retire("--copy-others",
-                 "all maps of a set come along now (remove this option; --only-converted leaves them out)");
-  command
-      .add_flag("--force", options.force, "Overwrite files that exist; convert again what is done")
+  command.retire("--preset", "is now called --to (for the packed files of glTF: --to gltf --layout gltf)");
+  command.retire("--profile",
+                 "was removed (for --profile extensions, use --extensions; core is the default)");
+  command.retire("--bad-texels", "is now called --nan");
+  command.retire("--output-roughness-factor", "is now called --exponent-of-white");
+  command.retire("--prior", "is now called --metallic-bias");
+  command.retire(
+      "--copy-others",
+      "texremap copies all maps of a set (remove this option; --only-converted leaves the others out)");
+  command.add_flag("--force", options.force, "Overwrite files that exist; convert again what is done")
       ->common()
       ->tag(kForAssets | kNeedsFiles);
   command.add_flag("--dry-run", options.dry_run, "Show what would happen to each map; write nothing")

@@ -25,7 +25,7 @@ namespace remap {
 // Tags of options: when an option applies, and what its use changes.
 enum : OptionTags {
   kChangesResults = 1u << 0u,
-  kNeedsFiles = 1u << 1u,   // applies to nothing where all maps are numbers
+  kNeedsFiles = 1u << 1u,   // has no effect where all maps are numbers
   kNeedsFolder = 1u << 2u,  // of texture sets
   kNeedsWorkflow = 1u << 3u,
   kNeedsMetallic = 1u << 4u,  // as a result

@@ -31,7 +31,7 @@ std::map<Parameter, Transfer> color_spaces(const std::string& option,
     }
     if (!applies)
       throw Error(ErrorKind::kUsage,
-                  option + ": applies to nothing, because no " +
+                  option + ": has no effect, because no " +
                       (word.parameter ? std::string(parameter_name(*word.parameter)) : "color") + " " +
                       reason);
   }
@@ -77,7 +77,7 @@ void require_parameters(const ConvertOptions& options, const WorkflowChoice& wor
 void require_read(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const auto refuse_map = [](const std::string& option, bool is_result) {
     throw Error(ErrorKind::kUsage,
-                option + ": applies to nothing, because the source material has no " +
+                option + ": has no effect, because the source material has no " +
                     option.substr(2, option.find("-factor") - 2) +
                     (is_result ? " (it is a result of this conversion)" : " (remove this option)"));
   };
@@ -238,7 +238,7 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
                                        ", which holds " + std::string(encoding_name(*held)));
   if (options.only == Parameter::kSpecular)
     throw Error(ErrorKind::kUsage,
-                "--output-encoding: applies to nothing, because --only specular writes no roughness");
+                "--output-encoding: has no effect, because --only specular writes no roughness");
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
     plan.messages.push_back("note: " + closest_text(chosen.workflow.target_brdf));
   if (options.folder.empty() && are_constants(sets.request))
     return refuse(options, kNeedsFiles,
-                  ": applies to nothing, because all maps are numbers (give a file, or remove this option)");
+                  ": has no effect, because all maps are numbers (give a file, or remove this option)");
   find_sets_of(options, found);
   if (options.output.empty()) throw usage_error("--output is required");
   plan.list = set_jobs(options, chosen.workflow, sets.request, std::move(found));
@@ -215,7 +215,7 @@ void require_asset_options(const ConvertOptions& options) {
   const bool is_tree = options.assets || !options.manifest.empty();
   for (const GivenOption& option : options.given)
     if ((option.tags & (kNeedsAsset | kForAssets)) == 0)
-      throw usage_error(option.name + ": applies to nothing, because " + display_path(options.folder) +
+      throw usage_error(option.name + ": has no effect, because " + display_path(options.folder) +
                         (is_tree ? " is converted as a folder of assets" : " is an asset") +
                         " (remove this option)");
   if (!is_tree)
@@ -224,19 +224,19 @@ void require_asset_options(const ConvertOptions& options) {
   if (is_tree && (!options.more_assets.empty() || !options.asset_root.empty()))
     throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
                       (options.more_assets.empty()
-                           ? std::string("--root, which is DIR")
+                           ? std::string("--root, because DIR is the root already")
                            : display_path(options.more_assets.front()) + " (name one folder)"));
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
     throw usage_error("--from " + options.from.name +
-                      ": the file tells what its materials are (remove this option)");
+                      ": texremap reads from the file what its materials are (remove this option)");
   if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
     throw usage_error("--to " + options.to.name +
-                      ": materials of assets become gltf or gltf-specgloss (use --to gltf)");
+                      ": the materials of an asset can become gltf or gltf-specgloss (use --to gltf)");
   if (options.output.empty()) throw usage_error("--output is required");
   const bool is_core = options.to.name == "gltf" && !options.extensions;
   if (options.fold_specular && !is_core)
-    throw usage_error("--fold-specular: applies to --to gltf without --extensions only (remove one)");
+    throw usage_error("--fold-specular: needs --to gltf, without --extensions (remove this option)");
   if (options.to.name != "gltf" && options.extensions)
     throw usage_error("--extensions: applies to --to gltf only (remove this option)");
 }

@@ -420,7 +420,7 @@ void SetJobs::require_encoding_used() const {
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
   if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
     throw Error(ErrorKind::kUsage,
-                "--roughness-encoding: applies to nothing, because the names of all maps say what "
+                "--roughness-encoding: has no effect, because the names of all maps say what "
                 "they hold (remove this option)");
 }
 

@@ -29,7 +29,7 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
            "--workflows)");
   if (choice.changes_nothing)
     refuse(options, kNeedsMetallic,
-           ": applies to nothing, because both ends are one material (remove this option)");
+           ": has no effect, because both ends are one material (remove this option)");
   if (!choice.is_to_metallic())
     refuse(options, kNeedsMetallic, " requires a metallic target (set --to or --to-workflow)");
 }

@@ -367,10 +367,10 @@ void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& repor
   };
   if (std::ranges::none_of(reports, converted)) return;
   if (plan.sets()->pass.dither && !some(&JobReport::has_8_bits))
-    throw usage_error("--dither: applies to nothing, because no result has 8 bits (remove this option)");
+    throw usage_error("--dither: has no effect, because no result has 8 bits (remove this option)");
   if (plan.sets()->targets.compression_level && !some(&JobReport::has_compression_level))
     throw usage_error(
-        "--compression: applies to nothing, because no result is PNG, or EXR or TIFF with zip (remove this "
+        "--compression: has no effect, because no result is PNG, or EXR or TIFF with zip (remove this "
         "option)");
 }
 

@@ -146,5 +146,5 @@ TEST_CASE("check: diffuse out of range is reported") {
 TEST_CASE("check: too few rows or widths cannot be fitted") {
   Table table = sound_table();
   table.rows.resize(10);
-  CHECK_THROWS_WITH(require_fittable(table), Catch::Contains("10 usable rows with 2 different alpha1"));
+  CHECK_THROWS_WITH(require_fittable(table), Catch::Contains("10 usable rows and 2 values of alpha1"));
 }

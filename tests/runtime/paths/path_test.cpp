@@ -206,7 +206,7 @@ TEST_CASE("path: a model that would be visited twice is wrong usage") {
   converters.add("r/b", "r/hub", 0.1);
   converters.add("r/hub", "r/c", 0.1);
   const std::string twice =
-      ": the path would visit this model twice (choose a source, a target and models between that differ)";
+      ": the path would use this model twice (choose a source, a target and models between that differ)";
   CHECK(refusal(converters, {"r/a", "r/a", {}}) == "r/a" + twice);
   CHECK(refusal(converters, {"r/a", "r/b", {"r/a"}}) == "r/a" + twice);
   CHECK(refusal(converters, {"r/a", "r/b", {"r/b"}}) == "r/b" + twice);

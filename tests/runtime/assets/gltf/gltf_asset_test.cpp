@@ -159,8 +159,8 @@ TEST_CASE("Damaged containers are refused", "[assets]") {
   }
   std::string lies = good;
   lies.replace(12, 4, four_bytes(0xfffffff0));
-  CHECK(asset_failure(lies).find("a.glb: the chunk at byte 12 states 4294967280 bytes, but the file has ") ==
-        0);
+  CHECK(asset_failure(lies).find(
+            "a.glb: the chunk at byte 12 should have 4294967280 bytes, but the file ends after ") == 0);
   lies = good;
   lies.replace(4, 4, four_bytes(1));
   CHECK(asset_failure(lies) == "a.glb: is a glTF container of version 1; version 2 is read");
