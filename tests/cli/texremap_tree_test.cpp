@@ -186,8 +186,7 @@ TEST_CASE("texremap tree: makes only missing and changed sets", "[slow]") {
   CHECK(states("--force") == "cccc");
 }
 
-TEST_CASE("texremap tree: a killed run leaves complete files, and ends like an unbroken run",
-          "[slow]") {
+TEST_CASE("texremap tree: a killed run leaves complete files, and ends like an unbroken run", "[slow]") {
   const Tree tree;
   for (int i = 0; i < 12; ++i) {
     const std::string name = "in/" + std::to_string(i);

@@ -43,8 +43,8 @@ std::vector<std::string> convert_words(const PlannedFarm& farm, const PlannedPat
   std::vector<std::string> words = {paths.program,  "convert", paths.tree, "--manifest",
                                     paths.manifest, "--part",  part};
   words.insert(words.end(), farm.options.begin(), farm.options.end());
-  for (const std::string& word : {std::string("--threads"), std::to_string(farm.threads),
-                                  std::string("-o"), paths.output})
+  for (const std::string& word :
+       {std::string("--threads"), std::to_string(farm.threads), std::string("-o"), paths.output})
     words.push_back(word);
   return words;
 }
