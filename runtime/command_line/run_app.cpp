@@ -1,6 +1,7 @@
 #include "command_line/run_app.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -157,6 +158,8 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   else
     run_reversed(app, words_of(argc, argv));
   std::cout.flush();
+  // As when `head` has read enough. Nothing follows that could change errno.
+  if (!std::cout && errno == EPIPE) return 1;
   if (!std::cout) throw Error(ErrorKind::kOutput, "standard output: cannot be written");
   return 0;
 }

@@ -21,7 +21,7 @@ cp examples/lambert_worker.py compiler/adapters/toy.py
 cp examples/blinn_phong.py compiler/adapters/
 
 cmake --preset release -DREMAP_WARNINGS_AS_ERRORS=ON -DREMAP_BUILD_TESTS=OFF -DREMAP_BUILD_EXAMPLES=OFF >/dev/null
-cmake --build --preset release --target remapc texremap >/dev/null
+cmake --build --preset release --target remapc texremap >build.log || { cat build.log; exit 1; }
 PATH=$folder/build/release/bin:$PATH
 
 # says TEXT COMMAND...: the output has the text.
