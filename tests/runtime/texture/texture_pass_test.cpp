@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -119,7 +121,10 @@ TEST_CASE("texture pass: equals the converter for each texel, for any threads an
 
 TEST_CASE("texture pass: compiled converters give the same results in a map as alone", "[slow]") {
   const Scene scene;
+  std::set<std::pair<RoughnessEncoding, RoughnessEncoding>> seen;  // the pass asks a converter for no more
   for (const auto& converter : shipped_converters()) {
+    const ConverterInfo& info = converter->info();
+    if (!seen.emplace(info.source.roughness, info.target.roughness).second) continue;
     scene.pass(*converter, {});
     check_every_texel(scene, *converter);
   }
