@@ -160,7 +160,7 @@ class NodeWriter {
                                                      {Op::kMultiply, "multiply"}, {Op::kDivide, "divide"},
                                                      {Op::kMin, "min"},           {Op::kMax, "max"}};
     Term a = write(expression.terms[0], next()), b = write(expression.terms[1], next());
-    // The second term of a node may be a float beside a color, the first may not.
+    // MaterialX allows a color and a float as inputs of a node only if the color is the first input.
     if (!a.is_color && b.is_color) std::swap(a, b);
     return node(kNodes.at(expression.op), {a, b}, name);
   }

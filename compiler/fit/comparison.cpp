@@ -13,7 +13,8 @@ namespace remap {
 namespace {
 
 constexpr int kIterations = 12;
-constexpr std::size_t kMostTerms = 5;  // of a factor fitted to pictures: more follow the lights that choose
+// Of a factor that is fitted to pictures. More terms would overfit the lights that choose the form.
+constexpr std::size_t kMostTerms = 5;
 constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
 constexpr double kNear = 1.01;         // of the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range

@@ -21,7 +21,7 @@ constexpr int kRowIterations = 30;
 constexpr int kGrid = 80;               // steps over the domain, in each direction
 constexpr double kLeastFactor = 1e-5;   // of a sound form
 constexpr double kSmallestGain = 2e-5;  // of a sum of errors, relative
-constexpr double kStep = 1e-5;          // of differences, relative to a number
+constexpr double kStep = 1e-5;          // of difference quotients: the smallest change of a number
 constexpr double kRidge = 1e-9;         // of normal equations, relative
 
 // Pictures show errors relative to a value, and below `least` nothing.

@@ -8,10 +8,10 @@
 
 namespace remap {
 
-// The source parameters in the domain of `fit` that its mapping takes to `target`, within the limits of the
-// target model, to the resolution of doubles; none if they are not found. The mapping must be monotonic, as
-// shipped fits are: target alpha rises with alpha, target specular with specular at every alpha, and target
-// alpha with alpha along a line of equal target specular.
+// Returns the source parameters that the mapping of `fit` turns into `target`, to the resolution of doubles.
+// They lie in the domain of `fit` and within the limits of the target model. None if they are not found. The
+// mapping must be monotonic, as shipped fits are: target alpha rises with alpha; target specular rises with
+// specular at every alpha; target alpha rises with alpha along a line of equal target specular.
 std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target);
 
 // Relative changes |there and back - texel| / texel of alpha and of specular, over the part of a grid on

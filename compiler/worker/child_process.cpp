@@ -205,7 +205,8 @@ void ChildProcess::watch() {
     gone = ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
            info.si_pid == id_;
     const std::lock_guard lock(mutex_);
-    // Its children are killed before it is reaped: until then no other group can have its number.
+    // The child's own children must be killed before the child is reaped, because until then no other process
+    // group can get its number.
     if (gone)
       ::kill(-id_, SIGKILL);
     else

@@ -17,9 +17,8 @@ class PictureCache {
   // `renderer`: WorkerDescription::renderer.
   PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
 
-  // What the cache holds for a request: a picture, or nothing, and then why its file cannot be used if there
-  // is one
-  // (`FILE: its checksum does not match its content`).
+  // What the cache holds for a request. If there is a file that cannot be used, `image` is empty and `damage`
+  // says why (`FILE: its checksum does not match its content`).
   struct Found {
     std::optional<Image> image;
     std::string damage;

@@ -12,7 +12,8 @@ namespace remap {
 // beyond this limit are no floats.
 inline constexpr float kBrightestPixel = 1e18f;
 
-// A filter or the difference of two sums leaves values below 0 within this share of the brightest one.
+// Filters and differences of sums leave values slightly below 0. They are accepted down to this fraction of
+// the brightest value.
 inline constexpr float kNegativeShare = 1e-4f;
 
 // `the picture is nan in row 3, column 5 (values must be finite)` for the first value that is not finite, too

@@ -18,7 +18,7 @@ std::string place_of(const CheckedMaterial& material, const MaterialUse& use) {
                                           : shown + ":" + std::string(name_of(kChannels, use.channels));
 }
 
-// A map of width as roughness, by its role.
+// Returns a map of roughness, gloss or alpha as roughness. Its role says which of these it holds.
 std::optional<Plane> roughness_by_role(const CheckedMaterial& material, const MaterialUse& use) {
   const Plane* stored = material.plane(use);
   if (stored == nullptr) return std::nullopt;

@@ -28,11 +28,11 @@ struct Fix {
       : words(std::move(in_words)), command(std::move(as_command)) {}
   Fix(const char* in_words) : words(in_words) {}
 
-  std::string words;  // an edit; of a command what it does
+  std::string words;  // what to edit; if there is a command, what it does
   // Can be typed where texremap was started, and writes into the folder `fixed`; empty for none.
   std::string command;
-  // Of a conversion of an asset: its file, folder of results and options. unite_conversions() makes the
-  // command of all findings.
+  // If the command converts an asset: the asset's file, the folder of results and the options.
+  // unite_conversions() makes one command of all findings.
   std::string asset = {}, output = {};
   std::vector<std::string> options = {};
 

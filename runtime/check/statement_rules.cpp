@@ -1,4 +1,4 @@
-// Rules of what assets state in words and numbers.
+// This file has the rules that check words and numbers in assets, not texels.
 #include <algorithm>
 #include <array>
 #include <cmath>

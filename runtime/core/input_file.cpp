@@ -13,7 +13,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A folder as its files are named, and where it is.
+// A folder to which inputs are confined: its path as names of files begin with it, and its path after links
+// are resolved.
 struct Confinement {
   fs::path name, place;
 };

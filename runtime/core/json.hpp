@@ -17,8 +17,8 @@
 
 namespace remap {
 
-// A list in braces whose entries are all pairs that begin with a text is an object: `{{"id", id}, {"rows",
-// 3}}`. Use Json::list() where such a list is meant as one.
+// A list in braces becomes an object if every entry is a pair that begins with a text: `{{"id", id}, {"rows",
+// 3}}`. Use Json::list() to make a list of such pairs.
 class Json {
  public:
   using List = std::vector<Json>;

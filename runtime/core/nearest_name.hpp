@@ -8,9 +8,10 @@
 
 namespace remap {
 
-// The candidate with the smallest Damerau-Levenshtein distance to `name` (optimal string alignment), or an
-// empty string if none is near: a third of the letters of the longer name may be wrong, or missing at the end
-// of a beginning such as --out.
+// Returns the candidate with the smallest Damerau-Levenshtein distance to `name` (optimal string alignment),
+// or an empty string if none is close. A candidate is close if at most a third of the letters of the longer
+// name are wrong. A beginning such as --out counts as one wrong letter, if it is at least half of the
+// candidate.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 // The candidate with the smallest such distance, however large; the first of equals. `candidates` must not be

@@ -23,8 +23,8 @@ std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
 // `text` with small letters in place of capital ones, in every script; bytes that are no UTF-8 stay.
 std::string without_case(std::string_view text);
 
-// `text` with `_` for every character that is_plain_text() refuses, as names of new files are made of texts
-// that others wrote. Bytes that are not UTF-8 stay: names of files may be in other encodings.
+// Replaces every character that is_plain_text() refuses by `_`, because names of new files are made of texts
+// that others wrote. Keeps bytes that are not UTF-8, because file names may be in other encodings.
 std::string plain_file_name(std::string_view text);
 
 // The parts of `text` between separators; one more than there are separators, so parts may be empty.

@@ -1,4 +1,4 @@
-// Names of files in files that others may have written: manifests and journals.
+// Checks paths that stand in manifests and journals, because others may have written these files.
 #pragma once
 
 #include <filesystem>

@@ -25,9 +25,9 @@ struct DirectedGraph {
 // not `forwards`.
 std::vector<bool> connected(const DirectedGraph& graph, std::size_t start, bool forwards);
 
-// Up to `count` paths through `waypoints` (2 or more, each once) in their order that visit no node twice, as
-// numbers of edges: by rising cost, then by rising number of edges, then by the numbers of the edges. Empty
-// where there is none.
+// Returns up to `count` paths that pass through `waypoints` (2 or more, each once) in this order and visit no
+// node twice. A path is a list of edge numbers. Paths are sorted by rising cost, then by rising number of
+// edges, then by the edge numbers. Empty if no path exists.
 std::vector<std::vector<std::size_t>> least_paths(const DirectedGraph& graph,
                                                   const std::vector<std::size_t>& waypoints,
                                                   std::size_t count);

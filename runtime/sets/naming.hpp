@@ -145,7 +145,8 @@ struct Habit {
 // One way to read the name of an image.
 struct NameReading {
   std::string stem;  // the name of the set; empty if the whole name is the word of the map
-  // The stem with a number before the word that may be a resolution or belong to the set: wood_1024_rough.
+  // The stem with the number before the word of the map, which may be a resolution or belong to the set:
+  // wood_1024 of wood_1024_rough.
   std::string numbered_stem;
   std::string habit;      // the name of the habit
   bool doubtful = false;  // counts only if another map has the same stem

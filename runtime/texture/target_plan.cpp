@@ -63,7 +63,7 @@ bool is_wanted(const TargetChoice& choice, Parameter parameter) {
   return std::find(choice.parameters.begin(), choice.parameters.end(), parameter) != choice.parameters.end();
 }
 
-// The content of a result's channel that follows `place` of a map.
+// Returns what a channel of a result holds if it follows `place`, a channel of an input map.
 TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const TargetChoice& choice) {
   std::optional<TargetChannel> content;
   std::optional<Parameter> held;

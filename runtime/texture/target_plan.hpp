@@ -41,8 +41,8 @@ struct TargetPlan {
       unplaced;  // a message for each channel of the inputs without a place in the layout
 };
 
-// Whole numbers stand for 0 to 1, and an exponent for more: throws kUsage where a result of whole numbers
-// would hold roughness, which is an exponent.
+// Integers store 0 to 1, but exponents are larger. Throws kUsage if an integer result would hold roughness as
+// an exponent.
 void require_target_scale(const TextureSet& set, const TargetPlan& plan);
 
 // Text before and after the names of results without an input: `wood` specular `.1001`.

@@ -119,8 +119,8 @@ struct TextureSet {
 // parameter is a map.
 TextureSet open_texture_set(const TextureSetRequest& request);
 
-// Whole numbers stand for 0 to 1, and an exponent for more: throws kInput where the roughness map holds them,
-// is read as `width`, an exponent, and has no factor.
+// Integers store 0 to 1, but exponents are larger. Throws kInput if the roughness map holds integers, is read
+// as an exponent (`width`), and has no factor.
 void require_scale(const TextureSet& set, RoughnessEncoding width);
 
 // Warnings about the set, one message each.

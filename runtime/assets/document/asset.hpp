@@ -118,7 +118,7 @@ struct AssetMaterial {
 
 std::size_t count_of(const std::vector<AssetMaterial>& materials, MaterialState state);
 
-// A part of a result: its own bytes, or where there are none a range of the source.
+// A part of a result: `bytes`, or a range of the source if `bytes` is empty.
 struct AssetPiece {
   std::string bytes;
   std::uint64_t begin = 0, end = 0;

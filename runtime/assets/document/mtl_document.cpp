@@ -55,7 +55,7 @@ std::size_t MtlDocument::end_of_line(std::size_t begin) const {
 
 bool MtlDocument::is_space(std::size_t at) const { return space_length(at) > 0; }
 
-// A backslash before a line ending is white space with it.
+// A backslash before a line ending is white space, together with the line ending.
 std::size_t MtlDocument::space_length(std::size_t at) const {
   const char c = text_[at];
   if (c == ' ' || c == '\t' || c == '\v' || c == '\f') return 1;

@@ -33,7 +33,7 @@ struct TextureInfo {
 
 class GltfImages {
  public:
-  // All must outlive it.
+  // All arguments must outlive this object.
   GltfImages(const SpannedJson& json, const GltfBytes& bytes, const AssetResources& resources);
 
   // Throws kInput for an index or a transform that cannot be read.

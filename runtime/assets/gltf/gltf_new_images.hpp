@@ -41,7 +41,7 @@ class GltfNewImages {
   // one that was added before where they agree.
   std::size_t add_texture(std::size_t image, std::size_t model);
 
-  // Writes them all, once: until then nobody knows which places are spare.
+  // Writes all new images. Call it once, at the end, because only then `spares` is complete.
   void write(const GltfSpares& spares, TextEdits& edits);
   // The texture info of a new texture. After write().
   std::string info_text(const TextureText& texture) const;

@@ -51,9 +51,10 @@ SpecGlossMaps specgloss_maps(const Converter& converter, MapSources sources, con
 // Roughness as green, of the glossiness in alpha times its factor.
 ImagePixels roughness_map(const ImagePixels& specgloss, double glossiness);
 
-// The F0 of dielectrics (KHR_materials_specular, _ior): min(1, `most` * color) * factor * alpha of
-// `specular`. `most` is the F0 of the index times the factor of the color, which is sRGB. One map may be
-// null. Three channels of linear floats, because no converter multiplies two maps with a limit between.
+// Returns the F0 of dielectrics (KHR_materials_specular, _ior): min(1, `most` * color) * factor * alpha of
+// `specular`. `most` is the F0 of the index times the color factor. `color` is sRGB. One of the two maps may
+// be null. The result has three channels of linear floats, because no converter can limit a product of two
+// maps.
 ImagePixels f0_map(const ImagePixels* specular, double specular_factor, const ImagePixels* color,
                    const std::array<double, 3>& most);
 

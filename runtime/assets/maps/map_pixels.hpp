@@ -72,8 +72,8 @@ void copy_alpha(const ImagePixels& from, ImagePixels& to);
 // Fills a channel with its largest value.
 void fill_channel(ImagePixels& pixels, std::size_t channel);
 
-// The root of the mean square of Parameter::kResidual, of an even grid: finding it out takes longer than to
-// convert.
+// Returns the RMS of Parameter::kResidual over an even grid of texels. All texels would take longer than the
+// conversion itself.
 double sampled_residual(const Converter& converter, MapConversion conversion);
 
 }  // namespace remap

@@ -33,10 +33,11 @@ TextureCoordinates untransformed(const TextureTransform& transform, const Textur
   return {(cosine * u - sine * v) / transform.scale[0], (sine * u + cosine * v) / transform.scale[1]};
 }
 
-// A place between two texels of a row or column that repeats.
+// A position between two neighboring texels of a row or column. The row or column repeats, so the first texel
+// follows the last.
 struct RepeatedPlace {
   std::size_t before = 0, after = 0;
-  float share = 0.0f;  // of `after`
+  float share = 0.0f;  // weight of `after`, 0 to 1
 };
 
 RepeatedPlace place_at(double coordinate, std::size_t count) {

@@ -68,7 +68,7 @@ std::string placing_options(const MtlMap& map) {
   return text + (map.clamps ? "-clamp on " : "");
 }
 
-// They are the same in all maps of a material that are converted.
+// All converted maps of a material have the same placing options, so the first map decides.
 std::string placing_options(const MtlSurface& surface) {
   for (const std::optional<MtlMap>* map :
        {&surface.specular_map, &surface.exponent_map, &surface.diffuse_map})

@@ -17,7 +17,8 @@ namespace remap {
 
 // An MTL file and its images.
 struct MtlLibrary {
-  // `path`: relative to the OBJ file. `resources` must outlive it. Without `maker`, as the file says.
+  // `path` is relative to the OBJ file. `resources` must outlive this object. Without `maker`, the file
+  // itself shows who wrote it.
   MtlLibrary(std::string content, const std::string& path, const AssetResources& resources,
              std::optional<MtlMaker> maker);
 

@@ -94,7 +94,8 @@ struct MetalRoughNumbers {
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double metallic = 0.0, roughness = 1.0;
 };
-// `is_core`: for a target that adds a highlight to every dielectric, so that one without it becomes rough.
+// `is_core`: the target adds a highlight to every dielectric, so a dielectric without a highlight becomes
+// rough.
 MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
 
 // The surface as factors, which its maps multiply.

@@ -73,7 +73,7 @@ class SceneWriter {
   }
 
  private:
-  // Values go as they become bytes of the buffer.
+  // Each array is freed as soon as its bytes are in the buffer, to save memory.
   Json primitive_of(ObjPrimitive primitive) {
     const std::size_t count = primitive.vertex_count();
     if (primitive.texcoords.empty() && materials_[primitive.material].has_texture) {

@@ -190,7 +190,7 @@ std::size_t ObjMaterials::base_image_of(MaterialDraft& draft) {
   return draft.base_image;
 }
 
-// A map that fails leaves the factors, and that of diffuse.
+// If a map fails, the material keeps its factors and its diffuse map.
 void ObjMaterials::set_reflection(MaterialDraft& draft) {
   const bool is_done = draft.attempt([&] {
     if (draft.surface.is_metal_rough) return set_metal_rough(draft);

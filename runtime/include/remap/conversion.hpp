@@ -106,8 +106,8 @@ BuiltConversion build_conversion(const ConversionChoice& choice, const std::vect
 // The same around one converter of width and specular, as of a fit.
 BuiltConversion build_conversion(const ConversionChoice& choice, std::unique_ptr<Converter> brdf);
 
-// The ends of a warp: both have plain diffuse, specular and a width of that convention; a metallic source is
-// read by equation (2).
+// Returns both ends of a warp. Each has plain diffuse, specular, and a width in the convention `width`. A
+// metallic source is read by equation (2).
 ConversionChoice choice_of_warp(const WarpMapFit& warp, WorkflowKind source, RoughnessEncoding width);
 
 // The stages of a conversion between workflows, around `brdf`, which may be null.

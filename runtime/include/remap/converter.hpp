@@ -33,7 +33,7 @@ std::string_view instruction_set_name(InstructionSet set);
 // The widest set that this processor, its operating system and this build support.
 InstructionSet best_instruction_set();
 
-// All up to `best`, from the baseline.
+// Returns all instruction sets from the baseline up to `best`.
 std::vector<InstructionSet> instruction_sets(InstructionSet best = best_instruction_set());
 
 // The set of that name. Throws kUsage, with `context` at the start of the message, if the name is unknown or

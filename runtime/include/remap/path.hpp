@@ -126,13 +126,13 @@ ConverterGraph graph_of(const ConverterList& converters);
 
 // Several converters in a row as one converter, so that maps are read and written once.
 
-// Runs the stages of all `steps` on blocks of texels that stay in the cache; the bits are those of one step
-// after another over whole rows. There must be 1 or more steps, all of width and specular and none a chain
-// itself.
+// Runs the stages of all `steps` on blocks of texels that stay in the cache. The bits are the same as if each
+// step converted whole rows. There must be 1 or more steps. All convert width and specular, and none is a
+// chain itself.
 // - convert() counts texels outside the domain of any step, each once.
-// - info(): source of the first, target of the last; the domain is chained_domain(); errors are sums over the
-//   steps, unknown where one is; `steps` their ids.
-// - self_test(): that of every step.
+// - info() has the source of the first step, the target of the last, the domain chained_domain(), and the ids
+//   of all `steps`. Errors are sums over the steps, and unknown if the error of a step is unknown.
+// - self_test() runs the self-test of every step.
 // Throws kInput if a step does not take the model and parameters that the step before it makes.
 std::unique_ptr<Converter> make_chained_converter(const std::vector<const Converter*>& steps);
 

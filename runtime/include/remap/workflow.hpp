@@ -49,8 +49,8 @@ struct MetallicWorkflow {
   bool operator==(const MetallicWorkflow&) const = default;
 };
 
-// `prior` times the mean weight times metallic (1 - metallic) is added to the error of the projection, so
-// that of two similar solutions the one nearer to metallic 0 or 1 is chosen.
+// The projection adds `prior` times the mean weight times metallic (1 - metallic) to its error. So if two
+// solutions are similar, it chooses the one closer to metallic 0 or 1.
 inline constexpr double kCleanPrior = 1e-6;  // for maps without noise, 8 bits or more
 inline constexpr double kNoisyPrior = 1e-5;  // for scans and JPEG
 inline constexpr double kLargestPrior = 1.0;

@@ -1,4 +1,4 @@
-// Assets and what lies beside them, as files.
+// This file defines which files an asset may read, and which files are copied beside its result.
 #pragma once
 
 #include <filesystem>

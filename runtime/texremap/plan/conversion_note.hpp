@@ -1,4 +1,4 @@
-// A conversion by all that its results depend on besides the inputs: what a resumed run compares.
+// Everything that the results of a conversion depend on, except the inputs. A later run compares it.
 #pragma once
 
 #include <string>

@@ -67,7 +67,8 @@ double f0_of(const ChosenConverter& chosen, const DielectricF0& estimated) {
   return std::get<MetallicWorkflow>(*chosen.workflow.target).dielectric_f0;
 }
 
-// Prints what metal-rough cannot express where it is visible, with `verbose` also how reliable metallic is.
+// Prints how much of a material metal-rough cannot express, if a picture would show it. With `verbose`, also
+// prints how reliable metallic is.
 void print_confidence(const std::string& context, const ChosenConverter& chosen, const JobReport& report,
                       bool verbose) {
   const MapStatistics& counts = report.statistics;

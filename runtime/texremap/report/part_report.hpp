@@ -14,7 +14,7 @@
 
 namespace remap {
 
-// The first line. `manifest` is the whole one.
+// Returns the first line of a report. `manifest` describes the whole manifest, not only the part.
 Json part_json(const GivenPart& part, const ManifestHead& manifest, const ConversionNote& conversion);
 
 // Writes the report of a finished part of the conversion to `output`. Throws kOutput.

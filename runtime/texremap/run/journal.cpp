@@ -116,7 +116,8 @@ void Content::add(std::string_view line) {
       field["files"].list(0, read);
     }
   } catch (const Error&) {
-    // A line of a killed run, or damage: what it would say is unknown.
+    // A killed run left half a line, or the journal is damaged. What the line meant is unknown, so it is
+    // skipped.
   }
 }
 

@@ -100,7 +100,7 @@ std::string plan_table(const std::vector<PlannedRole>& roles) {
   std::vector<std::array<std::string, 5>> rows = {{"role", "file", "holds", "what happens", "output"}};
   for (const PlannedRole& role : roles)
     rows.push_back({role.role, role.input, role.encoding, role.happens, role.output});
-  // Channels and roles are named by files, too.
+  // Names of channels and roles come from files, so they are made safe to print, too.
   for (auto& row : rows)
     for (std::string& cell : row) cell = plain(cell);
   std::array<std::size_t, 5> widths{};

@@ -15,7 +15,7 @@ namespace {
 
 // No file of these formats holds more texels for its size, but for pictures of one color.
 constexpr std::uint64_t kMostBytesOfAByte = 1'000'000;
-// An image says its size before its texels are read. More is a mistake or an attack.
+// The head of an image states its size before texels are read. A larger size is a mistake or an attack.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 32;
 
 std::atomic<std::uint64_t> most_memory = std::uint64_t{4} << 30;
