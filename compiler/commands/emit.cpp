@@ -104,7 +104,8 @@ void run(const EmitCommand& options) {
     throw Error(ErrorKind::kUsage, options.all ? "--all cannot be used with named fits"
                                                : "no fits given (name fits, or use --all)");
   if (options.all && options.language)
-    throw usage_error("--language is for named fits (--all writes every language, to the folder languages)");
+    throw usage_error(
+        "--language: cannot be used with --all, which writes every language (remove this option)");
   const std::vector<GeneratedFile> files = generate(options);
   if (!options.check) {
     for (const GeneratedFile& file : files) require_new(file.path, options.force || is_generated(file.path));

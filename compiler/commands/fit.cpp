@@ -142,8 +142,8 @@ void require_output_folder(const std::filesystem::path& folder) {
     existing = existing.parent_path();
   if (!std::filesystem::exists(existing)) existing = ".";
   if (!std::filesystem::is_directory(existing))
-    throw output_error(folder.string() + ": cannot be made a folder (" + existing.string() +
-                       " is not a folder)");
+    throw output_error(folder.string() + ": cannot be a folder, because " + existing.string() +
+                       " is a file (choose another folder)");
   if (::access(existing.c_str(), W_OK) != 0)
     throw output_error(folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
 }

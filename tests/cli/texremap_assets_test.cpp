@@ -156,13 +156,12 @@ TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended
   session.put("out/chairs/c.gltf", "damaged");
   session.put("lib/plain.gltf", R"({"asset":{"version":"2.0"}})");
   session.make("lib/maps/none.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
-  CHECK(session.texremap(command).exit_code == 1);
-  const ProcessResult resumed = session.texremap(command + "");
+  const ProcessResult resumed = session.texremap(command);
   CHECK(resumed.exit_code == 0);
   CHECK_THAT(resumed.errors, Contains("2 assets converted, 0 failed, 2 done before; 1 material in"));
   CHECK(session.content("out/chairs/c.gltf") == whole);
   CHECK(session.content("out/plain.gltf") == session.content("lib/plain.gltf"));
-  CHECK_THAT(session.texremap(command + "").errors, Contains("0 assets converted, 0 failed, 4 done before"));
+  CHECK_THAT(session.texremap(command).errors, Contains("0 assets converted, 0 failed, 4 done before"));
   CHECK_THAT(session.texremap(command + " --extensions").last_error(),
              Contains("belongs to another conversion"));
   // The same bytes from one thread, without a journal of another run.

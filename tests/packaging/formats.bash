@@ -15,9 +15,9 @@ expect_exit 0 "$bin/remapc" show $id
 expect_output "kind compact, by remapc "
 expect_exit 0 "$bin/remapc" show gltf_to_gltf_specgloss
 expect_exit 0 "$bin/remapc" emit --all -o headers
-expect_exit 0 "$bin/texremap" list --converters headers/converters.json
+expect_exit 0 "$bin/texremap" list --pairs --converters headers/converters.json
 expect_output "$id from mitsuba/ward"
-expect_exit 0 "$bin/texremap" list --converters "$formats/converters.json"
+expect_exit 0 "$bin/texremap" list --pairs --converters "$formats/converters.json"
 expect_output "test passed with"
 
 for table in table table_with_comments; do

@@ -147,8 +147,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kForAssets);
   command
       .add_option("--to MODEL", options.to, model_name(),
-                  "Where the results go: unity, unreal, blender, gltf, ... pack and name the files as that "
-                  "program reads them; cycles-5, mitsuba/as, ... are renderers (texremap list)")
+                  "Where the results go: unity, unreal, blender, ... also pack and name the files as that "
+                  "program reads them; gltf, cycles-5, mitsuba/as, ... (texremap list)")
       ->common()
       ->tag(kForAssets);
   command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter")
@@ -314,7 +314,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
                  "images smallest)");
   command.retire("--allow-skips",
                  "sets without anything to convert no longer make a run fail (remove this option)");
-  command.retire("--resume", "is what texremap does: it skips what is done (remove this option)");
+  command.retire("--resume", "is no longer needed: texremap skips what is done (remove this option)");
   command.retire("--preset", "is now called --to (for the packed files of glTF: --to gltf --layout gltf)");
   command.retire("--profile",
                  "was removed (for --profile extensions, use --extensions; core is the default)");

@@ -96,8 +96,9 @@ GivenPart ArrayJob::part(std::optional<std::size_t> count) const {
                       " does not tell the size of the array (give --part auto/N)");
   if (index < first || index - first >= *count)
     throw usage_error("--part auto" + (is_given ? "/" + std::to_string(*count) : "") + ": " + text() +
-                      " is none of " + std::to_string(first) + " to " + std::to_string(first + *count - 1) +
-                      " (begin the array at " + std::to_string(first) + ")");
+                      " is not between " + std::to_string(first) + " and " +
+                      std::to_string(first + *count - 1) + " (begin the array at " + std::to_string(first) +
+                      ")");
   const Part part{index - first + 1, *count};
   return {part, std::string(scheduler_.name) + ": " + text() + " is part " + std::to_string(part.index) +
                     " of " + std::to_string(part.count)};

@@ -66,7 +66,7 @@ std::string result_extension(const fs::path& input, const std::string& format) {
   if (is_obj && format.empty()) throw usage_error(display_path(input) + kObjRemedy);
   if (!is_obj && !format.empty())
     throw usage_error("--format " + format + ": " + display_path(input) +
-                      " stays a file of its kind (OBJ files become glTF)");
+                      " keeps its format (only OBJ files change it, to glTF)");
   return format.empty() ? "" : "." + format;
 }
 
@@ -76,7 +76,7 @@ void require_format(const fs::path& input, const fs::path& output) {
       throw usage_error("--output " + output.string() + ": " + display_path(input) + kObjRemedy);
   } else if (extension_of(input) != extension_of(output)) {
     throw usage_error("--output " + output.string() + ": " + display_path(input) +
-                      " stays a file of its kind (name it *" + extension_of(input) + ")");
+                      " keeps its format (name the output *" + extension_of(input) + ")");
   }
 }
 

@@ -48,7 +48,7 @@ std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
     if (workflow.has_source(color) && (is_map || !options.folder.empty())) colors.push_back(color);
   }
   return color_spaces("--color-space", options.color_spaces, colors,
-                      "is read from a map (--output-color-space is for results)");
+                      "is read from a map (for results: --output-color-space)");
 }
 
 std::vector<Parameter> written_colors(const std::vector<Parameter>& written) {

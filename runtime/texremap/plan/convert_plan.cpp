@@ -280,7 +280,7 @@ bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>
   if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
     return true;
   refuse(options, kNeedsAsset,
-         ": applies to assets only (remove it, name a glTF, MTL or OBJ file, or --assets)");
+         ": works only for assets (remove it, name a glTF, MTL or OBJ file, or --assets)");
   return false;
 }
 

@@ -371,7 +371,7 @@ void require_as_listed(const ListedSizes& files) {
     if (failure)
       throw system_error(
           ErrorKind::kInput,
-          file.string() + ": the manifest lists it (texremap index again), but it cannot be read",
+          file.string() + ": is in the manifest, but cannot be read (run texremap index again)",
           errno_of(failure));
     if (size != bytes)
       throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, the manifest says " +
