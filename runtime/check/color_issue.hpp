@@ -1,5 +1,4 @@
-// What the values of a color say against the way it is read: rules for `check`, and for `convert` before it
-// starts.
+// Finds colors whose values contradict the way they are read. `check` and `convert` use it.
 #pragma once
 
 #include <optional>
@@ -13,12 +12,12 @@ namespace remap {
 
 struct ColorIssue {
   std::string text;                  // `is 0.19 to 0.26 in 80 % of the texels, like F0 0.04 stored in sRGB`
-  std::optional<Transfer> transfer;  // with which the values would be usual
+  std::optional<Transfer> transfer;  // the curve with which the values would be usual
 };
 
-// Whether a color map is black or white everywhere, or holds an F0 that only fits the other transfer curve.
-// `linear` has rows of red, green and blue, or one of grey, decoded by `transfer`, with factors. None for
-// roles other than diffuse, base color and specular, and without texels.
+// Finds a color map that is black or white everywhere, or whose F0 only fits the other transfer curve.
+// `linear` has a row each for red, green and blue, or one for grey, decoded by `transfer` and multiplied by
+// the factors. Returns nothing for roles other than diffuse, base color and specular, and without texels.
 std::optional<ColorIssue> color_issue(Role role, Transfer transfer,
                                       const std::vector<std::vector<float>>& linear);
 

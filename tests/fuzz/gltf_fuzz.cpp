@@ -47,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   core.instructions = remap::InstructionSet::kBaseline;
   core.enlarges = true;
   remap::AssetOptions exact = core, compact = core, specgloss = core, folded = core;
-  exact.extensions = remap::true;
+  exact.extensions = true;
   compact.compacts = compact.bakes = true;
   compact.jpeg_quality = 90;
   specgloss.target = remap::AssetTarget::kSpecGloss;

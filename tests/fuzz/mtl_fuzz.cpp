@@ -67,9 +67,9 @@ void edit_twice(const std::string& bytes, const remap::AssetOptions& options,
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(remap::text_of(data, size));
   const MtlFuzzResources resources(bytes);
-  const remap::AssetOptions core{remap::false, remap::kCleanPrior, remap::InstructionSet::kBaseline, true};
+  const remap::AssetOptions core{false, remap::kCleanPrior, remap::InstructionSet::kBaseline, true};
   remap::AssetOptions extensions = core;
-  extensions.extensions = remap::true;
+  extensions.extensions = true;
   (void)remap::read_or_refuse([&] { edit_twice(bytes, core, resources); });
   (void)remap::read_or_refuse([&] {
     (void)remap::gltf_of_obj(remap::MemorySource(bytes), "file", core, resources, {true, "file"});

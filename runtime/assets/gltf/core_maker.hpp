@@ -1,4 +1,4 @@
-// Materials of any workflow become core glTF: as factors, or as images, each set of them once.
+// Converts materials of any workflow to core glTF. Materials that share images and factors share the results.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// JSON of a material in core glTF, with KHR_materials_specular in the exact form.
+// The JSON texts of a material in core glTF; with --extensions also of KHR_materials_specular.
 struct CoreTexts {
   std::array<std::string, 4> base_color;
   std::string metallic, roughness;
@@ -22,9 +22,10 @@ struct CoreTexts {
   double residual = 0.0;   // Parameter::kResidual; of maps the root of its mean square
 };
 
-// All members of pbrMetallicRoughness.
+// Returns all members of pbrMetallicRoughness.
 std::vector<MemberText> core_members(const CoreTexts& texts);
-// `base color map times 1 1 1, metallic 0, roughness 1`. `kept`: what it calls the map that it keeps.
+// Describes a material: `base color map times 1 1 1, metallic 0, roughness 1`. `kept` is the word for a map
+// that stays.
 std::string core_summary(const CoreTexts& texts, const std::string& kept);
 
 class CoreMaker {
@@ -41,7 +42,7 @@ class CoreMaker {
   CoreTexts convert(GltfMaterial& material, AssetMaterial& report);
 
  private:
-  // What became of a set of images, with the numbers of new ones; the pixels are gone.
+  // The result for a set of images, with the numbers of new images. It holds no pixels.
   struct Made {
     MetalRoughMaps maps;
     std::optional<std::size_t> base_image, metal_rough_image;

@@ -24,10 +24,12 @@ enum class GltfInput : std::size_t {
   kNormal,
   kOcclusion,
   kEmissive,
-  kDiffuse,            // of KHR_materials_pbrSpecularGlossiness
-  kSpecGlossSpecular,  // of the same, as kGlossiness
+  // KHR_materials_pbrSpecularGlossiness
+  kDiffuse,
+  kSpecGlossSpecular,
   kGlossiness,
-  kSpecularColor,  // of KHR_materials_specular
+  // KHR_materials_specular, _ior, _clearcoat, _sheen and _transmission
+  kSpecularColor,
   kSpecular,
   kIor,
   kClearcoat,
@@ -40,12 +42,12 @@ inline constexpr std::size_t kGltfInputs = 17;
 
 // The place of an input in a material.
 struct GltfInputInfo {
-  std::string_view object;   // member of the material, or extension; empty for the material itself
-  std::string_view texture;  // member with the texture; empty for none
-  std::string_view factor;
-  std::size_t count = 1;    // of the numbers of the factor; the fourth is opacity
-  std::size_t channel = 0;  // of the texture, where the factor is one number
-  double usual = 1.0;       // each number of the factor without the member
+  std::string_view object;   // the member or extension that holds it; empty for the material itself
+  std::string_view texture;  // the member with the texture; empty if an input has none
+  std::string_view factor;   // the member with the factor
+  std::size_t count = 1;     // how many numbers the factor has; the fourth is opacity
+  std::size_t channel = 0;   // which channel of the texture is read, if the factor is one number
+  double usual = 1.0;        // the default of each number
   double least = 0.0, most = 1.0;
   bool is_in_texture = false;  // the factor is a member of the texture
 };
@@ -59,9 +61,9 @@ struct FactorText {
 };
 
 struct GltfValue {
-  std::array<FactorText, 4> factor;  // those beyond the count are 1
-  bool is_stated = false;            // the file has the factor
-  SpanValue texture;                 // none for no texture
+  std::array<FactorText, 4> factor;  // numbers beyond the count are 1
+  bool is_stated = false;            // whether the file has the factor
+  SpanValue texture;                 // the info of the texture; empty without one
 };
 
 struct GltfMaterial {
@@ -77,8 +79,8 @@ struct GltfMaterial {
   }
 };
 
-// Reads some inputs; the others have their usual values. Notes factors that it clamps. Throws kInput for an
-// object, a list or a number that is something else.
+// Reads the given inputs; the others get their defaults. Appends a warning for each factor that it clamps.
+// Throws kInput if an object, a list or a number is something else.
 GltfMaterial read_inputs(SpanValue material, std::span<const GltfInput> inputs,
                          std::vector<std::string>& warnings);
 

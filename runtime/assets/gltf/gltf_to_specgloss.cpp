@@ -97,7 +97,7 @@ class CoreToSpecGloss final : public GltfDirection {
     }
   }
 
-  // What became of a set of images, with the numbers of new ones; the pixels are gone.
+  // The result for a set of images, with the numbers of new images. It holds no pixels.
   struct Made {
     SpecGlossMaps maps;
     std::optional<std::size_t> diffuse_image, specgloss_image;

@@ -20,41 +20,42 @@ enum class GltfWorkflow {
   kSpecGloss,   // KHR_materials_pbrSpecularGlossiness
 };
 
-// That its conversions read, in the order in which textures follow each other.
+// The inputs that conversions of the workflow read. Messages name textures in this order.
 std::span<const GltfInput> inputs_of(GltfWorkflow workflow);
-// Base color, or diffuse.
+// The input that holds base color or diffuse.
 GltfInput color_of(GltfWorkflow workflow);
 
-// Reads a material. Throws kInput as read_inputs(), and for an index of refraction between 0 and 1.
+// Reads the inputs of the workflow. Throws as read_inputs(), and kInput for an index of refraction between 0
+// and 1.
 GltfMaterial read_material(SpanValue material, GltfWorkflow workflow, std::vector<std::string>& warnings);
 
-// To `target`, a workflow model, with roughness at both ends.
+// Makes the converter from the workflow to the workflow model `target`. Both ends have roughness.
 std::unique_ptr<Converter> converter_of(GltfWorkflow workflow, const char* target,
                                         const AssetOptions& options);
 
-// The factors as the converter takes them.
+// Returns the factors as the converter takes them.
 MaterialValues values_of(GltfWorkflow workflow, const GltfMaterial& material);
-// The same of the first texel.
+// Returns the factors times the first texel of each texture.
 MaterialValues first_values_of(GltfWorkflow workflow, GltfMaterial material, const UsedTextures& used);
 
-// Maps of a material, of which at least one varies.
+// The maps of a material, ready for a converter. At least one of them varies. `used` must outlive it.
 struct GltfMaps {
   GltfMaps(GltfWorkflow workflow, const GltfMaterial& material, const UsedTextures& used);
   GltfMaps(const GltfMaps&) = delete;
   GltfMaps& operator=(const GltfMaps&) = delete;
 
-  // Whose size, type and place new images have.
+  // New images have the size, type and place of these.
   const UsedTexture& color_model;
   const UsedTexture& data_model;
   MapSources sources;
-  std::string key;  // tells apart what becomes of them: images and factors, but not opacity
+  std::string key;  // equal for materials whose results are equal, up to opacity
 
  private:
-  ImagePixels f0_;  // of kDielectric
+  ImagePixels f0_;  // only for kDielectric
 };
 
-// Loads the textures of some inputs, as MaterialTextures::load(). None where all maps are constant: they are
-// then factors of `material`. Throws kInput where no images can be read.
+// Loads the textures of the given inputs by MaterialTextures::load(). Returns nothing if all maps are
+// constant; `material` then has them as factors. Throws kInput if no images can be read.
 std::optional<UsedTextures> used_textures(MaterialTextures* textures, GltfMaterial& material,
                                           std::span<const GltfInput> inputs, const GridReason& reason,
                                           std::vector<std::string>& warnings);
