@@ -105,7 +105,7 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
     return a.status != b.status && has_answer(a) && has_answer(b);
   };
   for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
-    // Between two samples lies at most one corner, so at most two joints.
+    // Between two samples lies at most one corner, so at most two boundaries.
     TableRow below = sorted[i];
     for (int joint = 0; joint < 2 && differ(below, sorted[i + 1]); ++joint) {
       const TableRow start = below;

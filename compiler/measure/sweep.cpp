@@ -22,7 +22,7 @@
 namespace remap {
 namespace {
 
-// As many as a table can have that is read again; rows at joints of regimes come on top.
+// As many as a table can have that is read again; rows at boundaries of regimes come on top.
 constexpr std::size_t kMostSweepSamples = kMostCsvRows / 2;
 // The law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
@@ -285,7 +285,7 @@ Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const
   const std::vector<SampleBlock> blocks = blocks_of(options.samples);
   std::mutex mutex;
   std::size_t done = 0;
-  std::vector<std::vector<TableRow>> joints(blocks.size());
+  std::vector<std::vector<TableRow>> boundaries(blocks.size());
   run_parallel(blocks.size(), execution.jobs, [&](std::size_t b) {
     const SampleBlock& block = blocks[b];
     if (execution.cancelled != nullptr && *execution.cancelled)
@@ -293,12 +293,12 @@ Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const
     const std::vector<TableRow> rows = rounded(match_block(setup, block));
     const std::lock_guard lock(mutex);
     for (std::size_t i = 0; i < block.samples.size(); ++i) table.rows[block.samples[i]] = rows[i];
-    joints[b].assign(rows.begin() + static_cast<std::ptrdiff_t>(block.samples.size()), rows.end());
+    boundaries[b].assign(rows.begin() + static_cast<std::ptrdiff_t>(block.samples.size()), rows.end());
     done += block.samples.size();
     if (execution.progress) execution.progress(done, options.samples.size());
   });
   table.comments.emplace_back(kSpheresComment, spheres_text(setup, table.rows));
-  for (const auto& rows : joints) table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+  for (const auto& rows : boundaries) table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   find_limits(&table);
   return table;
 }

@@ -209,7 +209,7 @@ ConverterInfo info_of(const WorkflowStages& stages, InstructionSet set) {
   return info;
 }
 
-bool tells_alpha(RoughnessEncoding width) {
+bool encodes_alpha(RoughnessEncoding width) {
   return width == RoughnessEncoding::kAlpha || width == RoughnessEncoding::kRoughness ||
          width == RoughnessEncoding::kGlossiness;
 }
@@ -264,7 +264,7 @@ std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stage
 std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages, InstructionSet set) {
   ConverterInfo info = info_of(stages, set);
   const RoughnessEncoding target_width = info.target.roughness;
-  const RoughnessEncoding width = tells_alpha(target_width) ? target_width : RoughnessEncoding::kAlpha;
+  const RoughnessEncoding width = encodes_alpha(target_width) ? target_width : RoughnessEncoding::kAlpha;
   const DiffuseConvention between = diffuse_between(stages);
   const auto* source = std::get_if<MetallicWorkflow>(&stages.source);
   const auto* target = std::get_if<MetallicWorkflow>(&stages.target);

@@ -97,8 +97,8 @@ class GltfConversion {
   }
 
   GltfDirection* direction_of(SpanValue material) const {
-    const auto found =
-        std::ranges::find_if(directions_, [&](const auto& direction) { return direction->takes(material); });
+    const auto found = std::ranges::find_if(
+        directions_, [&](const auto& direction) { return direction->applies_to(material); });
     return found == directions_.end() ? nullptr : found->get();
   }
 
@@ -170,9 +170,9 @@ class GltfConversion {
       for (const SpanValue& primitive : mesh["primitives"].children())
         if (primitive["attributes"]["COLOR_0"]) count_uses(primitive, counts);
     for (const auto& [index, edit] : edits_)
-      if (counts[index] > 0 && !edit.colored.empty())
+      if (counts[index] > 0 && !edit.vertex_color_warning.empty())
         result_.asset.materials[index].warnings.push_back(
-            "vertex colors of " + counted(counts[index], "primitive") + " " + edit.colored);
+            "vertex colors of " + counted(counts[index], "primitive") + " " + edit.vertex_color_warning);
   }
 
   static void count_uses(SpanValue primitive, std::vector<std::size_t>& counts) {

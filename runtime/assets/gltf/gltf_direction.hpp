@@ -44,15 +44,15 @@ struct MaterialEdit {
   std::vector<MemberText> core;  // of pbrMetallicRoughness, in their order
   std::vector<std::string_view> removed_extensions;
   std::vector<ExtensionText> added_extensions;
-  SpanValue carried_extras;  // of a removed extension, which pbrMetallicRoughness takes
-  std::string colored;       // what changes where vertex colors multiply a color; empty for nothing
+  SpanValue carried_extras;          // of a removed extension, which pbrMetallicRoughness takes
+  std::string vertex_color_warning;  // what changes if vertex colors multiply a color; empty for nothing
 };
 
 class GltfDirection {
  public:
   virtual ~GltfDirection() = default;
   // Whether it converts the material.
-  virtual bool takes(SpanValue material) const = 0;
+  virtual bool applies_to(SpanValue material) const = 0;
   // Members of a material whose values it replaces: `pbrMetallicRoughness`, `extensions/KHR_materials_ior`.
   virtual std::vector<std::string> replaced() const = 0;
   // Fills in what a report says of a converted material. Throws kInput with the reason of a failure.

@@ -70,7 +70,7 @@ std::size_t GltfNewImages::add_texture(std::size_t image, std::size_t model) {
 
 void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
   spares_ = spares;
-  dead_images_.insert(spares.images.begin(), spares.images.end());
+  unused_images_.insert(spares.images.begin(), spares.images.end());
   tail_.kept = spares.chunk_end;
   if (const GlbChunk* const chunk = container_.binary_chunk())
     chunk_start_ = (tail_.kept.value_or(chunk->content_size()) + 3) / 4 * 4;
@@ -214,7 +214,7 @@ void GltfNewImages::empty_spares(TextEdits& edits) {
   }
   for (const std::size_t texture : spares_.textures) {
     const std::vector<std::size_t> images = images_of_texture(textures_[texture]);
-    if (images.empty() || !dead_images_.contains(images.front())) continue;
+    if (images.empty() || !unused_images_.contains(images.front())) continue;
     edits.set_member(textures_[texture], "source", std::to_string(images.front()));
     drop_formats(textures_[texture], edits);
   }

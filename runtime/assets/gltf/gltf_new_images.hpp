@@ -86,7 +86,7 @@ class GltfNewImages {
   std::vector<NewTexture> new_textures_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // by image and sampler
   GltfSpares spares_;                                                          // that are not taken yet
-  std::set<std::size_t> dead_images_;                                          // spare ones, taken or not
+  std::set<std::size_t> unused_images_;                                        // spare ones, taken or not
   std::vector<std::size_t> image_places_;
   std::vector<Location> locations_;
   std::size_t image_count_ = 0, texture_count_ = 0, view_count_ = 0;

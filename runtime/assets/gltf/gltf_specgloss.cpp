@@ -50,7 +50,7 @@ class SpecGlossToCore final : public GltfDirection {
         textures_(parts.textures),
         maker_(parts, GltfWorkflow::kSpecGloss, {"metallic", ", or --extensions"}) {}
 
-  bool takes(SpanValue material) const override {
+  bool applies_to(SpanValue material) const override {
     return static_cast<bool>(material["extensions"][kSpecGlossExtension]);
   }
 
@@ -140,7 +140,8 @@ class SpecGlossToCore final : public GltfDirection {
     edit.core = core_members(texts);
     edit.removed_extensions = {kSpecGlossExtension};
     edit.carried_extras = extension_of(read.text)["extras"];
-    if (texts.has_metal) edit.colored = "tinted its diffuse color and now tint its reflection, too";
+    if (texts.has_metal)
+      edit.vertex_color_warning = "tinted its diffuse color and now tint its reflection, too";
     if (is_exact) {
       const auto& specular = read[GltfInput::kSpecGlossSpecular].factor;
       const std::string color = list_text({specular[0].text, specular[1].text, specular[2].text});

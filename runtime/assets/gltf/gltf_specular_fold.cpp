@@ -15,7 +15,7 @@ class SpecularFold final : public GltfDirection {
   explicit SpecularFold(const DirectionParts& parts)
       : maker_(parts, GltfWorkflow::kDielectric, {"metallic", ""}) {}
 
-  bool takes(SpanValue material) const override {
+  bool applies_to(SpanValue material) const override {
     const SpanValue extensions = material["extensions"];
     return (extensions[kSpecularExtension] || extensions[kIorExtension]) &&
            !extensions[kSpecGlossExtension] && !extensions[kUnlitExtension];
@@ -40,7 +40,8 @@ class SpecularFold final : public GltfDirection {
     edit.material = material;
     edit.core = core_members(texts);
     edit.removed_extensions = {kSpecularExtension, kIorExtension};
-    if (texts.has_metal) edit.colored = "tinted its diffuse color and now tint its reflection, too";
+    if (texts.has_metal)
+      edit.vertex_color_warning = "tinted its diffuse color and now tint its reflection, too";
     return edit;
   }
 

@@ -45,7 +45,7 @@ class CoreToSpecGloss final : public GltfDirection {
         dielectric_(converter_of(GltfWorkflow::kDielectric, "gltf-specgloss", parts.options)) {}
 
   // Unlit materials have no workflow: KHR_materials_unlit reads base color.
-  bool takes(SpanValue material) const override {
+  bool applies_to(SpanValue material) const override {
     const SpanValue extensions = material["extensions"];
     return material.is(SpanKind::kObject) && !extensions[kSpecGlossExtension] && !extensions[kUnlitExtension];
   }
@@ -79,7 +79,7 @@ class CoreToSpecGloss final : public GltfDirection {
           "and _ior must not stand beside spec-gloss");
     }
     if (read.number(GltfInput::kMetallic) > 0.0)
-      edit.colored = "tinted its reflection and now tint only its diffuse color";
+      edit.vertex_color_warning = "tinted its reflection and now tint only its diffuse color";
     return edit;
   }
 
