@@ -18,7 +18,8 @@ std::vector<float> largest_of(const Rows& rows) {
 }
 
 double share_within(const std::vector<float>& values, float low, float high) {
-  const auto inside = std::ranges::count_if(values, [&](float v) { return v >= low && v <= high; });
+  const auto inside =
+      std::count_if(values.begin(), values.end(), [&](float v) { return v >= low && v <= high; });
   return static_cast<double>(inside) / static_cast<double>(values.size());
 }
 
