@@ -25,7 +25,8 @@ Json names_of(std::span<const KnownName> names) {
 
 Json names() {
   Json engines = Json::list(), materials = Json::list(), models = Json::list();
-  for (const NamedLayout& engine : engine_layouts()) engines.push_back(engine.name);
+  for (const NamedLayout& engine : engine_layouts())
+    if (!engine.words.empty()) engines.push_back(engine.name);  // `--to gltf` is the material alone
   for (const WorkflowModel& model : workflow_models())
     materials.push_back(
         {{"name", model_of(model.end)}, {"workflow", kind_name(model.end)}, {"brdf", model.brdf}});
