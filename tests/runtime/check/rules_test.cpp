@@ -168,6 +168,15 @@ TEST_CASE("check: what assets state, and files that are no assets") {
                      built_in_naming())
             .problems.front()
             .find("is cut off") != std::string::npos);
+  // A factor that no conversion reads is a problem; the other materials are checked.
+  const FoundMaterials some = materials_of(
+      write("f.gltf",
+            R"({"materials": [{"name": "bad", "pbrMetallicRoughness": {"metallicFactor": "x"}}, {}]})"),
+      built_in_naming());
+  CHECK(some.materials.size() == 1);
+  REQUIRE(some.problems.size() == 1);
+  CHECK(some.problems.front().ends_with(
+      "f.gltf: material \"bad\": metallicFactor: expected a number from 0 to 1, found \"x\""));
   CHECK_THROWS_WITH(materials_of(folder.path() / "missing", built_in_naming()),
                     Catch::Contains("does not exist"));
 }
