@@ -2,12 +2,10 @@
 #include <cstdio>
 #include <emscripten.h>
 #include <iostream>
-#include <span>
 #include <string>
 
 #include "core/json.hpp"
 #include "paths/known_names.hpp"
-#include "remap/conversion.hpp"
 #include "remap/path.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/commands/commands.hpp"
@@ -15,13 +13,6 @@
 
 namespace remap {
 namespace {
-
-Json names_of(std::span<const KnownName> names) {
-  Json list = Json::list();
-  for (const auto& [title, word] : names)
-    list.push_back({{"title", title}, {"name", word}, {"model", model_named(std::string(word)).name}});
-  return list;
-}
 
 Json names() {
   Json engines = Json::list(), materials = Json::list(), models = Json::list();
@@ -32,8 +23,8 @@ Json names() {
         {{"name", model_of(model.end)}, {"workflow", kind_name(model.end)}, {"brdf", model.brdf}});
   const ConverterGraph graph = shipped_graph();
   for (const std::string& name : graph.models()) models.push_back(name);
-  return {{"programs", names_of(known_programs())},
-          {"formats", names_of(known_formats())},
+  return {{"programs", names_json(known_programs())},
+          {"formats", names_json(known_formats())},
           {"engines", engines},
           {"materials", materials},
           {"models", models}};

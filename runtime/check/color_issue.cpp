@@ -43,9 +43,8 @@ std::optional<ColorIssue> transfer_issue(Transfer transfer, const Rows& linear) 
                     is_srgb ? Transfer::kLinear : Transfer::kSrgb};
 }
 
-}  // namespace
-
-std::optional<ColorIssue> color_issue(Role role, Transfer transfer, const Rows& linear) {
+// As color_issue(), without the curve in its text.
+std::optional<ColorIssue> issue_of(Role role, Transfer transfer, const Rows& linear) {
   const bool is_specular = role == Role::kSpecular;
   if (!is_specular && role != Role::kDiffuse && role != Role::kBaseColor) return std::nullopt;
   if (linear.empty() || linear.front().empty()) return std::nullopt;
@@ -59,6 +58,14 @@ std::optional<ColorIssue> color_issue(Role role, Transfer transfer, const Rows& 
             (is_specular ? "F0 is needed, not a specular strength)" : "a reflectance below 1 is needed)"),
         {}};
   return is_specular ? transfer_issue(transfer, linear) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ColorIssue> color_issue(Role role, Transfer transfer, const Rows& linear) {
+  std::optional<ColorIssue> issue = issue_of(role, transfer, linear);
+  if (issue) issue->text = "read as " + std::string(name_of(kTransfers, transfer)) + ", " + issue->text;
+  return issue;
 }
 
 }  // namespace remap

@@ -251,9 +251,8 @@ void specular_color(const CheckedMaterial& material, const GltfConsumer*, const 
       fix = material.kind == MaterialKind::kGltf ? "export it again: glTF reads colors as sRGB"
                                                  : "convert it with --color-space specular=" + name;
     }
-    findings.push_back(
-        {rule.name, issue->transfer ? Confidence::kLikely : Confidence::kPossible, map.shown, "",
-         "specular, read as " + std::string(name_of(kTransfers, transfer)) + ", " + issue->text, fix});
+    findings.push_back({rule.name, issue->transfer ? Confidence::kLikely : Confidence::kPossible, map.shown,
+                        "", "specular, " + issue->text, fix});
   });
 }
 

@@ -1,6 +1,9 @@
 #include "paths/known_names.hpp"
 
 #include <array>
+#include <string>
+
+#include "remap/conversion.hpp"
 
 namespace remap {
 namespace {
@@ -38,5 +41,12 @@ constexpr std::array<KnownName, 5> kFormats = {{
 
 std::span<const KnownName> known_programs() { return kPrograms; }
 std::span<const KnownName> known_formats() { return kFormats; }
+
+Json names_json(std::span<const KnownName> names) {
+  Json list = Json::list();
+  for (const auto& [title, word] : names)
+    list.push_back({{"title", title}, {"name", word}, {"model", model_named(std::string(word)).name}});
+  return list;
+}
 
 }  // namespace remap

@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/json.hpp"
+
 namespace remap {
 
 struct KnownName {
@@ -14,5 +16,7 @@ struct KnownName {
 // Engines, modellers, renderers and libraries of textures. Their words are aliases or models.
 std::span<const KnownName> known_programs();
 std::span<const KnownName> known_formats();
+// A list of objects {"title", "name", "model"}.
+Json names_json(std::span<const KnownName> names);
 
 }  // namespace remap

@@ -100,8 +100,7 @@ class SpecGlossToCore final : public GltfDirection {
       report_factors(material, report);
       return texts;
     }
-    if (textures_ == nullptr) throw input_error("has textures, and no library of images is given");
-    textures_->require_readable(material[GltfInput::kDiffuse].texture);
+    require_images(textures_).require_readable(material[GltfInput::kDiffuse].texture);
     const SpanValue info = material[GltfInput::kGlossiness].texture;
     if (!info) return texts;
     const UsedTexture specgloss = textures_->load(info, GltfInput::kSpecGlossSpecular);

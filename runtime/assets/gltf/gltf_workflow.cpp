@@ -151,11 +151,15 @@ GltfMaps::GltfMaps(GltfWorkflow workflow, const GltfMaterial& material, const Us
   if (has_map) f0.factors.clear();
 }
 
+MaterialTextures& require_images(MaterialTextures* textures) {
+  if (textures == nullptr) throw input_error("has textures, and no library of images is given");
+  return *textures;
+}
+
 std::optional<UsedTextures> used_textures(MaterialTextures* textures, GltfMaterial& material,
                                           std::span<const GltfInput> inputs, const GridReason& reason,
                                           std::vector<std::string>& warnings) {
-  if (textures == nullptr) throw input_error("has textures, and no library of images is given");
-  UsedTextures used = textures->load(material, inputs, reason, warnings);
+  UsedTextures used = require_images(textures).load(material, inputs, reason, warnings);
   if (used.textures.empty()) return std::nullopt;
   return used;
 }

@@ -54,6 +54,9 @@ struct GltfMaps {
   ImagePixels f0_;  // only for kDielectric
 };
 
+// Returns what reads images. Throws kInput if no images can be read.
+MaterialTextures& require_images(MaterialTextures* textures);
+
 // Loads the textures of the given inputs by MaterialTextures::load(). Returns nothing if all maps are
 // constant; `material` then has them as factors. Throws kInput if no images can be read.
 std::optional<UsedTextures> used_textures(MaterialTextures* textures, GltfMaterial& material,

@@ -16,6 +16,7 @@ namespace remap {
 namespace {
 
 using FloatRow = std::vector<float>;
+
 void load_channel(const ImagePixels& pixels, std::size_t channel, std::size_t y, float* values) {
   const std::size_t texel = pixels.texel_bytes();
   load_values(pixels.type, pixels.bytes.data() + y * pixels.width * texel + channel * byte_count(pixels.type),

@@ -175,13 +175,6 @@ void list_workflows(const ListOptions& options) {
   if (options.json) std::cout << all.dump(2) << '\n';
 }
 
-Json names_json(std::span<const KnownName> names) {
-  Json list = Json::list();
-  for (const auto& [title, word] : names)
-    list.push_back({{"title", title}, {"name", word}, {"model", model_named(std::string(word)).name}});
-  return list;
-}
-
 void print_names(const char* heading, std::span<const KnownName> names) {
   constexpr std::size_t kTitle = 32, kWord = 16;
   std::cout << heading << '\n';

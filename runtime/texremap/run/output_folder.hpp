@@ -25,7 +25,7 @@ class OutputFolder {
   // Takes the name of a result. Throws kOutput where another job has it.
   void take(const std::filesystem::path& file, const std::string& owner) const;
 
-  // Whether it is worth to hash the inputs: this conversion wrote the first of the files.
+  // Whether hashing the inputs can tell anything: this conversion wrote the first of the files.
   bool may_be_done(const std::vector<std::filesystem::path>& files) const;
   // Whether this conversion wrote all files from `inputs`, and they still are what it wrote; never with
   // --force.

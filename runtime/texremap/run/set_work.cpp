@@ -169,7 +169,7 @@ void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport&
     const auto issue = color_issue(role, map->transfer, sample.rows.at(parameter));
     if (!issue) continue;
     std::string text = set.maps[map->channels.front().map].path().string() + ": " + plain_name(parameter) +
-                       ", read as " + std::string(name_of(kTransfers, map->transfer)) + ", " + issue->text;
+                       ", " + issue->text;
     if (issue->transfer)
       text += " (use --color-space " + plain_name(parameter) + "=" +
               std::string(name_of(kTransfers, *issue->transfer)) + " in that case)";
