@@ -6,6 +6,7 @@
 
 #include "emit/header_data.hpp"
 #include "emit/languages.hpp"
+#include "materials/materials.hpp"
 
 namespace remap {
 
@@ -20,7 +21,11 @@ std::vector<EmittedFile> emit_shared_files(std::vector<Fit> fits) {
                     [](const Fit& fit) -> const std::string& { return require_converter(fit).info.id; });
   std::vector<ConverterData> converters;
   for (const Fit& fit : fits) converters.push_back(require_converter(fit));
-  std::vector<EmittedFile> files = {{"converters.json", converters_to_json(converters)}};
+  const MaterialLibrary& materials = material_library();
+  std::vector<EmittedFile> files = {{"converters.json", converters_to_json(converters)},
+                                    {"materials/materials.hpp", materials_header(materials)},
+                                    {"materials/materials.py", materials_module(materials)},
+                                    {"materialx/remap_translation.mtlx", materials_graphs(materials)}};
   const auto is_lobe = [](const ModelSide& side) {
     return side.model.starts_with("mitsuba/") || side.model.starts_with("legacy/");
   };

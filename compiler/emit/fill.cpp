@@ -4,7 +4,7 @@
 #include "core/plain_text.hpp"
 #include "emit/convention_text.hpp"
 #include "emit/mapping_code.hpp"
-#include "emit/text_template.hpp"
+#include "formula/text_template.hpp"
 #include "remap/version.hpp"
 
 namespace remap {

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "core/number_text.hpp"
-#include "emit/formula.hpp"
+#include "emit/converter_formula.hpp"
 #include "emit/mapping_code.hpp"
-#include "emit/text_template.hpp"
+#include "formula/text_template.hpp"
 
 namespace remap {
 namespace {
@@ -12,7 +12,8 @@ namespace {
 std::string float_text(float value) { return literal(static_cast<double>(value)); }
 
 std::string code_of(const Expression& expression) {
-  return text_of(expression, {float_literal, "least", "most", "root"});
+  return text_of(expression,
+                 {float_literal, calls_by({{"min", "least"}, {"max", "most"}, {"sqrt", "root"}})});
 }
 
 bool depends_on_alpha(const FactorTerms& factor) {

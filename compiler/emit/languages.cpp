@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "emit/convention_text.hpp"
-#include "emit/formula.hpp"
+#include "emit/converter_formula.hpp"
 #include "emit/header_data.hpp"
-#include "emit/text_template.hpp"
+#include "formula/graph_writer.hpp"
+#include "formula/text_template.hpp"
 #include "remap/version.hpp"
 
 namespace remap {
@@ -43,14 +43,8 @@ std::string meaning_of(const Fit& fit) {
 Parts parts_of(const Fit& fit) {
   Parts parts{fit.id, meaning_of(fit), {}, {}};
   for (Statement& statement : formula_of(require_converter(fit)))
-    (statement.is_color ? parts.colors : parts.numbers).push_back(std::move(statement));
+    (statement.type == ValueType::kColor ? parts.colors : parts.numbers).push_back(std::move(statement));
   return parts;
-}
-
-std::vector<std::string> color_names(const Parts& parts) {
-  std::vector<std::string> names = {"specular"};
-  for (const Statement& statement : parts.colors) names.push_back(statement.name);
-  return names;
 }
 
 // A line for each statement: `start`, name and value. An output begins with `last` instead.
@@ -65,17 +59,12 @@ std::string lines_of(const std::vector<Statement>& statements, const Notation& n
   return text;
 }
 
-std::string three(const std::string& function, const std::string& color, const char* red, const char* green,
-                  const char* blue) {
-  return function + "(" + function + "(" + color + red + ", " + color + green + "), " + color + blue + ")";
-}
-
 std::string c_function(const Parts& parts) {
   const Notation notation{float_literal,
-                          "fminf",
-                          "fmaxf",
-                          "sqrtf",
-                          [](const std::string& color) { return three("fmaxf", color, "[0]", "[1]", "[2]"); },
+                          calls_by({{"min", "fminf"},
+                                    {"max", "fmaxf"},
+                                    {"sqrt", "sqrtf"},
+                                    {"largest", "fmaxf(fmaxf($1[0], $1[1]), $1[2])"}}),
                           "[c]"};
   return "static inline float remap_" + parts.id + "(float width, float specular[3]) {\n" +
          lines_of(parts.numbers, notation, "  const float ", "  const float width_out = ", ";") +
@@ -85,9 +74,7 @@ std::string c_function(const Parts& parts) {
 }
 
 std::string python_function(const Parts& parts) {
-  const Notation notation{
-      plain_number, "min", "max", "math.sqrt", [](const std::string& color) { return "max(" + color + ")"; },
-      "[c]"};
+  const Notation notation{plain_number, calls_by({{"sqrt", "math.sqrt"}, {"largest", "max($1)"}}), "[c]"};
   return "def " + parts.id + "(width, specular):\n" +
          lines_of(parts.numbers, notation, "    ", "    width_out = ", "") +
          "    specular_out = [0.0] * 3\n    for c in range(3):\n" +
@@ -96,12 +83,11 @@ std::string python_function(const Parts& parts) {
 }
 
 std::string script_function(const Parts& parts) {
-  const Notation notation{plain_number,
-                          "Math.min",
-                          "Math.max",
-                          "Math.sqrt",
-                          [](const std::string& color) { return "Math.max(..." + color + ")"; },
-                          "[c]"};
+  const Notation notation{
+      plain_number,
+      calls_by(
+          {{"min", "Math.min"}, {"max", "Math.max"}, {"sqrt", "Math.sqrt"}, {"largest", "Math.max(...$1)"}}),
+      "[c]"};
   return "export function " + parts.id + "(width, specular) {\n" +
          lines_of(parts.numbers, notation, "  const ", "  const width_out = ", ";") +
          "  const specular_out = [0, 1, 2].map((c) => {\n" +
@@ -110,95 +96,14 @@ std::string script_function(const Parts& parts) {
 }
 
 std::string shader_function(const Parts& parts, const std::string& color_type) {
-  const Notation notation{point_number,
-                          "min",
-                          "max",
-                          "sqrt",
-                          [](const std::string& color) { return three("max", color, ".r", ".g", ".b"); },
-                          ""};
+  const Notation notation{point_number, calls_by({{"largest", "max(max($1.r, $1.g), $1.b)"}}), ""};
   return "void remap_" + parts.id + "(inout float width, inout " + color_type + " specular) {\n" +
          lines_of(parts.numbers, notation, "  float ", "  width = ", ";") +
          lines_of(parts.colors, notation, "  " + color_type + " ", "  specular = ", ";") + "}\n";
 }
 
-// Statements as nodes of a graph.
-class NodeWriter {
- public:
-  NodeWriter(const std::vector<std::string>& colors, std::string& nodes) : colors_(colors), nodes_(nodes) {}
-
-  void write(const Statement& statement) { write(statement.value, node_of(statement.name)); }
-
-  // The node of a statement; an output has the name itself.
-  static std::string node_of(const std::string& name) {
-    return name.ends_with("_out") ? name.substr(0, name.size() - 4) + "_value" : name;
-  }
-
- private:
-  // An input of a node: `nodename="..."`.
-  struct Term {
-    bool is_color;
-    std::string attribute;
-  };
-
-  Term write(const Expression& expression, const std::string& name) {
-    switch (expression.op) {
-      case Op::kNumber:
-        return {false, "value=\"" + plain_number(expression.number) + "\""};
-      case Op::kName: {
-        const bool is_input = expression.name == "width" || expression.name == "specular";
-        return {std::ranges::find(colors_, expression.name) != colors_.end(),
-                (is_input ? "interfacename=\"" : "nodename=\"") + expression.name + "\""};
-      }
-      case Op::kLargest:
-        return largest(expression.name, name);
-      case Op::kRoot:
-        return node("sqrt", {write(expression.terms[0], next())}, name);
-      default:
-        break;
-    }
-    static const std::map<Op, const char*> kNodes = {{Op::kAdd, "add"},           {Op::kSubtract, "subtract"},
-                                                     {Op::kMultiply, "multiply"}, {Op::kDivide, "divide"},
-                                                     {Op::kMin, "min"},           {Op::kMax, "max"}};
-    Term a = write(expression.terms[0], next()), b = write(expression.terms[1], next());
-    // MaterialX allows a color and a float as inputs of a node only if the color is the first input.
-    if (!a.is_color && b.is_color) std::swap(a, b);
-    return node(kNodes.at(expression.op), {a, b}, name);
-  }
-
-  Term largest(const std::string& color, const std::string& name) {
-    std::vector<Term> channels;
-    for (const char* index : {"0", "1", "2"}) {
-      const std::string id = next();
-      nodes_ += "    <extract name=\"" + id +
-                "\" type=\"float\">\n      <input name=\"in\" type=\"color3\" interfacename=\"" + color +
-                "\" />\n      <input name=\"index\" type=\"integer\" value=\"" + index +
-                "\" />\n    </extract>\n";
-      channels.push_back({false, "nodename=\"" + id + "\""});
-    }
-    return node("max", {node("max", {channels[0], channels[1]}, next()), channels[2]}, name);
-  }
-
-  Term node(const std::string& kind, const std::vector<Term>& terms, const std::string& name) {
-    const auto type = [](bool is_color) { return std::string(is_color ? "color3" : "float"); };
-    nodes_ += "    <" + kind + " name=\"" + name + "\" type=\"" + type(terms[0].is_color) + "\">\n";
-    for (std::size_t i = 0; i < terms.size(); ++i)
-      nodes_ += "      <input name=\"in" + (terms.size() == 1 ? "" : std::to_string(i + 1)) + "\" type=\"" +
-                type(terms[i].is_color) + "\" " + terms[i].attribute + " />\n";
-    nodes_ += "    </" + kind + ">\n";
-    return {terms[0].is_color, "nodename=\"" + name + "\""};
-  }
-
-  std::string next() { return "n" + std::to_string(++count_); }
-
-  const std::vector<std::string>& colors_;
-  std::string& nodes_;
-  int count_ = 0;
-};
-
 std::string material_function(const Parts& parts) {
-  std::string nodes;
-  const std::vector<std::string> colors = color_names(parts);
-  NodeWriter writer(colors, nodes);
+  GraphWriter writer({{"width", ValueType::kNumber}, {"specular", ValueType::kColor}});
   for (const std::vector<Statement>* statements : {&parts.numbers, &parts.colors})
     for (const Statement& statement : *statements) writer.write(statement);
   const std::string node = "remap_" + parts.id;
@@ -208,9 +113,7 @@ std::string material_function(const Parts& parts) {
          "    <output name=\"width_out\" type=\"float\" />\n    <output name=\"specular_out\" "
          "type=\"color3\" />\n"
          "  </nodedef>\n  <nodegraph name=\"NG_" +
-         node + "\" nodedef=\"ND_" + node + "\">\n" + nodes +
-         "    <output name=\"width_out\" type=\"float\" nodename=\"width_value\" />\n"
-         "    <output name=\"specular_out\" type=\"color3\" nodename=\"specular_value\" />\n  </nodegraph>\n";
+         node + "\" nodedef=\"ND_" + node + "\">\n" + writer.nodes() + writer.outputs() + "  </nodegraph>\n";
 }
 
 // The text around the functions of a language.

@@ -1,6 +1,6 @@
 // Networks: a loop over the units of each layer, rows of texels innermost.
 #include "emit/mapping_code.hpp"
-#include "emit/text_template.hpp"
+#include "formula/text_template.hpp"
 
 namespace remap {
 namespace {

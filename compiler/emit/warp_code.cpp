@@ -5,7 +5,7 @@
 
 #include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
-#include "emit/text_template.hpp"
+#include "formula/text_template.hpp"
 
 namespace remap {
 namespace {

@@ -1,7 +1,7 @@
 // Conversions between workflows as C++: the text of runtime/stages/code with the conventions of both ends.
 #include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
-#include "emit/text_template.hpp"
+#include "formula/text_template.hpp"
 #include "reference/workflow_conversion.hpp"
 
 namespace remap {

@@ -7,7 +7,7 @@
 
 #include "core/files.hpp"
 #include "emit/header_data.hpp"
-#include "emit/text_template.hpp"
+#include "formula/text_template.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"

@@ -1,4 +1,4 @@
-#include "emit/text_template.hpp"
+#include "formula/text_template.hpp"
 
 #include <cmath>
 #include <set>

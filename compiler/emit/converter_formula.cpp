@@ -1,4 +1,4 @@
-#include "emit/formula.hpp"
+#include "emit/converter_formula.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,9 @@
 namespace remap {
 namespace {
 
-Expression number(float value) { return {Op::kNumber, value, "", {}}; }
-Expression name(const std::string& name) { return {Op::kName, 0.0f, name, {}}; }
 bool is_number(const Expression& expression, float value) {
   return expression.op == Op::kNumber && expression.number == value;
 }
-Expression joined(Op op, Expression a, Expression b) { return {op, 0.0f, "", {std::move(a), std::move(b)}}; }
 
 // The first factor of a product, another expression itself.
 Expression& first_factor(Expression& expression) {
@@ -34,9 +31,9 @@ Expression operator*(Expression a, Expression b) {
   return joined(Op::kMultiply, std::move(a), std::move(b));
 }
 Expression operator/(Expression a, Expression b) { return joined(Op::kDivide, std::move(a), std::move(b)); }
-Expression least(Expression a, Expression b) { return joined(Op::kMin, std::move(a), std::move(b)); }
-Expression most(Expression a, Expression b) { return joined(Op::kMax, std::move(a), std::move(b)); }
-Expression root(Expression a) { return {Op::kRoot, 0.0f, "", {std::move(a)}}; }
+Expression least(Expression a, Expression b) { return call("min", {std::move(a), std::move(b)}); }
+Expression most(Expression a, Expression b) { return call("max", {std::move(a), std::move(b)}); }
+Expression root(Expression a) { return call("sqrt", {std::move(a)}); }
 
 Expression sum_of_powers(const std::vector<float>& terms, const Expression& x) {
   Expression sum = number(terms.back());
@@ -45,7 +42,7 @@ Expression sum_of_powers(const std::vector<float>& terms, const Expression& x) {
 }
 
 bool uses(const Expression& expression, const std::string& wanted) {
-  return expression.name == wanted ||
+  return (expression.op == Op::kName && expression.name == wanted) ||
          std::ranges::any_of(expression.terms, [&](const Expression& term) { return uses(term, wanted); });
 }
 
@@ -61,26 +58,10 @@ std::vector<Statement> used(std::vector<Statement> statements) {
   return statements;
 }
 
-// How strongly an operation binds.
-int rank_of(const Expression& expression) {
-  switch (expression.op) {
-    case Op::kAdd:
-    case Op::kSubtract:
-      return 1;
-    case Op::kMultiply:
-    case Op::kDivide:
-      return 2;
-    case Op::kNumber:
-      return std::signbit(expression.number) ? 2 : 3;
-    default:
-      return 3;
-  }
-}
-
 }  // namespace
 
 Expression alpha_of(RoughnessEncoding convention, const std::string& parameter) {
-  const Expression own = name(parameter);
+  const Expression own = named(parameter);
   switch (convention) {
     case RoughnessEncoding::kAlpha:
       break;
@@ -97,7 +78,7 @@ Expression alpha_of(RoughnessEncoding convention, const std::string& parameter) 
 }
 
 Expression native_of(RoughnessEncoding convention, const std::string& parameter) {
-  const Expression alpha = name(parameter);
+  const Expression alpha = named(parameter);
   switch (convention) {
     case RoughnessEncoding::kAlpha:
       break;
@@ -114,9 +95,9 @@ Expression native_of(RoughnessEncoding convention, const std::string& parameter)
 }
 
 Expression factor_expression(const FactorTerms& factor, const std::string& alpha, const std::string& t) {
-  Expression sum = sum_of_powers(factor.back(), name(alpha));
+  Expression sum = sum_of_powers(factor.back(), named(alpha));
   for (std::size_t j = factor.size() - 1; j-- > 0;)
-    sum = std::move(sum) * name(t) + sum_of_powers(factor[j], name(alpha));
+    sum = std::move(sum) * named(t) + sum_of_powers(factor[j], named(alpha));
   return sum;
 }
 
@@ -124,14 +105,16 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
   const CompactForm& form = converter.form;
   const ConverterInfo& info = converter.info;
   const FormEnds ends = ends_of(info.source.roughness, info.target.roughness, info.roughness);
-  const Expression alpha = name("alpha"), inside = name("inside"), top = name("top"), wanted = name("wanted"),
-                   held = name("held"), s = name("s"), pole = number(form.pole),
+  const Expression alpha = named("alpha"), inside = named("inside"), top = named("top"),
+                   wanted = named("wanted"), held = named("held"), s = named("s"), pole = number(form.pole),
                    specular_min = number(static_cast<float>(info.specular.min)),
                    specular_max = number(static_cast<float>(info.specular.max));
   std::vector<Statement> all;
-  const auto add = [&](const char* id, Expression value) { all.push_back({id, false, std::move(value)}); };
+  const auto add = [&](const char* id, Expression value) {
+    all.push_back({id, ValueType::kNumber, std::move(value)});
+  };
   const auto add_color = [&](const char* id, Expression value) {
-    all.push_back({id, true, std::move(value)});
+    all.push_back({id, ValueType::kColor, std::move(value)});
   };
   // A factor of what is cut off: value / limit - 1, from 0.
   const auto excess = [](const Expression& value, float limit) {
@@ -139,25 +122,26 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
   };
 
   const bool is_alpha = info.source.roughness == RoughnessEncoding::kAlpha;
-  add(is_alpha ? "alpha" : "own", least(most(name("width"), number(ends.width_from)), number(ends.width_to)));
+  add(is_alpha ? "alpha" : "own",
+      least(most(named("width"), number(ends.width_from)), number(ends.width_to)));
   if (!is_alpha) add("alpha", alpha_of(info.source.roughness, "own"));
   add("inside", most(alpha, number(ends.alpha_min)));
-  add("top", least(most({Op::kLargest, 0.0f, "specular", {}}, specular_min), specular_max));
+  add("top", least(most(call("largest", {named("specular")}), specular_min), specular_max));
   add("t", top / (top + pole));
   add("wanted", alpha * factor_expression(form.alpha, "inside", "t"));
   Expression alpha_out = wanted, more = number(1.0f);
   if (form.specular_limit) {
     add("excess", excess(top * factor_expression(form.specular, "inside", "t"), *form.specular_limit));
-    Expression cut = name("excess");
+    Expression cut = named("excess");
     if (form.hinge.bend != 0.0f) {
       add("cut", cut / (number(1.0f) + number(form.hinge.bend) * cut));
-      cut = name("cut");
+      cut = named("cut");
     }
     alpha_out = wanted + alpha * cut * (number(form.hinge.turn) + number(form.hinge.turn_by_alpha) * inside);
   }
   if (form.alpha_limit) {
     add("more", number(1.0f) + number(form.hinge.spread) * excess(wanted, *form.alpha_limit));
-    more = name("more");
+    more = named("more");
   }
   alpha_out = most(std::move(alpha_out), number(ends.least_alpha));
   if (form.alpha_limit) alpha_out = least(std::move(alpha_out), number(*form.alpha_limit));
@@ -166,51 +150,13 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
     alpha_out = native_of(info.target.roughness, "target");
   }
   add("width_out", std::move(alpha_out));
-  add_color("s", most(name("specular"), number(0.0f)));
+  add_color("s", most(named("specular"), number(0.0f)));
   add_color("held", least(info.specular.min > 0.0 ? most(s, specular_min) : s, specular_max));
   add_color("u", held / (held + pole));
   Expression specular_out = s * factor_expression(form.specular, "inside", "u") * more;
   if (form.specular_limit) specular_out = least(std::move(specular_out), number(*form.specular_limit));
   add_color("specular_out", std::move(specular_out));
   return used(std::move(all));
-}
-
-std::string text_of(const Expression& expression, const Notation& notation,
-                    const std::vector<std::string>& colors) {
-  const auto inner = [&](std::size_t term, int rank) {
-    const std::string text = text_of(expression.terms[term], notation, colors);
-    return rank_of(expression.terms[term]) < rank ? "(" + text + ")" : text;
-  };
-  const auto call = [&](const std::string& function) {
-    std::string text;
-    for (const Expression& term : expression.terms)
-      text += (text.empty() ? "" : ", ") + text_of(term, notation, colors);
-    return function + "(" + text + ")";
-  };
-  switch (expression.op) {
-    case Op::kNumber:
-      return notation.number(expression.number);
-    case Op::kName:
-      return expression.name +
-             (std::ranges::find(colors, expression.name) == colors.end() ? "" : notation.channel);
-    case Op::kAdd:
-      return inner(0, 1) + " + " + inner(1, 2);
-    case Op::kSubtract:
-      return inner(0, 1) + " - " + inner(1, 2);
-    case Op::kMultiply:
-      return inner(0, 2) + " * " + inner(1, 3);
-    case Op::kDivide:
-      return inner(0, 2) + " / " + inner(1, 3);
-    case Op::kMin:
-      return call(notation.least);
-    case Op::kMax:
-      return call(notation.most);
-    case Op::kRoot:
-      return call(notation.root);
-    case Op::kLargest:
-      return notation.largest(expression.name);
-  }
-  return "";
 }
 
 }  // namespace remap

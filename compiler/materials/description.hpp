@@ -1,0 +1,72 @@
+// Whole materials of two models, and the statements that translate one into the other.
+//
+// A model is a list of inputs with their defaults (descriptions/models.txt). A translation is a file of
+// statements, descriptions/FROM_to_TO.txt:
+//
+//   # A comment says why, and how large the error is.
+//   w = source.coat_weight
+//   target.coat = w > 0 ? w : 0
+//
+// A value is a number or a color; operations with a color work on each channel. Operators are + - * /, ^ with
+// an exponent of 2 to 4, and `a > b ? x : y` or `a == b ? x : y` of numbers. Functions are min, max, mix(a,
+// b, t), pow, sqrt, exp, largest(color), channel(color, 0), color(number), and those of
+// descriptions/functions.txt: `f0(n) = ...`.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formula/expression.hpp"
+
+namespace remap {
+
+struct MaterialInput {
+  std::string name;
+  ValueType type = ValueType::kNumber;
+  std::vector<float> value;  // the default: one number, or three of a color
+};
+
+struct MaterialModel {
+  std::string id;     // of MaterialX' node definitions where it has one: `open_pbr_surface`
+  std::string title;  // with its version
+  std::vector<MaterialInput> inputs;
+
+  const MaterialInput* find(std::string_view name) const;
+};
+
+// A statement, under the comment of the file. An input of the source is the name `source.x`; the statement of
+// an output is named `target.x`.
+struct TranslationLine {
+  std::string comment;
+  Statement statement;
+};
+
+struct Translation {
+  const MaterialModel* from = nullptr;
+  const MaterialModel* to = nullptr;
+  std::string variant;  // `_specular` for a second one between the same models
+  std::string comment;  // what heads the file
+  std::vector<TranslationLine> lines;
+
+  std::string id() const { return from->id + "_to_" + to->id + variant; }
+  // Inputs of the source that no statement uses.
+  std::vector<std::string> ignored() const;
+};
+
+struct MaterialLibrary {
+  std::vector<MaterialModel> models;
+  std::vector<FormulaFunction> functions;
+  std::vector<Translation> translations;
+};
+
+// Each throws kInput with the line and what is wrong. `name` is that of the file.
+std::vector<MaterialModel> parse_models(std::string_view text, const std::string& name);
+std::vector<FormulaFunction> parse_functions(std::string_view text, const std::string& name);
+Translation parse_translation(std::string_view text, const std::string& name, const MaterialModel& from,
+                              const MaterialModel& to, const std::vector<FormulaFunction>& functions);
+
+// What ships: the descriptions that are compiled in.
+const MaterialLibrary& material_library();
+
+}  // namespace remap
