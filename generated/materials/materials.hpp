@@ -503,7 +503,10 @@ auto edge_lift(T0 r, T1 tint) {
 inline OpenPbrSurface UsdPreviewSurface_to_open_pbr_surface(const UsdPreviewSurface& source) {
   OpenPbrSurface target;
   const float is_specular = (source.useSpecularWorkflow == 1.0f ? 1.0f : 0.0f);
-  const float m = (is_specular == 1.0f ? 0.0f : source.metallic);
+  const float top = largest(source.specularColor);
+  // In the specular workflow a metal is a bright reflectance over a black diffuse colour.
+  const float is_metal = (top > 0.08f ? most(0.0f, 1.0f - 20.0f * largest(source.diffuseColor)) : 0.0f);
+  const float m = (is_specular == 1.0f ? is_metal : source.metallic);
   const float rc = source.clearcoatRoughness;
   const float rough = source.roughness;
   const float w = coat_weight_below(source.clearcoat, rough, rc);
@@ -514,20 +517,18 @@ inline OpenPbrSurface UsdPreviewSurface_to_open_pbr_surface(const UsdPreviewSurf
   target.coat_roughness = rc;
   target.coat_darkening = 0.0f;
   target.specular_roughness = uncoated(rough, rc, w);
-  // The specular workflow gives a reflectance: its largest channel becomes the IOR, its hue the tint.
-  const float top = largest(source.specularColor);
+  // A reflectance of the specular workflow: its largest channel becomes the IOR, its hue the tint.
   const float n = (is_specular == 1.0f ? ior_of(least(0.95f, top)) : most(source.ior, 1.0f / most(0.1f, source.ior)));
   target.specular_ior = n / (w / new_coat_ior + 1.0f - w);
   const Color hue = (top > 0.0f ? source.specularColor / most(top, 1e-04f) : Color(1.0f));
-  target.base_color = source.diffuseColor;
+  target.base_color = (is_specular == 1.0f ? mix(source.diffuseColor, source.specularColor, m) : source.diffuseColor);
   target.base_metalness = m;
-  // The metal of the reference implementation is a conductor whose edge has the colour of its face.
-  const Color r = most(0.02f, least(0.95f, source.diffuseColor));
-  target.specular_color = (is_specular == 1.0f ? hue : mix(1.0f, edge_tint(r, r * edge_bend(r), r), m));
+  target.specular_color = (is_specular == 1.0f ? mix(hue, 1.0f, m) : Color(1.0f));
   // An emission of OpenPBR has a luminance, whose default is 0.
-  const float light = largest(source.emissiveColor);
+  const float glow = largest(source.emissiveColor);
+  const float light = (glow > 0.0f ? most(1.0f, glow) : 0.0f);
   target.emission_luminance = light;
-  target.emission_color = (light > 0.0f ? source.emissiveColor / most(light, 1e-06f) : Color(1.0f));
+  target.emission_color = (glow > 0.0f ? source.emissiveColor / most(1.0f, glow) : Color(1.0f));
   target.geometry_opacity = source.opacity;
   return target;
 }
@@ -550,8 +551,10 @@ inline OpenPbrSurface principled_to_open_pbr_surface(const Principled& source) {
   target.coat_roughness = rc;
   // Blender's coat does not darken. This number alone takes the median error of Blender's own export from .18 to .05.
   target.coat_darkening = 0.0f;
-  const Color tint = mix(1.0f, source.coat_tint, w0);
-  const Color new_coat_color = most(0.0f, 1.0f + share * (source.coat_tint - 1.0f));
+  // Cycles absorbs along the refracted ray: the exponent is that of a sphere's mean direction, whose sine squared is .35.
+  const Color absorbed = power(most(0.0f, source.coat_tint), Color(1.0f / root(1.0f - 0.35f / square(most(1.0f, source.coat_ior)))));
+  const Color tint = mix(1.0f, absorbed, w0);
+  const Color new_coat_color = most(0.0f, 1.0f + share * (absorbed - 1.0f));
   const Color rest = least(1.0f, tint / most(0.02f, mix(1.0f, new_coat_color, w)));
   target.coat_color = new_coat_color;
   target.specular_roughness = uncoated(rough, rc, w);
@@ -567,9 +570,10 @@ inline OpenPbrSurface principled_to_open_pbr_surface(const Principled& source) {
   target.base_color = source.base_color * rest;
   target.base_metalness = m;
   target.base_diffuse_roughness = source.diffuse_roughness;
-  // Blender's sheen is OpenPBR's fuzz: .09 at a roughness of .5.
-  target.fuzz_weight = source.sheen_weight;
-  target.fuzz_color = source.sheen_tint;
+  // Blender's sheen is OpenPBR's fuzz, but a dark tint takes less light from what lies below. Error .09 at a roughness of .5.
+  const float sheen_top = largest(source.sheen_tint);
+  target.fuzz_weight = source.sheen_weight * least(1.0f, sheen_top);
+  target.fuzz_color = (sheen_top > 0.0f ? source.sheen_tint / most(sheen_top, 1e-04f) : Color(1.0f));
   target.fuzz_roughness = source.sheen_roughness;
   target.transmission_weight = source.transmission_weight;
   target.transmission_color = source.base_color;
@@ -886,9 +890,10 @@ inline OpenPbrSurface gltf_pbr_to_open_pbr_surface(const GltfPbr& source) {
   target.thin_film_weight = source.iridescence;
   target.thin_film_thickness = 0.001f * source.iridescence_thickness;
   target.thin_film_ior = source.iridescence_ior;
-  const float light = largest(source.emissive);
+  const float glow = largest(source.emissive);
+  const float light = (glow > 0.0f ? most(1.0f, glow) : 0.0f);
   target.emission_luminance = light * source.emissive_strength;
-  target.emission_color = (light > 0.0f ? source.emissive / most(light, 1e-06f) : Color(1.0f));
+  target.emission_color = (glow > 0.0f ? source.emissive / most(1.0f, glow) : Color(1.0f));
   target.geometry_opacity = (source.alpha_mode == 0.0f ? 1.0f : source.alpha);
   return target;
 }

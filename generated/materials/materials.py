@@ -306,7 +306,10 @@ def UsdPreviewSurface_to_open_pbr_surface(material):
     source, target = _read("UsdPreviewSurface", material), SimpleNamespace()
     with np.errstate(all="ignore"):
         is_specular = np.where(source.useSpecularWorkflow == 1, 1, 0)
-        m = np.where(is_specular == 1, 0, source.metallic)
+        top = _largest(source.specularColor)
+        # In the specular workflow a metal is a bright reflectance over a black diffuse colour.
+        is_metal = np.where(top > 0.08, np.maximum(0, 1 - 20 * _largest(source.diffuseColor)), 0)
+        m = np.where(is_specular == 1, is_metal, source.metallic)
         rc = source.clearcoatRoughness
         rough = source.roughness
         w = coat_weight_below(source.clearcoat, rough, rc)
@@ -317,20 +320,18 @@ def UsdPreviewSurface_to_open_pbr_surface(material):
         target.coat_roughness = rc
         target.coat_darkening = 0
         target.specular_roughness = uncoated(rough, rc, w)
-        # The specular workflow gives a reflectance: its largest channel becomes the IOR, its hue the tint.
-        top = _largest(source.specularColor)
+        # A reflectance of the specular workflow: its largest channel becomes the IOR, its hue the tint.
         n = np.where(is_specular == 1, ior_of(np.minimum(0.95, top)), np.maximum(source.ior, 1 / np.maximum(0.1, source.ior)))
         target.specular_ior = n / (w / new_coat_ior + 1 - w)
         hue = np.where(top > 0, source.specularColor / np.maximum(top, 1e-04), _color(1))
-        target.base_color = _color(source.diffuseColor)
+        target.base_color = _color(np.where(is_specular == 1, _mix(source.diffuseColor, source.specularColor, m), source.diffuseColor))
         target.base_metalness = m
-        # The metal of the reference implementation is a conductor whose edge has the colour of its face.
-        r = np.maximum(0.02, np.minimum(0.95, source.diffuseColor))
-        target.specular_color = _color(np.where(is_specular == 1, hue, _mix(1, edge_tint(r, r * edge_bend(r), r), m)))
+        target.specular_color = _color(np.where(is_specular == 1, _mix(hue, 1, m), _color(1)))
         # An emission of OpenPBR has a luminance, whose default is 0.
-        light = _largest(source.emissiveColor)
+        glow = _largest(source.emissiveColor)
+        light = np.where(glow > 0, np.maximum(1, glow), 0)
         target.emission_luminance = light
-        target.emission_color = _color(np.where(light > 0, source.emissiveColor / np.maximum(light, 1e-06), _color(1)))
+        target.emission_color = _color(np.where(glow > 0, source.emissiveColor / np.maximum(1, glow), _color(1)))
         target.geometry_opacity = source.opacity
     return _result("open_pbr_surface", target)
 
@@ -354,8 +355,10 @@ def principled_to_open_pbr_surface(material):
         target.coat_roughness = rc
         # Blender's coat does not darken. This number alone takes the median error of Blender's own export from .18 to .05.
         target.coat_darkening = 0
-        tint = _mix(1, source.coat_tint, w0)
-        new_coat_color = np.maximum(0, 1 + share * (source.coat_tint - 1))
+        # Cycles absorbs along the refracted ray: the exponent is that of a sphere's mean direction, whose sine squared is .35.
+        absorbed = np.power(np.maximum(0, source.coat_tint), _color(1 / np.sqrt(1 - 0.35 / np.square(np.maximum(1, source.coat_ior)))))
+        tint = _mix(1, absorbed, w0)
+        new_coat_color = np.maximum(0, 1 + share * (absorbed - 1))
         rest = np.minimum(1, tint / np.maximum(0.02, _mix(1, new_coat_color, w)))
         target.coat_color = _color(new_coat_color)
         target.specular_roughness = uncoated(rough, rc, w)
@@ -371,9 +374,10 @@ def principled_to_open_pbr_surface(material):
         target.base_color = _color(source.base_color * rest)
         target.base_metalness = m
         target.base_diffuse_roughness = source.diffuse_roughness
-        # Blender's sheen is OpenPBR's fuzz: .09 at a roughness of .5.
-        target.fuzz_weight = source.sheen_weight
-        target.fuzz_color = _color(source.sheen_tint)
+        # Blender's sheen is OpenPBR's fuzz, but a dark tint takes less light from what lies below. Error .09 at a roughness of .5.
+        sheen_top = _largest(source.sheen_tint)
+        target.fuzz_weight = source.sheen_weight * np.minimum(1, sheen_top)
+        target.fuzz_color = _color(np.where(sheen_top > 0, source.sheen_tint / np.maximum(sheen_top, 1e-04), _color(1)))
         target.fuzz_roughness = source.sheen_roughness
         target.transmission_weight = source.transmission_weight
         target.transmission_color = _color(source.base_color)
@@ -696,9 +700,10 @@ def gltf_pbr_to_open_pbr_surface(material):
         target.thin_film_weight = source.iridescence
         target.thin_film_thickness = 0.001 * source.iridescence_thickness
         target.thin_film_ior = source.iridescence_ior
-        light = _largest(source.emissive)
+        glow = _largest(source.emissive)
+        light = np.where(glow > 0, np.maximum(1, glow), 0)
         target.emission_luminance = light * source.emissive_strength
-        target.emission_color = _color(np.where(light > 0, source.emissive / np.maximum(light, 1e-06), _color(1)))
+        target.emission_color = _color(np.where(glow > 0, source.emissive / np.maximum(1, glow), _color(1)))
         target.geometry_opacity = np.where(source.alpha_mode == 0, 1, source.alpha)
     return _result("open_pbr_surface", target)
 

@@ -13,7 +13,7 @@ oiio = pytest.importorskip("OpenImageIO")
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade  # noqa: E402
 
 import texremap  # noqa: E402
-from texremap import usd  # noqa: E402
+from texremap import materials, usd  # noqa: E402
 
 
 def add_material(stage, name, values, textures=()):
@@ -88,9 +88,9 @@ def test_to_metallic(scene):
     reports = {report.path.rsplit("/", 1)[1]: report for report in usd.convert(scene, output, to="metallic")}
     assert hashlib.sha256(scene.read_bytes()).hexdigest() == before
     assert {name: report.state for name, report in reports.items()} == {
-        "gold": "converted", "plastic": "converted", "maps": "converted", "sizes": "failed", "missing": "failed",
+        "gold": "converted", "plastic": "converted", "maps": "converted", "sizes": "converted", "missing": "failed",
         "metal": "left", "glassy": "left"}
-    assert "differ in size" in reports["sizes"].reason and "nowhere.png: file not found" in reports["missing"].reason
+    assert "nowhere.png: file not found" in reports["missing"].reason
 
     layer = Sdf.Layer.FindOrOpen(str(output))
     assert list(layer.subLayerPaths) == ["./scene.usda"] and layer.defaultPrim == "World"
@@ -100,13 +100,14 @@ def test_to_metallic(scene):
     assert np.abs(value(stage, "gold", "diffuseColor") - (1.0, 0.77, 0.34)).max() < 1e-3
     assert value(stage, "plastic", "metallic") < 1e-3
     assert np.abs(value(stage, "plastic", "diffuseColor") - (0.2, 0.3, 0.4)).max() < 1e-3
-    assert value(stage, "sizes", "useSpecularWorkflow") == 1
+    assert value(stage, "missing", "useSpecularWorkflow") == 1
     assert abs(value(stage, "gold", "roughness") - 0.3) < 1e-6
     # Nothing but these inputs has an opinion in the new layer.
     touched = set()
     layer.Traverse("/", lambda path: touched.add(path.name) if path.IsPropertyPath() else None)
     assert touched == {"inputs:useSpecularWorkflow", "inputs:diffuseColor", "inputs:metallic", "info:id", "inputs:file",
-                       "inputs:sourceColorSpace", "inputs:wrapS", "inputs:st", "outputs:rgb", "outputs:r"}
+                       "inputs:sourceColorSpace", "inputs:wrapS", "inputs:st", "inputs:varname", "outputs:rgb", "outputs:r",
+                       "outputs:result"}
 
 
 def test_maps_hold_what_arrays_give(scene):
@@ -136,7 +137,8 @@ def test_to_specular_is_exact_and_takes_the_index(scene):
     assert np.abs(value(stage, "glassy", "diffuseColor") - 0.75 * 0.6).max() < 1e-6
 
 
-def test_validators_have_no_new_complaint(scene):
+@pytest.mark.parametrize("to", ["metallic", "openpbr"])
+def test_validators_have_no_new_complaint(scene, to):
     from pxr import UsdValidation
 
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
@@ -148,9 +150,124 @@ def test_validators_have_no_new_complaint(scene):
                       for error in context.Validate(Usd.Stage.Open(str(file))))
 
     output = scene.with_name("metallic.usda")
-    usd.convert(scene, output)
+    usd.convert(scene, output, to=to)
     new = [complaint for complaint in complaints(output) if complaint not in complaints(scene)]
     assert not new, new
+
+
+def paint_of(stage, name):
+    material = UsdShade.Material(stage.GetPrimAtPath(f"/World/Looks/{name}"))
+    return UsdShade.Shader(material.GetSurfaceOutput("mtlx").GetConnectedSources()[0][0].source.GetPrim())
+
+
+def producer(shader, word):
+    return UsdShade.Shader(shader.GetInput(word).GetConnectedSources()[0][0].source.GetPrim())
+
+
+def test_to_openpbr_adds_a_surface_beside_the_other(scene):
+    stage = Usd.Stage.Open(str(scene))
+    add_material(stage, "wood", {}, [("diffuseColor", "diffuse.png", "rgb", "sRGB"), ("roughness", "specular.png", "g", "raw"),
+                                     ("occlusion", "specular.png", "r", "raw")])
+    stage.GetRootLayer().Save()
+    output = scene.with_name("openpbr.usda")
+    reports = {report.path.rsplit("/", 1)[1]: report for report in usd.convert(scene, output, to="openpbr")}
+    assert [name for name, report in reports.items() if report.state != "converted"] == ["missing"]
+    assert reports["wood"].lost == ("occlusion",) and reports["wood"].textures == ()
+    stage = Usd.Stage.Open(str(output))
+    for name, given in (("metal", {"metallic": 1.0, "diffuseColor": (0.9, 0.5, 0.2), "roughness": 0.2}),
+                        ("glassy", {"metallic": 0.25, "diffuseColor": (0.6, 0.6, 0.6), "ior": 1.8})):
+        expected = materials.TRANSLATIONS["UsdPreviewSurface", "open_pbr_surface"](given)
+        paint = paint_of(stage, name)
+        assert paint.GetIdAttr().Get() == "ND_open_pbr_surface_surfaceshader"
+        for word, default in materials.MODELS["open_pbr_surface"].items():
+            authored = paint.GetInput(word)
+            found = np.ravel(authored.Get()) if authored else np.ravel(default)
+            assert np.abs(found - np.ravel(expected[word])).max() < 1e-5, (name, word)
+    assert surface(stage, "metal").GetIdAttr().Get() == "UsdPreviewSurface"
+    # Textures are connected as they are, where the result is the texture.
+    image = producer(paint_of(stage, "wood"), "base_color")
+    assert image.GetIdAttr().Get() == "ND_image_color3" and image.GetInput("file").Get().path == "./diffuse.png"
+    assert image.GetInput("file").GetAttr().GetColorSpace() == "srgb_texture"
+    channel = producer(paint_of(stage, "wood"), "specular_roughness")
+    assert channel.GetIdAttr().Get() == "ND_extract_vector3" and channel.GetInput("index").Get() == 1
+    assert not scene.with_name("openpbr_textures").exists() or reports["maps"].textures
+
+
+def test_textures_are_converted_where_a_scale_does_not_do(scene):
+    stage = Usd.Stage.Open(str(scene))
+    add_material(stage, "coated", {"clearcoat": 1.0, "clearcoatRoughness": 0.2}, [("roughness", "specular.png", "g", "raw")])
+    stage.GetRootLayer().Save()
+    output = scene.with_name("openpbr.usda")
+    reports = {report.path.rsplit("/", 1)[1]: report for report in usd.convert(scene, output, to="openpbr")}
+    roughness = np.asarray(oiio.ImageInput.open(str(scene.with_name("specular.png"))).read_image("uint8"))[..., 1:2] / 255.0
+    expected = materials.TRANSLATIONS["UsdPreviewSurface", "open_pbr_surface"](
+        {"clearcoat": 1.0, "clearcoatRoughness": 0.2, "roughness": roughness})
+    written = {file.split("coated_")[1][:-4]: file for file in reports["coated"].textures}
+    assert "specular_roughness" in written
+    stored = np.asarray(oiio.ImageInput.open(str(scene.parent / written["specular_roughness"])).read_image("uint8"))
+    assert np.abs(stored[..., :1] / 255.0 - expected["specular_roughness"]).max() <= 0.5 / 255 + 1e-6
+    # An IOR above 1 is stored as a share of its range, which nodes bring back.
+    stage = Usd.Stage.Open(str(output))
+    add = producer(paint_of(stage, "coated"), "specular_ior")
+    multiply = producer(add, "in1")
+    stored = np.asarray(oiio.ImageInput.open(str(scene.parent / written["specular_ior"])).read_image("uint8"))[..., :1] / 255.0
+    read = stored * multiply.GetInput("in2").Get() + add.GetInput("in2").Get()
+    assert np.abs(read - expected["specular_ior"]).max() <= multiply.GetInput("in2").Get() * 0.5 / 255 + 1e-5
+
+
+def test_to_preview_names_what_it_cannot_show(tmp_path):
+    png(tmp_path / "color.png", np.random.default_rng(3).integers(0, 256, (4, 4, 3)))
+    stage = Usd.Stage.CreateNew(str(tmp_path / "paint.usda"))
+    material = UsdShade.Material.Define(stage, "/World/Looks/paint")
+    paint = UsdShade.Shader.Define(stage, "/World/Looks/paint/S")
+    paint.CreateIdAttr("ND_open_pbr_surface_surfaceshader")
+    paint.CreateInput("fuzz_weight", Sdf.ValueTypeNames.Float).Set(0.5)
+    image = UsdShade.Shader.Define(stage, "/World/Looks/paint/image")
+    image.CreateIdAttr("ND_image_color3")
+    file = image.CreateInput("file", Sdf.ValueTypeNames.Asset)
+    file.Set("color.png")
+    file.GetAttr().SetColorSpace("srgb_texture")
+    half = UsdShade.Shader.Define(stage, "/World/Looks/paint/half")
+    half.CreateIdAttr("ND_multiply_color3FA")
+    half.CreateInput("in1", Sdf.ValueTypeNames.Color3f).ConnectToSource(image.CreateOutput("out", Sdf.ValueTypeNames.Color3f))
+    half.CreateInput("in2", Sdf.ValueTypeNames.Float).Set(0.5)
+    paint.CreateInput("base_color", Sdf.ValueTypeNames.Color3f).ConnectToSource(half.CreateOutput("out", Sdf.ValueTypeNames.Color3f))
+    noise = UsdShade.Shader.Define(stage, "/World/Looks/paint/noise")
+    noise.CreateIdAttr("ND_fractal3d_float")
+    paint.CreateInput("specular_roughness", Sdf.ValueTypeNames.Float).ConnectToSource(
+        noise.CreateOutput("out", Sdf.ValueTypeNames.Float))
+    material.CreateSurfaceOutput("mtlx").ConnectToSource(paint.CreateOutput("out", Sdf.ValueTypeNames.Token))
+    stage.GetRootLayer().Save()
+    [report] = usd.convert(tmp_path / "paint.usda", tmp_path / "preview.usda", to="preview")
+    assert report.state == "converted" and report.lost[1] == "fuzz_weight"
+    assert report.lost[0].startswith("specular_roughness: comes from /World/Looks/paint/noise")
+    texture = producer(surface(Usd.Stage.Open(str(tmp_path / "preview.usda")), "paint"), "diffuseColor")
+    assert texture.GetIdAttr().Get() == "UsdUVTexture" and texture.GetInput("file").Get().path == "./color.png"
+    assert np.allclose(texture.GetInput("scale").Get(), (0.5, 0.5, 0.5, 1)) and texture.GetInput("sourceColorSpace").Get() == "sRGB"
+    again = usd.convert(tmp_path / "preview.usda", tmp_path / "again.usda", to="preview")
+    assert again[0].reason == "it has a UsdPreviewSurface already"
+
+
+def test_tiles_are_converted_one_by_one(scene, tmp_path):
+    random = np.random.default_rng(4)
+    for tile in (1001, 1002):
+        png(tmp_path / f"rough.{tile}.png", random.integers(0, 256, (4, 4, 1)))
+    stage = Usd.Stage.Open(str(scene))
+    add_material(stage, "coated", {"clearcoat": 1.0, "clearcoatRoughness": 0.2}, [("roughness", "rough.<UDIM>.png", "r", "raw")])
+    stage.GetRootLayer().Save()
+    reports = {report.path.rsplit("/", 1)[1]: report for report in usd.convert(scene, tmp_path / "out.usda", to="openpbr")}
+    names = {file.rsplit("/", 1)[1] for file in reports["coated"].textures}
+    assert {"World_Looks_coated_specular_roughness.1001.png", "World_Looks_coated_specular_roughness.1002.png"} <= names
+    image = producer(paint_of(Usd.Stage.Open(str(tmp_path / "out.usda")), "coated"), "specular_roughness")
+    assert image.GetInput("file").Get().path.endswith("World_Looks_coated_specular_roughness.<UDIM>.png")
+
+
+def test_numbers_that_are_not_finite_fail_their_material(scene, tmp_path):
+    stage = Usd.Stage.Open(str(scene))
+    add_material(stage, "odd", {"roughness": float("nan")})
+    stage.GetRootLayer().Save()
+    reports = {report.path.rsplit("/", 1)[1]: report for report in usd.convert(scene, tmp_path / "out.usda", to="openpbr")}
+    assert reports["odd"].state == "failed" and reports["odd"].reason == "roughness is not a finite number"
 
 
 def test_links_that_others_planted_are_not_followed(scene, tmp_path):
@@ -160,14 +277,15 @@ def test_links_that_others_planted_are_not_followed(scene, tmp_path):
     texture = folder / "World_Looks_maps_metallic.png"
     for link in (texture, folder / f".{texture.name}.unfinished.png", tmp_path / ".metallic.unfinished.usda"):
         link.symlink_to(other)
-    usd.convert(scene, tmp_path / "metallic.usda")
+    usd.convert(scene, tmp_path / "metallic.usda", to="metallic")
     assert other.read_text() == "mine" and not texture.is_symlink()
     assert len(list(tmp_path.rglob(".*unfinished*"))) == 2
 
 
 def test_command_and_bad_input(scene, tmp_path):
     def run(*words):
-        return subprocess.run([sys.executable, "-m", "texremap", "usd", *map(str, words)], capture_output=True, text=True)
+        command = [sys.executable, "-m", "texremap", "usd", "--to", "metallic", *map(str, words)]
+        return subprocess.run(command, capture_output=True, text=True)
 
     dry = run(scene, "-o", tmp_path / "out.usda", "--dry-run", "--json")
     assert dry.returncode == 1 and len([json.loads(line) for line in dry.stdout.splitlines()]) == 7
@@ -184,6 +302,6 @@ def test_command_and_bad_input(scene, tmp_path):
     (tmp_path / "text.usda").write_text("hello")
     refused = run(tmp_path / "text.usda", "-o", tmp_path / "out.usda").stderr
     assert "text.usda: cannot be read: <" in refused and "not a valid usda layer" in refused and "pxr" not in refused
-    assert run(scene, "-o", tmp_path / "out.usda").returncode == 1  # two materials failed
+    assert run(scene, "-o", tmp_path / "out.usda").returncode == 1  # a material failed
     assert "exists" in run(scene, "-o", tmp_path / "out.usda").stderr
     assert not list(tmp_path.glob(".*unfinished*"))

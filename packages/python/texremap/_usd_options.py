@@ -2,9 +2,10 @@
 
 import argparse
 
-SUMMARY = "Convert the UsdPreviewSurface materials of a USD file between the specular and the metallic workflow"
+SUMMARY = "Convert the materials of a USD file between UsdPreviewSurface and OpenPBR, or between workflows"
+TARGETS = ("openpbr", "preview", "metallic", "specular")
 USAGE = "texremap usd IN -o OUT [options]"
-EXAMPLE = "  texremap usd scene.usda --to metallic -o scene_metallic.usda"
+EXAMPLE = "  texremap usd scene.usda --to openpbr -o scene_openpbr.usda"
 
 
 def usd_parser():
@@ -12,7 +13,9 @@ def usd_parser():
         prog="texremap usd", usage=USAGE, description=f"{SUMMARY},\ninto a new layer over it.",
         epilog="Example:\n" + EXAMPLE, formatter_class=argparse.RawDescriptionHelpFormatter, add_help=False)
     parser.add_argument("source", metavar="IN", help="A .usda, .usdc, .usd or .usdz file")
-    parser.add_argument("--to", choices=("metallic", "specular"), default="metallic", help="The workflow of the result")
+    parser.add_argument("--to", choices=TARGETS, required=True,
+                        help="openpbr adds an OpenPBR surface to each UsdPreviewSurface, preview the other way round; metallic "
+                             "and specular change the workflow of each UsdPreviewSurface")
     parser.add_argument("-o", "--output", required=True, metavar="OUT", help="The new layer: .usda, .usdc or .usd")
     parser.add_argument("--force", action="store_true", help="Replace an existing layer")
     parser.add_argument("--dry-run", action="store_true", help="Print what would be done, and write nothing")

@@ -1,7 +1,7 @@
-"""UsdPreviewSurface materials from the specular workflow to the metallic one, and back.
+"""Materials of USD files: UsdPreviewSurface to OpenPBR and back, and between the metallic and the specular workflow.
 
 Needs usd-core (the extra ``usd``); materials with textures also need OpenImageIO (the extra ``images``). The result is a new layer that
-sublayers the old one, which stays as it is: ``texremap usd scene.usda --to metallic -o scene_metallic.usda``.
+sublayers the old one, which stays as it is: ``texremap usd scene.usda --to openpbr -o scene_openpbr.usda``.
 """
 
 import json
@@ -12,25 +12,30 @@ from typing import List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
+from . import materials
 from ._error import Error
 from ._files import replacing
-from ._usd_options import usd_parser
-from .arrays import Converter
+from ._usd_options import TARGETS, usd_parser
 
 try:
     from pxr import Gf, Sdf, Usd, UsdShade
 except ImportError as failure:
     raise ImportError(f"USD files cannot be read: {failure} (pip install usd-core)") from failure
 
+from ._usd_networks import OPEN_PBR_ID, MaterialXNodes, PreviewNodes, Procedural, source_of, value_of
+from ._usd_textures import Texture, baked, tiles_of, write
+
 # Of the stage, which a layer does not take from its sublayers.
 _STAGE_METADATA = ("defaultPrim", "upAxis", "metersPerUnit", "kilogramsPerUnit", "timeCodesPerSecond", "framesPerSecond",
                    "startTimeCode", "endTimeCode", "autoPlay", "colorConfiguration", "colorManagementSystem")
-_DEFAULTS = {"diffuseColor": (0.18, 0.18, 0.18), "specularColor": (0.0, 0.0, 0.0), "metallic": (0.0,), "ior": (1.5,)}
-# Inputs of the shader, and what the converter calls them.
-_SPECULAR = {"diffuseColor": "diffuse", "specularColor": "specular"}
-_METALLIC = {"diffuseColor": "base_color", "metallic": "metallic"}
-_PNG_LEVEL = 6
-_ROUGHNESS = 0.5  # any: both ends share a BRDF, so that roughness stays
+_PREVIEW, _OPEN_PBR = "UsdPreviewSurface", "open_pbr_surface"
+_INTEGERS = {"useSpecularWorkflow", "opacityMode"}
+_ROUGHNESS = 0.5  # any: both ends of a workflow share a BRDF, so that roughness stays
+_PROBES = 16
+_SAME = 1e-5  # values that no picture tells apart
+# A lobe whose weight is 0 shows nothing of its other inputs.
+_WEIGHTS = {"fuzz_": "fuzz_weight", "transmission_": "transmission_weight", "subsurface_": "subsurface_weight",
+            "thin_film_": "thin_film_weight", "coat_": "coat_weight"}
 
 
 class MaterialReport(NamedTuple):
@@ -38,251 +43,358 @@ class MaterialReport(NamedTuple):
 
     path: str
     state: str
-    """``"converted"``, ``"left"`` (it has the workflow already, or is no UsdPreviewSurface) or ``"failed"``."""
+    """``"converted"``, ``"left"`` (there is nothing to convert) or ``"failed"``."""
     reason: str = ""
     textures: Tuple[str, ...] = ()
     """The files that were written for it."""
+    lost: Tuple[str, ...] = ()
+    """Inputs that the result does not show, each with a reason behind a colon, or without one where the target lacks the input."""
 
 
-class _Texture(NamedTuple):
-    shader: object
-    path: str
-    channels: str
-    """``"rgb"``, ``"r"``, ``"g"``, ``"b"`` or ``"a"``."""
+class _Direction(NamedTuple):
+    """What is read, how it is converted, and what is written."""
+
+    reads: str  # the model
+    writes: str
+    takes: Tuple[str, ...]  # inputs that are read
+    makes: Tuple[str, ...]  # inputs that are written
+    lost: Tuple[str, ...]  # inputs that are not converted
 
 
-def _f0(ior):
-    return ((1 - ior) / (1 + ior)) ** 2
+def _workflow(takes, makes):
+    return _Direction(_PREVIEW, _PREVIEW, takes, makes, ())
 
 
-def _source_of(shader, name):
-    """The value of an input as a tuple, or its :class:`_Texture`."""
-    given = shader.GetInput(name)
-    if not given:
-        return _DEFAULTS[name]
-    attributes = UsdShade.Utils.GetValueProducingAttributes(given)
-    attribute = attributes[0] if attributes else given.GetAttr()
-    if attribute.GetNumTimeSamples() > 1:
-        raise Error(f"{name} changes over time", "input")
-    node = UsdShade.Shader(attribute.GetPrim())
-    if UsdShade.Output.IsOutput(attribute):
-        if not node or node.GetIdAttr().Get() != "UsdUVTexture":
-            raise Error(f"{name} comes from {attribute.GetPath()}, which is no UsdUVTexture", "input")
-        return _texture(node, attribute.GetBaseName(), name)
-    value = attribute.Get()
-    if value is None:
-        return _DEFAULTS[name]
-    return tuple(float(number) for number in np.ravel(value))
+_SPECULAR = ("diffuseColor", "specularColor")
+_METALLIC = ("diffuseColor", "metallic")
+_DIRECTIONS = {
+    "openpbr": _Direction(_PREVIEW, _OPEN_PBR, tuple(materials.MODELS[_PREVIEW]), tuple(materials.MODELS[_OPEN_PBR]),
+                          materials.IGNORED[_PREVIEW, _OPEN_PBR]),
+    "preview": _Direction(_OPEN_PBR, _PREVIEW, tuple(materials.MODELS[_OPEN_PBR]), tuple(materials.MODELS[_PREVIEW]),
+                          materials.IGNORED[_OPEN_PBR, _PREVIEW]),
+    "metallic": _workflow(_SPECULAR + ("ior",), _METALLIC),
+    "specular": _workflow(_METALLIC + ("ior",), _SPECULAR),
+}
 
 
-def _texture(node, channels, name):
-    file = node.GetInput("file")
-    asset = file.Get() if file else None
-    if asset is None or not asset.path:
-        raise Error(f"{name}: its texture {node.GetPath()} names no file", "input")
-    if "<UDIM>" in asset.path:
-        raise Error(f"{name}: its texture {node.GetPath()} has tiles (<UDIM>), which are not read", "input")
-    path = asset.resolvedPath or asset.path
-    if not os.path.isfile(path):
-        raise Error(f"{name}: {asset.path}: file not found", "input")
-    return _Texture(node, path, channels)
+def _workflow_translation(to):
+    """Returns the conversion between workflows as a translation: a function of a dict of arrays."""
+    from .arrays import Converter
 
+    names = {"specular": {"diffuseColor": "diffuse", "specularColor": "specular"},
+             "metallic": {"diffuseColor": "base_color", "metallic": "metallic"}}
+    start = "specular" if to == "metallic" else "metallic"
+    ends = ("specular", "usd-preview-surface") if to == "metallic" else ("usd-preview-surface", "specular")
 
-def _shader_value(node, name, otherwise):
-    given = node.GetInput(name)
-    value = given.Get() if given else None
-    return otherwise if value is None else value
+    def translate(given):
+        f0 = ((1 - float(np.ravel(given["ior"])[0])) / (1 + float(np.ravel(given["ior"])[0]))) ** 2
+        converter = Converter(*ends, diffuse_convention="plain", dielectric_f0=min(f0, 0.9))
+        count = max(np.size(given[name]) // (1 if name == "metallic" else 3) for name in names[start])
+        arrays = {}
+        for name, word in names[start].items():
+            channels = 1 if name == "metallic" else 3
+            values = np.broadcast_to(np.asarray(given[name], np.float32), (count, channels))
+            arrays[word] = np.ascontiguousarray(values[:, 0] if channels == 1 else values)
+        result = converter.convert(roughness=_ROUGHNESS, **arrays)
+        return {name: np.asarray(result[word]).reshape(count, -1) for name, word in names[to].items()}
 
-
-def _read(texture):
-    """Linear floats of shape (height, width, channels)."""
-    from .images import MOST_TEXELS, Images
-
-    image = Images().open(texture.path, 0)
-    layout = image.layout()
-    if layout["width"] * layout["height"] > MOST_TEXELS:
-        raise Error(f"{texture.path}: {layout['width']}x{layout['height']} texels are more than {MOST_TEXELS}", "input")
-    names = [name for name, _ in layout["channels"]]
-    kinds = {kind for _, kind in layout["channels"]}
-    if len(kinds) > 1:
-        raise Error(f"{texture.path}: has channels of several types", "input")
-    dtype = np.dtype({"uint8": "u1", "uint16": "u2", "uint": "u4", "half": "f2", "float": "f4"}.get(kinds.pop(), "f4"))
-    stored = np.empty((layout["height"], layout["width"], len(names)), dtype)
-    image.read_rows(0, layout["height"], memoryview(stored.view(np.uint8)).cast("B"))
-    largest = 1 if dtype.kind == "f" else np.iinfo(dtype).max
-    values = stored.astype(np.float32) / np.float32(largest)
-    is_grey = len(names) < 3
-    space = _shader_value(texture.shader, "sourceColorSpace", "auto")
-    # `auto`: 8-bit images of colors are sRGB unless the file says otherwise (UsdPreviewSurface, Texture Reader).
-    is_srgb = space == "sRGB" or (space == "auto" and dtype == np.uint8 and not is_grey)
-    colors = values[..., :1].repeat(3, axis=-1) if is_grey else values[..., :3]
-    alpha = values[..., 3:4] if len(names) > 3 else np.ones_like(values[..., :1])
-    if is_srgb:
-        low = colors <= 0.04045
-        colors = np.where(low, colors / 12.92, ((np.maximum(colors, 0.04045) + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
-    four = np.concatenate([colors, alpha], axis=-1)
-    four = four * np.array(_shader_value(texture.shader, "scale", (1, 1, 1, 1)), np.float32)
-    four = four + np.array(_shader_value(texture.shader, "bias", (0, 0, 0, 0)), np.float32)
-    places = {"rgb": slice(0, 3), "r": slice(0, 1), "g": slice(1, 2), "b": slice(2, 3), "a": slice(3, 4)}
-    return np.ascontiguousarray(four[..., places[texture.channels]], np.float32)
-
-
-def _write(path, values, is_color):
-    """A PNG of 8 bits: colors in sRGB."""
-    from .images import Images
-
-    if is_color:
-        values = np.where(values <= 0.0031308, values * 12.92,
-                          1.055 * np.maximum(values, 0.0031308) ** (1 / 2.4) - 0.055)
-    stored = np.round(np.clip(values, 0, 1) * 255).astype(np.uint8)
-    height, width, channels = stored.shape
-    image = Images().encode_png(width, height, channels, "uint8", stored.tobytes(), _PNG_LEVEL)
-    with replacing(path) as unfinished, open(unfinished, "wb") as file:
-        file.write(image)
+    return translate
 
 
 class _MaterialEdit:
     """What one material of the source becomes."""
 
-    def __init__(self, material, shader, is_to_metallic, folder):
-        self._shader, self._folder = shader, folder
-        self._material = material
-        self._takes, self._makes = (_SPECULAR, _METALLIC) if is_to_metallic else (_METALLIC, _SPECULAR)
-        self._is_to_metallic = is_to_metallic
-        self._converted = None
+    def __init__(self, material, shader, to, translate, folder):
+        self._material, self._shader, self._to, self._folder = material, shader, to, folder
+        self._direction, self._translate = _DIRECTIONS[to], translate
+        self._values, self._textures, self._bakes, self._normals = {}, {}, {}, {}
+        self.lost = []
 
     def convert(self):
         """Computes everything, before anything is written."""
-        sources = {name: _source_of(self._shader, name) for name in self._takes}
-        ior = _source_of(self._shader, "ior")
-        if isinstance(ior, _Texture):
-            raise Error("ior has a texture", "input")
-        given, self._model_texture = {}, None
-        sizes = {}
-        for name, source in sources.items():
-            if isinstance(source, _Texture):
-                values = _read(source)
-                sizes[name] = values.shape[:2]
-                self._model_texture = self._model_texture or source
-                given[self._takes[name]] = values if name != "metallic" else values[..., 0]
+        constants, textures = self._sources()
+        if self._direction.writes != self._direction.reads:
+            self._find_normals()
+            self._find_losses(constants, textures)
+        results, moves = self._probe(constants, textures)
+        for name in self._direction.makes:
+            found = moves[name]
+            if not found:
+                self._values[name] = results[name][0]
+            elif len(found) == 1 and self._connect(name, found[0], textures, results):
+                tiles_of(textures[found[0]].path, found[0])
             else:
-                given[self._takes[name]] = source if len(source) > 1 else source[0]
-        if len(set(sizes.values())) > 1:
-            shown = ", ".join(f"{name} {width}x{height}" for name, (height, width) in sizes.items())
-            raise Error(f"its textures differ in size: {shown}", "input")
-        for name, values in list(given.items()):  # a map of colors beside a grey one
-            if isinstance(values, np.ndarray) and name != "metallic" and values.shape[-1] == 1:
-                given[name] = np.ascontiguousarray(values.repeat(3, axis=-1))
-        ends = ("specular", "usd-preview-surface") if self._is_to_metallic else ("usd-preview-surface", "specular")
-        converter = Converter(*ends, diffuse_convention="plain", dielectric_f0=min(_f0(ior[0]), 0.9))
-        result = converter.convert(roughness=_ROUGHNESS, **given)
-        self._converted = {name: np.atleast_3d(result[parameter]) if sizes else np.ravel(result[parameter])
-                           for name, parameter in self._makes.items()}
+                self._bakes[name] = found
+        self._bake(constants, textures)
         return self
+
+    def _sources(self):
+        constants, textures = {}, {}
+        defaults = materials.MODELS[self._direction.reads]
+        for name in self._direction.takes:
+            default = defaults[name] if isinstance(defaults[name], tuple) else (defaults[name],)
+            try:
+                source = source_of(self._shader, name, default)
+            except Procedural as failure:
+                if self._direction.reads == self._direction.writes:
+                    raise
+                self.lost.append(f"{name}: {str(failure).removeprefix(name + ' ')}")
+                source = default
+            if isinstance(source, Texture) and name == "ior":
+                raise Error("ior has a texture", "input")
+            if isinstance(source, Texture):
+                textures[name] = self._fitted(source, len(default))
+            else:
+                constants[name] = np.array((source * len(default))[:len(default)], float)
+            if not isinstance(source, Texture) and not np.isfinite(constants[name]).all():
+                raise Error(f"{name} is not a finite number", "input")
+        return constants, textures
+
+    @staticmethod
+    def _fitted(texture, channels):
+        """A number of a texture of colors is its red; a color of a channel is grey."""
+        if channels == 1 and texture.is_color():
+            return texture._replace(channels="r", scale=texture.scale[:1], bias=texture.bias[:1])
+        return texture
+
+    def _find_normals(self):
+        names = {"openpbr": {"normal": ("geometry_normal", "geometry_coat_normal")},
+                 "preview": {"geometry_normal": ("normal",)}}[self._to]
+        for name, targets in names.items():
+            try:
+                source = source_of(self._shader, name, None)
+            except Procedural as failure:
+                self.lost.append(f"{name}: {str(failure).removeprefix(name + ' ')}")
+                continue
+            if isinstance(source, Texture):
+                tiles_of(source.path, name)
+                for target in targets:
+                    self._normals[target] = source
+
+    def _find_losses(self, constants, textures):
+        defaults = materials.MODELS[self._direction.reads]
+        for name in self._direction.lost:
+            weight = next((word for prefix, word in _WEIGHTS.items() if name.startswith(prefix)), name)
+            is_hidden = weight in constants and not constants[weight].any() and weight in defaults
+            is_plain = name in constants and np.allclose(constants[name], np.ravel(defaults[name]))
+            if name in textures or not (is_plain or (is_hidden and weight != name)):
+                self.lost.append(name)
+        if self._to == "preview" and self._shader.GetInput("geometry_coat_normal"):
+            self.lost.append("geometry_coat_normal")
+
+    def _probe(self, constants, textures):
+        """Returns the outputs for random values of the textures, and which textures move each output."""
+        random = np.random.default_rng(1)
+        defaults = materials.MODELS[self._direction.reads]
+        self._probed = {name: texture.values_of(random.random((_PROBES, 3 if texture.is_color() else 1)))
+                        for name, texture in textures.items()}
+        given = {name: np.broadcast_to(value, (_PROBES, value.size)) for name, value in constants.items()}
+        given.update({name: np.broadcast_to(value, (_PROBES, np.size(defaults[name]))) for name, value in self._probed.items()})
+
+        def translated(values):
+            result = self._translate(values)
+            return {name: np.broadcast_to(np.asarray(result[name], float), (_PROBES, np.size(result[name]) // _PROBES or 1))
+                    if np.ndim(result[name]) > 1 else np.broadcast_to(np.atleast_1d(result[name]), (_PROBES, np.size(result[name])))
+                    for name in self._direction.makes}
+        results = translated(given)
+        moves = {name: [] for name in self._direction.makes}
+        for texture in textures:
+            held = {name: value if name == texture else np.broadcast_to(value[:1], value.shape) for name, value in given.items()}
+            for name, values in translated(held).items():
+                if np.ptp(values, axis=0).max() > _SAME:
+                    moves[name].append(texture)
+        return results, moves
+
+    def _connect(self, name, source, textures, results):
+        """Whether an output is a texture of the source with a scale and a bias, which is then kept."""
+        texture, given, made = textures[source], self._probed[source], results[name]
+        if given.shape[1] != made.shape[1]:
+            return False
+        scales, biases = [], []
+        for channel in range(made.shape[1]):
+            matrix = np.stack([given[:, channel], np.ones(len(given))], axis=1)
+            (scale, bias), *_ = np.linalg.lstsq(matrix, made[:, channel], rcond=None)
+            if np.abs(matrix @ (scale, bias) - made[:, channel]).max() > _SAME:
+                return False
+            scales.append(round(float(scale), 6))
+            biases.append(round(float(bias), 6))
+        self._textures[name] = texture.scaled(scales, biases)
+        return True
+
+    def _bake(self, constants, textures):
+        """Converts the textures of the outputs that depend on more than a scale and a bias."""
+        self._baked = {}
+        needed = sorted({source for sources in self._bakes.values() for source in sources})
+        if not needed:
+            return
+        places = {(textures[name].place, textures[name].wrap) for name in needed}
+        if len({place for place, _ in places}) > 1:
+            raise Error("its textures lie on different coordinates", "input")
+        given = {name: textures[name] for name in needed}
+        rest = {name: np.zeros(1 if np.ndim(materials.MODELS[self._direction.reads][name]) == 0 else 3)
+                for name in textures if name not in needed}
+        for tile, (arrays, deep) in baked(self._translate, {**constants, **rest}, given, self._bakes).items():
+            for name, values in arrays.items():
+                self._baked.setdefault(name, {})[tile] = values, deep
+        model = textures[needed[0]]
+        for name, tiles in self._baked.items():
+            values = [tile_values for tile_values, _ in tiles.values()]
+            first, count = values[0][0, 0], values[0].shape[-1]
+            if all((tile == first).all() for tile in values):
+                self._values[name] = first
+                continue
+            scale, bias = self._fit_into_file(name)
+            file = self._file(name) if "" in tiles else self._file(name).replace(".png", ".<UDIM>.png")
+            self._textures[name] = Texture(file, os.path.abspath(file), "rgb" if count == 3 else "r", "sRGB" if count == 3 else "raw",
+                                           (scale,) * count, (bias,) * count, model.wrap, model.place)
+
+    def _fit_into_file(self, name):
+        """Brings values into the range of a PNG. Returns the scale and the bias that bring them back."""
+        tiles = self._baked[name]
+        low = min(0.0, min(float(values.min()) for values, _ in tiles.values()))
+        high = max(float(values.max()) for values, _ in tiles.values())
+        if low == 0 and high <= 1:
+            return 1.0, 0.0
+        low = min(float(values.min()) for values, _ in tiles.values())
+        self._baked[name] = {tile: ((values - low) / (high - low), deep) for tile, (values, deep) in tiles.items()}
+        return high - low, low
 
     def _file(self, name):
         words = str(self._material.GetPath()).strip("/").replace("/", "_")
         return os.path.join(self._folder, f"{words}_{name}.png")
 
-    def textures(self):
-        return [self._file(name) for name, values in self._converted.items() if self._is_map(values)]
+    def _baked_files(self):
+        for name, tiles in self._baked.items():
+            if name in self._textures:
+                for tile, (values, deep) in tiles.items():
+                    yield self._textures[name].path.replace("<UDIM>", tile), values, deep
 
-    @staticmethod
-    def _is_map(values):
-        return values.ndim == 3 and not (values == values[:1, :1]).all()
+    def textures(self):
+        return [os.path.relpath(path) if not os.path.isabs(self._folder) else path for path, *_ in self._baked_files()]
+
+    def write_textures(self):
+        for path, values, deep in self._baked_files():
+            write(path, values, values.shape[-1] == 3, deep)
 
     def author(self, stage):
-        """Writes it into the edit target of ``stage``."""
-        shader = UsdShade.Shader(stage.GetPrimAtPath(self._shader.GetPath()))
-        for name, values in self._converted.items():
-            is_color = name != "metallic"
-            kind = Sdf.ValueTypeNames.Color3f if is_color else Sdf.ValueTypeNames.Float
-            target = shader.CreateInput(name, kind)
-            if self._is_map(values):
-                target.ConnectToSource(self._texture_output(stage, name, values, is_color))
-                continue
-            constant = values.reshape(-1, values.shape[-1])[0] if values.ndim == 3 else values
-            numbers = [float(number) for number in constant]
-            target.GetAttr().SetConnections([])
-            target.Set(Gf.Vec3f(*(numbers * 3)[:3]) if is_color else numbers[0])
-        workflow = shader.CreateInput("useSpecularWorkflow", Sdf.ValueTypeNames.Int)
-        workflow.GetAttr().SetConnections([])
-        workflow.Set(0 if self._is_to_metallic else 1)
+        """Writes the material into the edit target of ``stage``."""
+        nodes = (MaterialXNodes if self._direction.writes == _OPEN_PBR else PreviewNodes)(stage, self._material)
+        shader = self._target_shader(stage, nodes)
+        for name in self._direction.makes:
+            kind = self._type_of(name)
+            if name in self._textures:
+                shader.CreateInput(name, kind).ConnectToSource(nodes.texture(name, self._textures[name]))
+            elif name in self._values:
+                self._set(shader, name, kind, self._values[name])
+        for name, texture in self._normals.items():
+            kind = Sdf.ValueTypeNames.Normal3f if self._direction.writes == _PREVIEW else Sdf.ValueTypeNames.Float3
+            shader.CreateInput(name, kind).ConnectToSource(nodes.normal(texture))
+        if self._direction.reads == self._direction.writes:
+            self._set(shader, "useSpecularWorkflow", Sdf.ValueTypeNames.Int, [0 if self._to == "metallic" else 1])
 
-    def _texture_output(self, stage, name, values, is_color):
-        file = self._file(name)
-        _write(file, values if is_color else values[..., :1], is_color)
-        path = self._material.GetPath().AppendChild(f"texremap_{name}")
-        node = UsdShade.Shader.Define(stage, path)
-        node.CreateIdAttr("UsdUVTexture")
-        layer = os.path.dirname(stage.GetEditTarget().GetLayer().realPath)
-        relative = os.path.relpath(file, layer).replace(os.sep, "/")
-        node.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath("./" + relative))
-        node.CreateInput("sourceColorSpace", Sdf.ValueTypeNames.Token).Set("sRGB" if is_color else "raw")
-        for word, kind in (("wrapS", Sdf.ValueTypeNames.Token), ("wrapT", Sdf.ValueTypeNames.Token)):
-            value = _shader_value(self._model_texture.shader, word, None)
-            if value is not None:
-                node.CreateInput(word, kind).Set(value)
-        place = self._model_texture.shader.GetInput("st")
-        if place and place.HasConnectedSource():
-            node.CreateInput("st", Sdf.ValueTypeNames.Float2).ConnectToSource(place.GetConnectedSources()[0][0])
-        kind = Sdf.ValueTypeNames.Float3 if is_color else Sdf.ValueTypeNames.Float
-        return node.CreateOutput("rgb" if is_color else "r", kind)
+    def _target_shader(self, stage, nodes):
+        material = UsdShade.Material(stage.OverridePrim(self._material.GetPath()))
+        if self._direction.reads == self._direction.writes:
+            return UsdShade.Shader(stage.GetPrimAtPath(self._shader.GetPath()))
+        if self._direction.writes == _OPEN_PBR:
+            shader, _ = nodes.node("surface", "OpenPBR", OPEN_PBR_ID)
+            # The schema is not in every build of USD.
+            material.GetPrim().AddAppliedSchema("MaterialXConfigAPI")
+            version = material.GetPrim().CreateAttribute("config:mtlx:version", Sdf.ValueTypeNames.String, False)
+            version.Set("1.39")
+            surface = material.CreateSurfaceOutput("mtlx")
+        else:
+            shader, _ = nodes.node("surface", "PreviewSurface", "UsdPreviewSurface")
+            surface = material.CreateSurfaceOutput()
+        word = "out" if self._direction.writes == _OPEN_PBR else "surface"
+        surface.ConnectToSource(shader.CreateOutput(word, Sdf.ValueTypeNames.Token))
+        return shader
+
+    def _type_of(self, name):
+        default = materials.MODELS[self._direction.writes][name]
+        if isinstance(default, tuple):
+            return Sdf.ValueTypeNames.Color3f
+        if name == "geometry_thin_walled":
+            return Sdf.ValueTypeNames.Bool
+        return Sdf.ValueTypeNames.Int if name in _INTEGERS else Sdf.ValueTypeNames.Float
+
+    def _set(self, shader, name, kind, values):
+        numbers = [float(f"{float(number):.7g}") for number in values]
+        default = np.ravel(materials.MODELS[self._direction.writes][name])
+        is_new = self._direction.reads != self._direction.writes
+        if is_new and np.allclose(numbers, default, atol=1e-7):
+            return
+        given = shader.CreateInput(name, kind)
+        if not is_new:
+            given.GetAttr().SetConnections([])
+        if kind == Sdf.ValueTypeNames.Color3f:
+            given.Set(Gf.Vec3f(*(numbers * 3)[:3]))
+        else:
+            given.Set({Sdf.ValueTypeNames.Int: int, Sdf.ValueTypeNames.Bool: bool}.get(kind, float)(numbers[0]))
 
 
-def _surface_of(material):
-    shader, *_ = material.ComputeSurfaceSource()
-    return shader if shader and shader.GetIdAttr().Get() == "UsdPreviewSurface" else None
+def _surface(material, context, identity):
+    """The shader of a render context, if it is the one that is wanted."""
+    output = material.GetSurfaceOutput(context) if context else material.GetSurfaceOutput()
+    if not output:
+        return None
+    attributes = UsdShade.Utils.GetValueProducingAttributes(output)
+    shader = UsdShade.Shader(attributes[0].GetPrim()) if attributes else None
+    return shader if shader and shader.GetIdAttr().Get() == identity else None
 
 
-def _plan(stage, is_to_metallic, folder):
+def _reason_to_leave(prim, to):
+    """The shader that is converted, and why it is not."""
+    material = UsdShade.Material(prim)
+    preview, paint = _surface(material, "", _PREVIEW), _surface(material, "mtlx", OPEN_PBR_ID)
+    if to == "openpbr" and material.GetSurfaceOutput("mtlx"):
+        return None, "it has a surface of MaterialX already"
+    if to == "preview":
+        return paint, "it has a UsdPreviewSurface already" if preview else "" if paint else "its surface is not an OpenPBR of MaterialX"
+    if preview is None:
+        return None, "its surface is not a UsdPreviewSurface"
+    if to == "openpbr":
+        return preview, ""
+    given = preview.GetInput("useSpecularWorkflow")
+    attributes = UsdShade.Utils.GetValueProducingAttributes(given) if given else []
+    is_specular = bool((value_of(attributes[0]) or (0,))[0]) if attributes else False
+    return preview, "" if is_specular == (to == "metallic") else "it has that workflow already"
+
+
+def _plan(stage, to, folder):
     """An edit or a :class:`MaterialReport` for each material."""
+    translate = (materials.TRANSLATIONS[_DIRECTIONS[to].reads, _DIRECTIONS[to].writes] if to in ("openpbr", "preview")
+                 else _workflow_translation(to))
     for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()):
         if not prim.IsA(UsdShade.Material):
             continue
-        path, material = str(prim.GetPath()), UsdShade.Material(prim)
-        shader = _surface_of(material)
-        if shader is None:
-            yield MaterialReport(path, "left", "its surface is no UsdPreviewSurface")
-            continue
+        path = str(prim.GetPath())
         try:
-            given = shader.GetInput("useSpecularWorkflow")
-            attributes = UsdShade.Utils.GetValueProducingAttributes(given) if given else []
-            is_specular = bool(attributes[0].Get()) if attributes else False
-            if is_specular != is_to_metallic:
-                yield MaterialReport(path, "left", "has that workflow already")
+            shader, reason = _reason_to_leave(prim, to)
+            if reason:
+                yield MaterialReport(path, "left", reason)
             elif prim.IsInstanceProxy():
-                yield MaterialReport(path, "failed", "lies in an instance, where a layer has no say")
+                yield MaterialReport(path, "failed", "it lies in an instance, which a layer cannot change")
             else:
-                yield path, _MaterialEdit(material, shader, is_to_metallic, folder).convert()
+                yield path, _MaterialEdit(UsdShade.Material(prim), shader, to, translate, folder).convert()
         except (Error, ValueError, ImportError) as failure:
             yield MaterialReport(path, "failed", str(failure))
 
 
-def _reason_of(source, text):
-    """A message with the place in the file, from USD's errors, each of which is `Error in FUNCTION at LINE in SOURCE : 'WHAT'`."""
-    if not os.path.exists(source):
-        return f"{source}: cannot be read: file not found"
-    first = re.search(r" : '([^\n]*)", text)
-    what = first[1].rstrip("'") if first else text.strip().split("\n")[0] or "unknown reason"
-    what = re.sub(r"\bpxrInternal_\w+::(\w+::)*", "", what)
-    at = re.match(re.escape(os.path.abspath(source)) + r"(:\d+:\d+): (.*)", what)
-    return f"{source}{at[1]}: cannot be read: {at[2]}" if at else f"{source}: cannot be read: {what}"
-
-
-def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathLike[str]"], *, to: str = "metallic",
+def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathLike[str]"], *, to: str,
             force: bool = False, dry_run: bool = False) -> List[MaterialReport]:
-    """Converts every UsdPreviewSurface of ``source`` into a new layer ``output``, which sublayers ``source``.
+    """Converts the materials of ``source`` into a new layer ``output``, which sublayers ``source``.
 
-    to: ``"metallic"`` or ``"specular"``. Textures are written into the folder ``STEM_textures`` beside ``output``; a
-    result that is the same everywhere becomes a value. Roughness, opacity and all else stay. A material that cannot be
-    converted stays as it is and is named; others go on.
+    to: ``"openpbr"`` adds an OpenPBR surface of MaterialX to each UsdPreviewSurface, ``"preview"`` a UsdPreviewSurface to each OpenPBR;
+    ``"metallic"`` and ``"specular"`` change the workflow of each UsdPreviewSurface. A texture is used as it is where the result differs
+    by a scale and a bias. Other textures are written into the folder ``STEM_textures`` beside ``output``; a result that is the same
+    everywhere becomes a value. A material that cannot be converted stays as it is and is named; others go on.
 
     Returns a list of :class:`MaterialReport`. Raises :class:`Error`.
     """
     source, output = os.fspath(source), os.fspath(output)
-    if to not in ("metallic", "specular"):
-        raise Error(f"to: unknown workflow '{to}' (choose metallic or specular)")
+    if to not in TARGETS:
+        raise Error(f"to: unknown target '{to}' (choose {', '.join(TARGETS[:-1])} or {TARGETS[-1]})")
     if os.path.splitext(output)[1] not in (".usda", ".usdc", ".usd"):
         raise Error(f"{output}: a layer is .usda, .usdc or .usd", "output")
     if os.path.exists(output) and os.path.exists(source) and os.path.samefile(source, output):
@@ -296,13 +408,13 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
 
     folder = os.path.splitext(output)[0] + "_textures"
     reports, edits = [], []
-    for found in _plan(stage, to == "metallic", folder):
+    for found in _plan(stage, to, folder):
         if isinstance(found, MaterialReport):
             reports.append(found)
         else:
             path, edit = found
             edits.append(edit)
-            reports.append(MaterialReport(path, "converted", "", tuple(edit.textures())))
+            reports.append(MaterialReport(path, "converted", "", tuple(edit.textures()), tuple(edit.lost)))
     if dry_run:
         return reports
     _write_layer(stage.GetRootLayer(), edits, output, folder)
@@ -314,6 +426,8 @@ def _write_layer(root, edits, output, folder):
     parent = os.path.dirname(os.path.abspath(output))
     try:
         os.makedirs(folder if any(edit.textures() for edit in edits) else parent, exist_ok=True)
+        for edit in edits:
+            edit.write_textures()
         with replacing(os.path.abspath(output)) as unfinished:
             saved = Sdf.Layer.CreateNew(unfinished)
             relative = os.path.relpath(root.realPath, parent).replace(os.sep, "/")
@@ -329,6 +443,13 @@ def _write_layer(root, edits, output, folder):
         raise Error(f"{output}: cannot be written: {failure.strerror}", "output") from None
 
 
+def _line_of(report):
+    if report.state != "converted":
+        return f"{report.state}: {report.reason}"
+    lost = f"; not converted: {', '.join(report.lost)}" if report.lost else ""
+    return "converted" + "".join(f", {file}" for file in report.textures) + lost
+
+
 def main(words: Optional[List[str]] = None) -> int:
     options = usd_parser().parse_args(words)
     try:
@@ -340,8 +461,7 @@ def main(words: Optional[List[str]] = None) -> int:
         if options.json:
             print(json.dumps(report._asdict()))
         else:
-            more = f": {report.reason}" if report.reason else "".join(f", {file}" for file in report.textures)
-            print(f"texremap: {report.path}: {report.state}{more}", file=sys.stderr)
+            print(f"texremap: {report.path}: {_line_of(report)}", file=sys.stderr)
     counts = [sum(report.state == state for report in reports) for state in ("converted", "left", "failed")]
     if not options.json:
         print("texremap: {}: {} converted, {} left, {} failed".format(options.output, *counts), file=sys.stderr)
