@@ -14,12 +14,12 @@ bool is_number(const Expression& expression, float value) {
 }
 Expression joined(Op op, Expression a, Expression b) { return {op, 0.0f, "", {std::move(a), std::move(b)}}; }
 
-// The first factor of a product, another expression itself.
+// Returns the first factor of a product, or another expression itself.
 Expression& first_factor(Expression& expression) {
   return expression.op == Op::kMultiply ? first_factor(expression.terms[0]) : expression;
 }
 
-// a + -b is written as a - b.
+// Adds two expressions. a + -b is written as a - b.
 Expression operator+(Expression a, Expression b) {
   if (is_number(b, 0.0f)) return a;
   if (Expression& factor = first_factor(b); factor.op == Op::kNumber && std::signbit(factor.number)) {
@@ -49,7 +49,7 @@ bool uses(const Expression& expression, const std::string& wanted) {
          std::ranges::any_of(expression.terms, [&](const Expression& term) { return uses(term, wanted); });
 }
 
-// Without what nobody uses.
+// Removes statements that no other statement uses.
 std::vector<Statement> used(std::vector<Statement> statements) {
   for (std::size_t i = statements.size(); i-- > 0;) {
     const std::string wanted = statements[i].name;
@@ -61,7 +61,7 @@ std::vector<Statement> used(std::vector<Statement> statements) {
   return statements;
 }
 
-// How strongly an operation binds.
+// Returns how strongly an operation binds.
 int rank_of(const Expression& expression) {
   switch (expression.op) {
     case Op::kAdd:
@@ -133,7 +133,7 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
   const auto add_color = [&](const char* id, Expression value) {
     all.push_back({id, true, std::move(value)});
   };
-  // A factor of what is cut off: value / limit - 1, from 0.
+  // Returns how far a value exceeds its limit: value / limit - 1, at least 0.
   const auto excess = [](const Expression& value, float limit) {
     return most(value * number(1.0f / limit) - number(1.0f), number(0.0f));
   };

@@ -16,19 +16,19 @@ namespace remap {
 namespace {
 
 std::string plain_number(float value) { return number_text(decimal_value(value)); }
-// Shaders read a number without a point as an integer.
+// Writes a point, because shaders read a number without a point as an integer.
 std::string point_number(float value) {
   const std::string text = plain_number(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-// A converter as text.
+// A Parts holds a converter as text.
 struct Parts {
   std::string id, meaning;
   std::vector<Statement> numbers, colors;
 };
 
-// A sentence on units and errors.
+// Returns a sentence on units and errors.
 std::string meaning_of(const Fit& fit) {
   const auto side = [](const ModelSide& model) {
     return model.model + " (" + std::string(encoding_name(model.roughness)) + ", " + model.specular + ")";
@@ -53,7 +53,7 @@ std::vector<std::string> color_names(const Parts& parts) {
   return names;
 }
 
-// A line for each statement: `start`, name and value. An output begins with `last` instead.
+// Returns a line for each statement: `start`, name and value. An output begins with `last` instead.
 std::string lines_of(const std::vector<Statement>& statements, const Notation& notation,
                      const std::string& start, const std::string& last, const std::string& end) {
   const std::vector<std::string> colors =
@@ -121,20 +121,20 @@ std::string shader_function(const Parts& parts, const std::string& color_type) {
          lines_of(parts.colors, notation, "  " + color_type + " ", "  specular = ", ";") + "}\n";
 }
 
-// Statements as nodes of a graph.
+// A NodeWriter writes statements as nodes of a graph.
 class NodeWriter {
  public:
   NodeWriter(const std::vector<std::string>& colors, std::string& nodes) : colors_(colors), nodes_(nodes) {}
 
   void write(const Statement& statement) { write(statement.value, node_of(statement.name)); }
 
-  // The node of a statement; an output has the name itself.
+  // Returns the node of a statement. An output has the name itself.
   static std::string node_of(const std::string& name) {
     return name.ends_with("_out") ? name.substr(0, name.size() - 4) + "_value" : name;
   }
 
  private:
-  // An input of a node: `nodename="..."`.
+  // A Term is an input of a node: `nodename="..."`.
   struct Term {
     bool is_color;
     std::string attribute;
@@ -213,7 +213,7 @@ std::string material_function(const Parts& parts) {
          "    <output name=\"specular_out\" type=\"color3\" nodename=\"specular_value\" />\n  </nodegraph>\n";
 }
 
-// The text around the functions of a language.
+// A Frame is the text around the functions of a language.
 struct Frame {
   std::string comment, units, begin, end;
   std::function<std::string(const Parts&)> function;

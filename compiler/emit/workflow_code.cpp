@@ -1,4 +1,5 @@
-// Conversions between workflows as C++: the text of runtime/stages/code with the conventions of both ends.
+// This file writes conversions between workflows as C++: the text of runtime/stages/code with the conventions
+// of both ends.
 #include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
@@ -7,10 +8,10 @@
 namespace remap {
 namespace {
 
-// The code of each formula.
+// A CodeOf returns the code of each formula.
 struct CodeOf {
   MaterialCode operator()(const Equation2&) const {
-    // Compilers may fuse products; towards metallic the difference grows.
+    // Compilers may fuse products, so results may differ slightly. Towards metallic the difference grows.
     return code(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "", "4e-6f");
   }
   MaterialCode operator()(const Projection& projection) const {
