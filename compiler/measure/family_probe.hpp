@@ -1,4 +1,5 @@
-// For a model without a known specular law, finds a few pictures whose combinations give all its pictures.
+// This file handles a model without a known specular law. It finds a few pictures whose combinations give all
+// others.
 #pragma once
 
 #include <optional>
