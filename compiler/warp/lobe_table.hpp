@@ -1,4 +1,5 @@
-// The specular lobe of a model over directions and alpha, from which features of parameters are computed.
+// This file holds the specular lobe of a model over directions and alpha, from which features of parameters
+// are computed.
 #pragma once
 
 #include <vector>
@@ -13,14 +14,15 @@ namespace remap {
 inline constexpr std::size_t kWidthNodes = 64;  // uniform in log(alpha) between kLeastWidth and kLargestWidth
 inline constexpr double kLeastWidth = 0.04, kLargestWidth = 1.0;
 
-// The position of an alpha between `node` and the next node; `fraction` is 0 to 1.
+// A WidthPosition is the position of an alpha between `node` and the next node; `fraction` is 0 to 1.
 struct WidthPosition {
   Eigen::Index node = 0;
   double fraction = 0.0;
 };
 WidthPosition width_position(double alpha) noexcept;
 
-// Slope and base of a model (Lobe in brdf.hpp) at every direction (row) and node of alpha (column).
+// A LobeTable holds slope and base of a model (Lobe in brdf.hpp) at every direction (row) and node of alpha
+// (column).
 struct LobeTable {
   Eigen::MatrixXd slope, base;
 };
@@ -28,7 +30,8 @@ LobeTable lobe_table(const BrdfModel& model, const std::vector<QuadratureDirecti
 
 inline constexpr std::size_t kReferenceTexels = 400;
 
-// The mean reflectance of a material over kReferenceTexels texels and all channels, at every direction.
+// Returns the mean reflectance of a material over kReferenceTexels texels and all channels, at every
+// direction.
 Eigen::VectorXd mean_reflectance(const WarpMaterial& material, const LobeTable& table);
 
 }  // namespace remap

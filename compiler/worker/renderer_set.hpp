@@ -1,5 +1,6 @@
-// Combines all renderers: the built-in one, and workers, which are started when a model with their prefix is
-// first requested. The workers are those of the command line, the user's own, and those that ship.
+// This file combines all renderers: the built-in one and workers. A worker is started when a model with its
+// prefix is first requested. The workers come from the command line, the user's own list, and the shipped
+// list.
 #pragma once
 
 #include <filesystem>
@@ -34,7 +35,7 @@ class RendererSet final : public Renderer {
   std::vector<std::string> remarks() const;
 
  private:
-  // Returns the renderer of a model by its prefix; the built-in one if no worker has that prefix.
+  // Returns the renderer of a model by its prefix, or the built-in one if no worker has that prefix.
   const Renderer& renderer_of(const std::string& model) const;
   std::vector<const WorkerRenderer*> started() const;
   void tell_watcher();
@@ -54,8 +55,9 @@ std::vector<WorkerEntry> read_worker_list(const std::filesystem::path& path);
 // Parses `NAME=COMMAND` of the command line. Throws kUsage.
 WorkerEntry parse_worker(const std::string& text);
 
-// Returns all workers by name. Of workers with the same name the first counts, in the order `given`, the
-// user's list, the shipped list. Throws kInput for a list that cannot be read, kUsage for errors in `given`.
+// Returns all workers by name. If several have the same name, the first counts, in the order `given`, the
+// user's list, the shipped list. Throws kInput for a list that cannot be read, and kUsage for errors in
+// `given`.
 std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
 
 }  // namespace remap

@@ -2,13 +2,13 @@
 // the folder, and which results came from which inputs, in any format. It has lines of JSON that are only
 // ever appended:
 //
-//   {"conversion": {"hash": "...", "source": "mitsuba/ward", "target": "mitsuba/as", ...}}   the last one
-//   counts
-//   {"begun": ["a_rough.tga", ...], "conversion": "HASH"}                                     before the
-//   first file
-//   {"set": "a", "inputs": "HASH", "conversion": "HASH", "source": ..., "target": ..., "files": [{"name":
-//    "a_rough.tga", "bytes": 1234, "hash": "..."}, ...]}                                      after the last
-//    one
+//   {"conversion": {"hash": "...", "source": "mitsuba/ward", "target": "mitsuba/as", ...}}
+//   {"begun": ["a_rough.tga", ...], "conversion": "HASH"}
+//   {"set": "a", "inputs": "HASH", "conversion": "HASH", "source": ..., "target": ...,
+//    "files": [{"name": "a_rough.tga", "bytes": 1234, "hash": "..."}, ...]}
+//
+// The last line `conversion` counts. `begun` is written before the first file of a set, and `set` after the
+// last.
 //
 // Names are relative to the folder. A line that cannot be read, such as the last one of a killed run, is
 // ignored. A run that converts a part of a manifest writes a separate journal, `.texremap-parts/NAME.journal`
