@@ -22,15 +22,15 @@ try:
 except ImportError as failure:
     raise ImportError(f"USD files cannot be read: {failure} (pip install usd-core)") from failure
 
-# Of the stage, which a layer does not take from its sublayers.
+# These belong to the stage; a layer does not take them from its sublayers.
 _STAGE_METADATA = ("defaultPrim", "upAxis", "metersPerUnit", "kilogramsPerUnit", "timeCodesPerSecond", "framesPerSecond",
                    "startTimeCode", "endTimeCode", "autoPlay", "colorConfiguration", "colorManagementSystem")
 _DEFAULTS = {"diffuseColor": (0.18, 0.18, 0.18), "specularColor": (0.0, 0.0, 0.0), "metallic": (0.0,), "ior": (1.5,)}
-# Inputs of the shader, and what the converter calls them.
+# These map inputs of the shader to names of the converter.
 _SPECULAR = {"diffuseColor": "diffuse", "specularColor": "specular"}
 _METALLIC = {"diffuseColor": "base_color", "metallic": "metallic"}
 _PNG_LEVEL = 6
-_ROUGHNESS = 0.5  # any: both ends share a BRDF, so that roughness stays
+_ROUGHNESS = 0.5  # any value: both ends share a BRDF, so roughness stays
 
 
 class MaterialReport(NamedTuple):
@@ -113,7 +113,8 @@ def _read(texture):
     values = stored.astype(np.float32) / np.float32(largest)
     is_grey = len(names) < 3
     space = _shader_value(texture.shader, "sourceColorSpace", "auto")
-    # `auto`: 8-bit images of colors are sRGB unless the file says otherwise (UsdPreviewSurface, Texture Reader).
+    # `auto` means that 8-bit images of colors are sRGB unless the file states otherwise (UsdPreviewSurface, Texture
+    # Reader).
     is_srgb = space == "sRGB" or (space == "auto" and dtype == np.uint8 and not is_grey)
     colors = values[..., :1].repeat(3, axis=-1) if is_grey else values[..., :3]
     alpha = values[..., 3:4] if len(names) > 3 else np.ones_like(values[..., :1])
