@@ -85,8 +85,7 @@ class Builder {
   }
 
  private:
-  // Removes vanished items from the lock. An item whose fit still exists stays, so that a later build can
-  // prune it.
+  // Removes vanished items from the lock. If its fit still exists, an item stays, so a later build prunes it.
   void forget_vanished() {
     std::set<std::string> kept;
     for (const ManifestItem& item : manifest_.items) kept.insert(item.id);
@@ -99,8 +98,7 @@ class Builder {
     std::erase_if(lock_.items, [&](const auto& entry) { return !kept.contains(entry.first); });
   }
 
-  // Deletes the files of a vanished item and returns true. Does nothing if a file was changed after the last
-  // build.
+  // Deletes the files of a vanished item and returns true. Does nothing if a file changed since the build.
   bool prune(const std::string& id) const {
     const LockedItem& known = last_lock_.items.at(id);
     const ItemPaths paths = paths_of(folders_, id);

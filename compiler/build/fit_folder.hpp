@@ -9,7 +9,6 @@
 
 namespace remap {
 
-// A FitFolder holds all fits of a folder, by id.
 struct FitFolder {
   std::vector<Fit> fits;  // converters of width and specular
   std::vector<WorkflowFit> workflows;

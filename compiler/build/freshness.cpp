@@ -24,8 +24,7 @@ bool has_table(const ManifestItem& item) {
 
 namespace {
 
-// Raise this if every table must be swept again. It is not the format of fits, which are remade from their
-// tables.
+// Raise this if every table must be swept again. The format of fits is separate.
 constexpr int kTableVersion = 3;
 
 bool has_current_format(const fs::path& fit) {

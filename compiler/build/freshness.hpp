@@ -10,7 +10,6 @@
 
 namespace remap {
 
-// A BuildFolders holds the folders of a build.
 struct BuildFolders {
   std::filesystem::path fits = "fits";  // fits, with tables/ in it; the report is its README.md
   std::filesystem::path generated = "generated";

@@ -22,8 +22,7 @@ std::size_t read_count(const Field& field) {
 
 constexpr std::int64_t kLargestResolution = 8192;   // pictures of 268 MB
 constexpr std::int64_t kMostMaterials = 1'000'000;  // the limit of remapc sample
-// These limit the models of a group, which form pairs, and the items of all sections. A build makes a file
-// for each item.
+// These limit the models of a group, which form pairs, and all items, which become files.
 constexpr std::size_t kMostModels = 100, kMostItems = 10'000;
 
 int read_resolution(const Field& field) {

@@ -1,5 +1,4 @@
-// This file reads how close the converters of a folder come to the best match, as `remap-study reach`
-// measured it.
+// This file reads how close a folder's converters come to the best match, as `remap-study reach` measured it.
 #pragma once
 
 #include <cstddef>

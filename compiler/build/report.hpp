@@ -22,8 +22,7 @@ std::vector<ReportFile> report(const FitFolder& folder);
 
 // Returns all figures for spreadsheets and scripts, as CSV (RFC 4180): a header row, then one row for each
 // converter. Converters of width and specular come first, by rising image error, then converters between
-// workflows, then warps. Errors are fractions. Lengths of the domain are alpha and specular. Unknown figures
-// are empty.
+// workflows, then warps. Errors are fractions. Domains are alpha and specular. Unknown figures are empty.
 std::string converters_csv(const FitFolder& folder);
 
 }  // namespace remap

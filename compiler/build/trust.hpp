@@ -1,5 +1,4 @@
-// This file judges how reliable a converter of width and specular is, from the pictures that its table
-// compared.
+// This file judges how reliable a converter of width and specular is, from its table's pictures.
 #pragma once
 
 #include <string>
@@ -9,8 +8,8 @@
 
 namespace remap {
 
-// Above this image error, more than a third of the picture is wrong. The two models then differ too much for
-// any converter.
+// Above this image error, more than a third of the picture is wrong. The models differ too much for any
+// converter.
 inline constexpr double kLargestTrustedError = 1.0 / 3.0;
 
 // Returns true if the fit comes from a table that compares spheres.

@@ -92,8 +92,7 @@ void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, 
                     std::to_string(kMostLayers) + " and " + std::to_string(kMostNetworkNumbers) + ")");
 }
 
-// Refuses other options for a table of metallic materials. It can only be fitted from specular to metallic,
-// by a network.
+// Refuses other options for a table of metallic materials. Only a network from specular to metallic fits it.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
     throw usage_error(

@@ -1,5 +1,4 @@
-// This file is shared by `remapc sweep` and `remapc sample`: two models, their pictures, and the resulting
-// table.
+// This file is shared by `remapc sweep` and `remapc sample`: two models, their pictures, and the table.
 #pragma once
 
 #include <cmath>

@@ -23,8 +23,7 @@ Reader<double> light_angle();
 // Reads `MIN,MAX`.
 Reader<Range> number_range();
 
-// A ParameterSetting is `NAME=VALUE` or `NAME=VALUE,...`. Throws kUsage, beginning with the option and the
-// word.
+// A ParameterSetting is `NAME=VALUE` or `NAME=VALUE,...`. Throws kUsage, beginning with option and word.
 struct ParameterSetting {
   ParameterSetting(const std::string& option, const std::string& word);
   [[noreturn]] void fail(const std::string& reason) const;  // throws kUsage

@@ -1,5 +1,4 @@
-// This file is `remapc renderers`, which lists the external renderers that work on this machine, and their
-// models.
+// This file is `remapc renderers`, which lists the external renderers that work here, and their models.
 #include <iomanip>
 #include <iostream>
 

@@ -1,5 +1,4 @@
-// This file is `remapc sample`, which matches random materials of a model and writes a table of named
-// parameters.
+// `remapc sample` matches random materials of a model and writes a table of named parameters.
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
 #include "commands/option_readers.hpp"

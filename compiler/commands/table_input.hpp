@@ -26,7 +26,6 @@ struct TableInput {
   Table with_models(Table table) const;
 };
 
-// Reads --columns.
 Reader<ColumnMap> columns_reader();
 
 // Adds --accept-light, which accepts light that light_remark() (table/light.hpp) reports as an error.

@@ -177,7 +177,6 @@ void warp_textures(const WarpCommand& command) {
   print_words(command.output.empty() ? command.copy : command.output, fit.diagnostics, more);
 }
 
-// A MaterialSet is a texture set or a table.
 using MaterialSet = std::variant<TextureMaterial, TabulatedSet>;
 
 MaterialSet read_material_set(const std::string& folder, const std::string& model) {

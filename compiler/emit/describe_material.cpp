@@ -67,8 +67,7 @@ std::string provenance(const WorkflowFit& fit) {
   return text;
 }
 
-// Returns texels over the whole range, the same on every machine: fractions of multiples of irrational
-// numbers.
+// Returns texels over the whole range, the same everywhere: fractions of multiples of irrational numbers.
 WarpTexel candidate(std::size_t number) {
   constexpr std::array<double, kWarpParameters> kSteps = {0.7548777, 0.5698403, 0.4301597, 0.8191725,
                                                           0.6710436, 0.5497005, 0.4503046};

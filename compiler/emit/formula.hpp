@@ -11,8 +11,7 @@ namespace remap {
 
 enum class Op { kNumber, kName, kAdd, kSubtract, kMultiply, kDivide, kMin, kMax, kRoot, kLargest };
 
-// An Expression is a number, a name, an operation on two terms, the square root of one, or the largest
-// channel of a color.
+// An Expression is a number, a name, a binary operation, a root, or the largest channel of a color.
 struct Expression {
   Op op = Op::kNumber;
   float number = 0.0f;

@@ -22,8 +22,7 @@ struct WarpHeader {
 struct HeaderEnd {
   std::string model;  // `mitsuba/ggx`
   std::string width;  // the name of its convention
-  // These are the members of the header's Input or Output. `width` is the first of two, and the last for
-  // whole materials.
+  // These are the members of the header's Input or Output. `width` is first of two, and last for materials.
   std::vector<MaterialParameter> parameters;
   std::string workflow = {}, diffuse = {};  // of whole materials: `specular`, `plain`
 };

@@ -1,5 +1,4 @@
-// This file writes converters in languages other than C++: one function each, for one texel, with the
-// header's formula.
+// This file writes converters in other languages: a function for one texel, with the header's formula.
 #pragma once
 
 #include <string>

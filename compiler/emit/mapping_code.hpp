@@ -12,7 +12,6 @@ namespace remap {
 // Returns `struct Form` of a converter, which runtime/stages/code/form_rows.inc uses.
 std::string form_code(const ConverterData& converter);
 
-// A MaterialCode is the code for whole materials.
 struct MaterialCode {
   std::string formula;
   std::string constants;  // definitions beside those of the ends
@@ -30,8 +29,7 @@ MaterialCode material_code(const WarpHeader& header);
 // once before the functions of one activation. Both use `kBlock`, `bits` and `float_from_bits` of the header.
 std::string network_helpers(Activation activation);
 std::string network_function(const std::string& name, const Network& network);
-// Returns kBlock: the largest block, up to 128, for which the rows of all layers fit into the first-level
-// cache.
+// Returns kBlock: the largest block, up to 128, whose rows of all layers fit into the first-level cache.
 int network_block(const Network& network);
 
 }  // namespace remap

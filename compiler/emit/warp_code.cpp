@@ -10,8 +10,7 @@
 namespace remap {
 namespace {
 
-// Returns `a,b,c` with `a_line` numbers on each line. It has no spaces, because tables have a quarter of a
-// million numbers.
+// Returns `a,b,c` with `a_line` numbers on each line. It has no spaces, because tables are large.
 template <typename Numbers>
 std::string list_text(const Numbers& numbers, std::size_t a_line) {
   std::string text;

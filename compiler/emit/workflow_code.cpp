@@ -1,5 +1,4 @@
-// This file writes conversions between workflows as C++: the text of runtime/stages/code with the conventions
-// of both ends.
+// This file writes conversions between workflows as C++: runtime/stages/code with both ends' conventions.
 #include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"

@@ -15,8 +15,7 @@ std::string width_text(const ModelSide& side) {
          std::string(encoding_name(side.roughness));
 }
 
-// An ExponentFormula converts a Phong exponent and a grey specular to perceptual roughness, which is
-// sqrt(alpha).
+// An ExponentFormula converts a Phong exponent and a grey specular to roughness, which is sqrt(alpha).
 struct ExponentFormula {
   const char* name;
   const char* formula;
@@ -33,8 +32,7 @@ const ExponentFormula kExponentFormulas[] = {
     // Blender's OBJ importer clamps Ns to 0 to 1000.
     {"Blender OBJ", "roughness = 1 - sqrt(min(n, 1000) / 1000)",
      [](double n, double) { return 1.0 - std::sqrt(std::clamp(n, 0.0, 1000.0) / 1000.0); }},
-    // The formula comes from assimp's glTF2 exporter. Its specular intensity is the luma of Ks, which is the
-    // value of a grey.
+    // The formula comes from assimp's glTF2 exporter. Its specular intensity is the luma of Ks.
     {"assimp", "roughness = 1 - sqrt(n / 1000) luma(Ks)",
      [](double n, double specular) { return 1.0 - clamp01(std::sqrt(n / 1000.0)) * specular; }},
     // The formula comes from CesiumGS/obj2gltf, materials from Ns.
@@ -47,8 +45,7 @@ double pbrt_alpha(double roughness) {
   return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
 }
 
-// Returns why the number of one model's parameter is not copied to the other's, or an empty text if it is
-// copied.
+// Returns why a parameter's number is not copied from one model to the other, or an empty text.
 std::string why_number_is_not_copied(const ModelSide& source, const ModelSide& target) {
   const auto is_width = [](const ModelSide& side) {
     return side.roughness == Convention::kAlpha || side.roughness == Convention::kRoughness;

@@ -13,19 +13,16 @@ namespace remap {
 namespace {
 
 constexpr int kIterations = 12;
-// This limits the terms of a factor that is fitted to pictures. More would overfit the lights that choose the
-// form.
+// This limits the terms of a fitted factor. More would overfit the lights that choose the form.
 constexpr std::size_t kMostTerms = 5;
 constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
 constexpr double kNear = 1.01;         // of the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range
 constexpr double kNearRow = 0.01;      // relative
-// This is relative, for copied numbers: the least difference of brightness that an eye sees (Weber's
-// fraction).
+// This is relative, for copied numbers: the least visible difference (Weber's fraction).
 constexpr double kNearCopy = 0.02;
 // Rows take part in the refinement with these weights of squared relative errors. The weight is low where
-// pictures show the difference, only to stop a form from drifting. It is high where highlights are narrower
-// than a pixel.
+// pictures show the difference, to stop drifting. It is high where highlights are narrower than a pixel.
 constexpr double kNarrowWidth = 0.05;
 constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
 constexpr std::size_t kMostRows = 60;  // of either kind
@@ -66,8 +63,7 @@ std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samp
   return all;
 }
 
-// Returns the best of the `starts`, refined by pictures and rows. `unit` holds both errors that the rows
-// leave.
+// Returns the best of the `starts`, refined by pictures and rows. `unit` holds both errors of rows.
 CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain,
                     const PairPictures& pictures, const PictureErrors& unit,
                     const std::vector<FormSample>& samples) {

@@ -1,5 +1,4 @@
-// This file compares fits of one table. It chooses the fit with the fewest numbers whose pictures look like
-// the best.
+// This file compares fits of one table. It chooses the fit with the fewest numbers that looks like the best.
 #pragma once
 
 #include <vector>

@@ -33,8 +33,7 @@ void require_models(const Table& table) {
   }
 }
 
-// Below this fraction of the largest specular, which pictures do not show, learned fits continue in
-// proportion.
+// Below this fraction of the largest specular, which is invisible, learned fits continue in proportion.
 constexpr double kLeastShare = 0.02;
 
 // Parses the pairs of numbers of kSpheresComment and skips invalid ones.

@@ -38,8 +38,7 @@ Environment computed(const std::string& name, int height,
   return environment;
 }
 
-// A CieSky is the relative luminance of a CIE sky (ISO 15469:2004) at a zenith angle and an angle from the
-// sun.
+// A CieSky is the relative luminance of a CIE sky (ISO 15469:2004) by zenith angle and sun angle.
 struct CieSky {
   double a, b, c, d, e;
   double luminance(double cos_zenith, double from_sun) const {
@@ -83,8 +82,7 @@ Environment overcast_sky(int height) {
   });
 }
 
-// An AreaLight is a rectangular light that faces the sphere: its center and half its extent in degrees, and
-// its radiance.
+// An AreaLight is a rectangle that faces the sphere: center and half extent in degrees, and radiance.
 struct AreaLight {
   double elevation, azimuth, half_height, half_width;
   Rgb radiance;

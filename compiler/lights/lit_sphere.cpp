@@ -125,8 +125,7 @@ class PixelSampler {
   }
 
  private:
-  // Returns a visible normal of the GGX distribution, from a stretched spherical cap (Dupuy and Benyoub
-  // 2023).
+  // Returns a visible normal of GGX, from a stretched spherical cap (Dupuy and Benyoub 2023).
   Direction visible_normal(double alpha, double u, double azimuth) const {
     const Direction stretched = normalised({alpha * dot(view_, frame_.tangent),
                                             alpha * dot(view_, frame_.bitangent), dot(view_, frame_.normal)});

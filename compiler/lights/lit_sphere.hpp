@@ -77,8 +77,7 @@ struct DisplayedSphere {
   std::vector<float> luma;    // of the whole picture, row-major; 0 outside the sphere
 };
 
-// Converts `radiance`, linear RGB of `pixels`. These are row-major indices into a picture of `resolution` x
-// `resolution`.
+// Converts `radiance`, linear RGB of `pixels`. These are row-major indices into a square of `resolution`.
 DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
                                  int resolution);
 

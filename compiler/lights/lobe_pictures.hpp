@@ -55,8 +55,7 @@ class LobePictures {
 
  private:
   std::vector<double> alphas_;
-  // The order is [alpha][light]. The members hold the picture at specular 0, and the picture that specular 1
-  // adds.
+  // The order is [alpha][light]. They hold the picture at specular 0, and what specular 1 adds.
   std::vector<std::vector<std::vector<float>>> dark_, slope_;
 };
 

@@ -14,8 +14,7 @@ using std::numbers::pi;
 
 constexpr int kCoarsestHeight = 4;  // rows
 
-// A Share is the weight of a row or column of the input in a row or column of the output. The weights sum to
-// 1.
+// A Share is the weight of an input row or column in an output row or column. The weights sum to 1.
 struct Share {
   std::size_t source;
   double weight;
@@ -40,8 +39,7 @@ Shares overlaps(int from, int to, const Measure& measure) {
   return shares;
 }
 
-// Returns weights of rows. The solid angle of a row is proportional to the difference of the cosines of its
-// edges.
+// Returns weights of rows. A row's solid angle is proportional to its edges' difference of cosines.
 Shares row_shares(int from, int to) {
   return overlaps(from, to, [](double a, double b) { return std::cos(pi * a) - std::cos(pi * b); });
 }

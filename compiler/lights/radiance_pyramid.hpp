@@ -28,8 +28,7 @@ class RadiancePyramid {
   // Returns three for each environment, in their order.
   std::size_t channel_count() const { return channel_count_; }
 
-  // Returns at most 128 spots of 1.4 degrees (for 256 rows), with their radiance above four times the mean of
-  // the map.
+  // Returns at most 128 spots of 1.4 degrees (for 256 rows), with their radiance above four times the mean.
   const std::vector<Lamp>& lamps(std::size_t environment) const { return lamps_[environment]; }
 
   // Writes the radiance without lamps from `direction`, averaged over about `solid_angle` (steradian, > 0),

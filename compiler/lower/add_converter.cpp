@@ -8,8 +8,7 @@
 namespace remap {
 namespace {
 
-// Returns four units in the last place of a float, the rounding of parameter conversions and of a texel's
-// scale.
+// Returns four units in the last place of a float, the rounding of conversions and of a texel's scale.
 double rounding_of(double value) { return 4.8e-7 * std::fabs(value) + 1e-30; }
 
 // Returns how much the target's own parameter changes if alpha changes by `error`.

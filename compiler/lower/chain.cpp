@@ -107,8 +107,7 @@ Domain chain_domain(const std::vector<Fit>& steps) {
   return *domain;
 }
 
-// A Jacobian holds derivatives of the outputs by the inputs of step `first`: [output][input], alpha then
-// specular.
+// A Jacobian holds derivatives by the inputs of step `first`: [output][input], alpha then specular.
 using Jacobian = std::array<std::array<double, 2>, 2>;
 
 Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const MappedTexel& texel) {
@@ -176,8 +175,7 @@ std::optional<ImageSimilarity> summed_similarity(const std::vector<Fit>& steps) 
   return sum;
 }
 
-// Returns the smallest form that gives the results of the steps in sequence, or the largest form if none is
-// close enough.
+// Returns the smallest form that reproduces the steps, or the largest form if none is close enough.
 CompactForm composed_form(const std::vector<Fit>& steps, const Fit& chain) {
   std::vector<FormSample> samples;
   double largest = 0.0;

@@ -1,5 +1,4 @@
-// This file finds the domain of a fit: a box within the covered region of (alpha, specular), which may be
-// ragged.
+// This file finds the domain of a fit: a box within the (ragged) covered region of (alpha, specular).
 #pragma once
 
 #include <cmath>

@@ -50,8 +50,7 @@ struct ErrorFigures {
   bool operator==(const ErrorFigures&) const = default;
 };
 
-// A Split counts the rows of the table that trained, that were held out for the figures, and that were not
-// used.
+// A Split counts the table's rows that trained, that were held out, and that were not used.
 struct Split {
   std::uint64_t seed = 0;
   double held_out_fraction = 0.0;
@@ -90,8 +89,7 @@ struct SphereSimilarity {
   bool operator==(const SphereSimilarity&) const = default;
 };
 
-// An ImageSimilarity states how well the two models can match, independent of the fit: over the table's rows
-// in the domain.
+// An ImageSimilarity states how well the two models can match, by the table's rows in the domain.
 struct ImageSimilarity {
   ErrorFigures image_error;  // difference of the pictures relative to the source's, as the match weighs them
   std::vector<SphereSimilarity> ssim;  // by rising alpha; empty if no spheres were compared
@@ -115,8 +113,7 @@ struct Fit {
   Split split;
   TableRecord table;
   std::string tool_version;
-  // This is the converter that add_converter() (lower/lower.hpp) makes. It is missing before that, and if it
-  // cannot be made.
+  // This is the converter that add_converter() (lower/lower.hpp) makes. It may be missing.
   std::optional<ConverterData> converter;
   // Returns true if the errors are known. Formulas from publications were not compared with rows.
   bool has_errors() const { return alpha_error != ErrorFigures{} || specular_error != ErrorFigures{}; }

@@ -1,5 +1,5 @@
-// This file reads and writes fit files (JSON). Numbers round-trip exactly, and equal fits give equal bytes on
-// every machine.
+// This file reads and writes fit files (JSON). Numbers round-trip exactly, and equal fits give equal bytes
+// everywhere.
 #pragma once
 
 #include <filesystem>

@@ -233,8 +233,7 @@ std::optional<ImageSimilarity> read_similarity(const Field& field) {
                          })};
 }
 
-// Refuses a converter of another fit. Its ends differ, or its golden texels differ from the mapping's
-// results.
+// Refuses a converter of another fit. Its ends differ, or its golden texels contradict the mapping.
 void require_own_converter(const Fit& fit, const Field& root) {
   const ConverterInfo& info = fit.converter->info;
   const auto is_near = [](double value, float golden, float within) {

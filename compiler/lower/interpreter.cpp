@@ -12,8 +12,7 @@ namespace {
 
 Range as_floats(const Range& range) { return {rounded_to_float(range.min), rounded_to_float(range.max)}; }
 
-// A Rule holds the factors of a mapping, and the behaviour of its target at its limits. A missing limit is
-// infinite.
+// A Rule holds a mapping's factors, and its target's behaviour at limits. A missing limit is infinite.
 struct Rule {
   const MappingKind& mapping;
   const Domain& domain;

@@ -42,8 +42,7 @@ double quantile(std::vector<double>* values, double share) {
 std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target) {
   const MappingKind& mapping = fit.mapping;
   const Domain& domain = fit.domain;
-  // Returns the specular that is needed at an alpha, clamped to the domain. The last test rejects clamped
-  // values.
+  // Returns the specular needed at an alpha, clamped to the domain. The last test rejects clamped values.
   const auto specular_at = [&](double alpha) {
     const auto rising = [&](double specular) { return evaluate_mapping(mapping, alpha, specular).specular; };
     if (rising(domain.specular.min) >= target.specular) return domain.specular.min;

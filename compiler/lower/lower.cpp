@@ -18,8 +18,7 @@ constexpr std::size_t kMostLoweredPowers = 8, kMostLoweredTerms = 12;
 constexpr double kLoosest = 10.0;     // times the tolerances
 constexpr std::size_t kBoxes = 6000;  // the most boxes that a proof examines; takes about a second
 
-// Returns the shapes, beginning with the fewest numbers. A mapping that does not depend on t needs only one
-// power.
+// Returns the shapes, fewest numbers first. A mapping that does not depend on t needs only one power.
 std::vector<FormShape> lowering_shapes(const MappingKind& mapping) {
   std::vector<FormShape> shapes;
   const bool has_t = alpha_depends_on_specular(mapping) || !is_proportional(mapping);

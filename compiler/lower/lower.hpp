@@ -21,8 +21,7 @@ struct Lowered {
 // stays unchanged. Throws kNumeric if no form is proven within ten times the tolerances.
 Lowered lower(const Fit& fit, const LoweringOptions& options = {});
 
-// Lowers the fit and sets fit->converter. Takes up to a second. Throws like lower(), and then leaves the fit
-// unchanged.
+// Lowers the fit and sets fit->converter. Takes up to a second. If it throws like lower(), the fit stays.
 void add_converter(Fit* fit, const LoweringOptions& options = {});
 
 }  // namespace remap

@@ -43,9 +43,8 @@ struct SpecularTerm {
   bool operator==(const SpecularTerm&) const = default;
 };
 
-// Parametric is the kind `parametric`: alpha2 = sum over j, i of alpha[j][i] specular1^j alpha1^(i+1),
-// specular2 = the sum of the terms. The form of the paper has one row of four in `alpha` and one term of
-// power 1.
+// Parametric is a kind: alpha2 = sum over j, i of alpha[j][i] specular1^j alpha1^(i+1), specular2 = the sum
+// of the terms. The form of the paper has one row of four in `alpha` and one term of power 1.
 struct Parametric {
   std::vector<std::vector<double>> alpha;
   std::vector<SpecularTerm> specular;  // powers never fall; terms of one power add up
@@ -89,8 +88,7 @@ std::string kind_name(const MappingKind& mapping);
 
 bool alpha_depends_on_specular(const MappingKind& mapping);
 
-// Returns true if target specular is a function of alpha times specular, so that channels scale
-// independently.
+// Returns true if target specular is a function of alpha times specular, so that channels are independent.
 bool is_proportional(const MappingKind& mapping);
 
 // A MappedTexel holds the two parameters of a texel with one channel.

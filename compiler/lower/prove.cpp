@@ -39,8 +39,7 @@ double claimed(double bound) { return std::isnan(bound) ? INFINITY : bound; }
 
 Verdict verdict(const TexelTaylor& error, const Box& box) {
   const double bound = claimed(error.bound()), at_least = std::fabs(error.constant()) - error.rest();
-  // If the remainder dominates the polynomial, the extents are meaningless, so both directions are halved in
-  // turn.
+  // If the remainder dominates the polynomial, the extents are meaningless, so halve both in turn.
   const double alpha = error.extent(0), specular = error.extent(1);
   const bool tells = std::isfinite(bound) && std::max(alpha, specular) > 0.01 * error.rest();
   return {bound, at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};
@@ -106,8 +105,7 @@ double proven_bound(const TexelFunction& error, const Domain& domain, double tar
   return queue.top().verdict.bound * (1.0 + 1e-9);  // covers rounding in the additions of bounds
 }
 
-// Returns the sum of magnitudes of a factor's terms. The second function returns the number of its
-// operations.
+// Returns the sum of magnitudes of a factor's terms. The second counts its operations.
 double magnitude(const FactorTerms& factor, double alpha, double t) {
   FactorTerms magnitudes = factor;
   for (std::vector<float>& row : magnitudes)
@@ -142,8 +140,8 @@ Distance proven_distance(const MappingKind& mapping, const CompactForm& form, co
 Distance rounding_of(const CompactForm& form, const Domain& domain) {
   const double alpha = domain.alpha.max, specular = domain.specular.max;
   const double t = specular / (specular + static_cast<double>(form.pole));
-  // The error is relative to the sum of the magnitudes. It covers sum, quotient, conversion of the width, and
-  // product, or the hinge.
+  // The error is relative to the sum of the magnitudes. It covers sum, quotient, width and product, or the
+  // hinge.
   const auto relative = [](std::size_t operations) {
     const double n = static_cast<double>(operations) * 2.0 * kFloatUnit;
     return n / (1.0 - n);

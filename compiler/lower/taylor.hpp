@@ -53,8 +53,7 @@ class Taylor {
   // rounded up, because they are sums.
   double deviation() const { return (norm(1) + rest_) * kRoundUp; }
   double bound() const { return (norm(0) + rest_) * kRoundUp; }
-  // Returns the sum of the magnitudes of the pure powers of one variable: how much that direction
-  // contributes.
+  // Returns the sum of the magnitudes of one variable's pure powers: the weight of that direction.
   double extent(int variable) const {
     double sum = 0.0;
     for (int d = 1; d <= Order; ++d)
@@ -148,9 +147,8 @@ class Taylor {
   double rest_ = 0.0;
 };
 
-// The following functions are the ones that evaluate.hpp needs from a scalar. The series use the constant x0
-// of the argument, y = x - x0, |y| <= r. Lagrange's form or Cauchy's estimate, as noted at each, bounds the
-// remainder.
+// evaluate.hpp needs the following functions. The series use the constant x0 of the argument, y = x - x0, |y|
+// <= r. Lagrange's form or Cauchy's estimate, as noted at each, bounds the remainder.
 
 // Uses phi(x0 + y) = phi(x0) + exp(-rate x0) sum of (-rate)^(k-1) y^k / k!; Lagrange, largest at x0 - r.
 template <int V, int N>
@@ -211,8 +209,7 @@ Taylor<V, N> hyperbolic_tangent(const Taylor<V, N>& x) {
   return Taylor<V, N>::compose(x, series, left + 1e-15);
 }
 
-// Over [l, u] around 0, max(x, 0) lies between the chord u (x - l) / (u - l) and the chord less -l u / (u -
-// l).
+// Over [l, u] around 0, max(x, 0) lies between the chord u (x - l) / (u - l) and it less -l u / (u - l).
 template <int V, int N>
 Taylor<V, N> rectified(const Taylor<V, N>& x) {
   const double low = x.constant() - x.deviation(), high = x.constant() + x.deviation();
@@ -270,8 +267,7 @@ struct GaussianSeries {
   }
 };
 
-// Holds the sum as a polynomial in the inputs' deviations from their constants. The inputs are inserted at
-// the end.
+// Holds the sum as a polynomial in the inputs' deviations from their constants. Inputs are inserted last.
 template <int V, int N>
 Taylor<V, N> gaussian_sum(const KernelExpansion& expansion, const std::vector<Taylor<V, N>>& inputs) {
   std::array<std::array<double, N + 1>, N + 1> sums{};  // [power of input 0][power of input 1]

@@ -1,6 +1,5 @@
 // This file holds a conversion of whole materials, in closed form or by a trained network. It is a separate
-// type from a fit of alpha and specular (fit.hpp), because it has other inputs and outputs, and the domain
-// [0, 1].
+// type from a fit of alpha and specular (fit.hpp), because it has other inputs and outputs.
 #pragma once
 
 #include <map>

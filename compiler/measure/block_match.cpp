@@ -45,9 +45,8 @@ class WidthMatch {
   }
 
  private:
-  // Shares products. Pictures of an affine source are combinations of two. If the weights do not depend on
-  // specular either (uniform, or relative to a picture that only scales), one set of inner products serves
-  // all samples.
+  // Pictures of an affine source are combinations of two. If the weights do not depend on specular either
+  // (uniform, or relative to a picture that only scales), one set of inner products serves all samples.
   void share_products() {
     AffinePictures pictures = take_affine(setup_.picture_taker, setup_.source, alpha_);
     is_black_ = is_black(pictures.full);
@@ -72,8 +71,7 @@ class WidthMatch {
     return combined(pictures_, family_->weights_at(std::min(specular, family_->range.max)));
   }
 
-  // Matches by non-linear least squares, from the best points of a grid of pictures, if the target has no
-  // family.
+  // Matches a target without a family by non-linear least squares, from the best points of a grid.
   Match match_by_itself(JointChannel source) {
     if (setup_.target.bank)
       return Matcher(*setup_.target.bank, {std::move(source.picture)}, std::move(source.weights))
@@ -138,8 +136,7 @@ void match_diffuse_separately(const SweepSetup& setup, TableRow* row) {
   if (row->diffuse2 != wanted && row->status == RowStatus::kOk) row->status = RowStatus::kClamped;
 }
 
-// Compares the whole picture, diffuse and specular. With two stages it computes the error, with one or three
-// the joint match.
+// Compares the whole picture, diffuse and specular. It computes the error (two stages) or the joint match.
 void match_whole(const SweepSetup& setup, TableRow* row) {
   const RoleValues whole{row->alpha1, row->specular1, row->diffuse1};
   if (row->status == RowStatus::kFlat) return;

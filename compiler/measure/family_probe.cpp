@@ -16,8 +16,7 @@ namespace {
 using Radiances = std::vector<float>;
 using Matrix = std::vector<std::vector<double>>;
 
-// This is the number of steps of the finest probing. Degrees up to half of it can be checked between their
-// nodes.
+// This is the finest number of steps. Degrees up to half of it can be checked between their nodes.
 constexpr std::size_t kFinest = 32;
 constexpr std::size_t kLeastChecked = 8;
 
@@ -121,8 +120,7 @@ class FamilyProbe {
     return found;
   }
 
-  // Returns true if the family reproduces the pictures at every width. It compares at twice as many points as
-  // `degree` has nodes.
+  // Returns true if the family reproduces the pictures at every width, at twice the nodes of `degree`.
   bool holds(const std::vector<std::size_t>& points, const SpecularFamily& family, std::size_t degree) {
     const std::size_t stride = kFinest / std::max(kLeastChecked, 2 * degree);
     return std::all_of(widths_.begin(), widths_.end(), [&](Width& width) {

@@ -1,5 +1,4 @@
-// This file handles a model without a known specular law. It finds a few pictures whose combinations give all
-// others.
+// For a model without a known specular law, this file finds pictures whose combinations give all others.
 #pragma once
 
 #include <optional>

@@ -6,8 +6,7 @@
 
 namespace remap {
 
-// This is the number of bank nodes in one interpolation: twelve nodes, 5 % apart, leave an error of 1e-7 in
-// alpha.
+// This many bank nodes join in an interpolation: twelve nodes, 5 % apart, leave an error of 1e-7 in alpha.
 inline constexpr std::size_t kInterpolationNodes = 12;
 
 // A LagrangeBasis is the Lagrange basis on `nodes` at `x`: values and first derivatives.

@@ -14,8 +14,7 @@
 
 namespace remap {
 
-// This is the initial guess of a one-stage match, as fractions of the target's ranges of alpha, specular and
-// diffuse.
+// This is the initial guess of a one-stage match, as fractions of the ranges of alpha, specular and diffuse.
 inline const RoleValues kFixedGuess{0.5, 0.5, 0.5};
 
 struct JointOptions {

@@ -178,8 +178,7 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   return match;
 }
 
-// Returns the match at log(alpha) = `x` from the loss at that width, and the part of the loss that comes from
-// means.
+// Returns the match at log(alpha) = `x` from the loss at that width, and its part from means.
 Match Matcher::match_at(double x, const Polynomial& loss, const Polynomial& loss_of_means,
                         const std::vector<double>& coefficients) const {
   const SpecularFamily& family = bank_.family();

@@ -1,5 +1,4 @@
-// This file holds the objective of a match: the lights of the pictures, and the weights of each pixel and of
-// the mean.
+// This file holds the objective of a match: the lights of the pictures, and the weights of pixels and mean.
 #pragma once
 
 #include <cmath>
@@ -22,8 +21,7 @@ inline constexpr NamedValues<Weighting, 2> kWeightings = {
 
 // An Objective is minimised over the target's parameters. It is the sum over lights and pixels of w^2 (source
 // - target)^2. With `mean_share`, each light adds mean_share * P * (mean(target) / mean(source) - 1)^2, where
-// P is the sum of w^2 source^2 over its pixels. The lobe's energy then counts more compared with the form of
-// its picture.
+// P is the sum of w^2 source^2 over its pixels. The lobe's energy then counts more.
 struct Objective {
   std::string name;  // of the preset, or `custom`
   std::vector<Light> lights;
@@ -46,15 +44,13 @@ struct Objective {
 Objective objective_preset(const std::string& name);
 inline const std::vector<std::string> kObjectives = {"natural", "natural-1", "natural-2", "paper"};
 
-// Returns the objective that a file names. In files, `natural` means `natural-1`, because it was once the
-// only one.
+// Returns the objective that a file names. In files, `natural` means `natural-1`, once the only one.
 Objective recorded_objective(const std::string& name);
 
 // A picture is black if no value is above this radiance.
 inline constexpr float kBlackRadiance = 1e-12f;
 bool is_black(std::span<const float> picture);
 
-// A PictureWeights holds the weight of each number of a picture.
 struct PictureWeights {
   std::vector<float> squared;      // w^2
   std::vector<std::size_t> means;  // indices of the numbers that are means; the others are pixels

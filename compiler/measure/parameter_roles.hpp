@@ -11,8 +11,7 @@
 
 namespace remap {
 
-// A ParameterRoles assigns parameters to roles. An empty name keeps the parameter to which the model gives
-// the role.
+// A ParameterRoles assigns parameters to roles. An empty name keeps the model's parameter.
 struct ParameterRoles {
   std::string roughness;
   std::optional<RoughnessEncoding> convention;  // of `roughness`; if empty, the model's own

@@ -44,8 +44,7 @@ struct ProbedModel {
   // nothing if every picture must be rendered.
   std::optional<SpecularFamily> family() const;
 
-  // Return the canonical speculars that the model accepts, and the range in which its picture is linear (up
-  // to the knee).
+  // Return the canonical speculars that the model accepts, and those with a linear picture (up to the knee).
   Range specular_range() const;
   Range linear_range() const;
   Range diffuse_range() const;  // 0 to 0 for models without diffuse
@@ -59,11 +58,9 @@ class PictureTaker {
   // model's own parameter. Throws kInput for a picture of another size and for values that are not finite.
   std::vector<float> take(const ModelDescription& model, const RoleValues& role_values) const;
 
-  // Does the same for canonical specular, clamped to the model's range; the result is multiplied by the
-  // exposure.
+  // Does the same for canonical specular, clamped to the model's range; applies the exposure.
   std::vector<float> take(const ProbedModel& probed_model, const RoleValues& role_values) const;
 
-  // Does the same for a grey material.
   std::vector<float> take(const Material& material) const;
 
   // Does the same for each channel of a material: one row if all its parameters are grey, otherwise three.

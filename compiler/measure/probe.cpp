@@ -119,8 +119,7 @@ class SpecularProbe {
     return worst;
   }
 
-  // Returns how far a picture lies along the line from `low` to `high`, or nothing if it does not lie on the
-  // line.
+  // Returns how far a picture lies along the line from `low` to `high`, or nothing if it lies elsewhere.
   std::optional<double> share(const WidthProbe& probe, double specular) const {
     const Radiances picture = take(probe.alpha, specular);
     double product = 0.0, power = 0.0;
@@ -135,8 +134,7 @@ class SpecularProbe {
     return product / power;
   }
 
-  // Returns the knee at one width. A picture below the knee determines its place, and pictures on both sides
-  // confirm it.
+  // Returns the knee at one width. A picture below determines it, and pictures on both sides confirm it.
   std::optional<double> knee_at(const WidthProbe& probe) const {
     double step = 0.5 * (range_.max - range_.min);
     std::optional<double> reached = share(probe, range_.min + step);

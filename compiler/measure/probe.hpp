@@ -16,8 +16,7 @@ SpecularResponse probe_specular(const PictureTaker& picture_taker, const ModelDe
 // can cause; larger deviations contradict a law.
 double picture_tolerance(const ModelDescription& model);
 
-// An EffectiveWidths holds the widths of a sweep, and the part of them in which the width changes the
-// picture.
+// An EffectiveWidths holds a sweep's widths, and the part in which the width changes the picture.
 struct EffectiveWidths {
   Range asked;
   Range effective;

@@ -1,5 +1,4 @@
-// This file writes the comments of a table that record how it was made, so that the command can be repeated
-// from them.
+// This file writes the comments of a table that record how it was made, so that it can be remade.
 #pragma once
 
 #include <string>

@@ -46,8 +46,7 @@ enum class SpecularCoordinate {
   kRoot,      // the root of the fraction of the range, mapped to -1 to 1; fits exact Fresnel
 };
 
-// A SpecularFamily gives picture(specular) = sum over k of weights[k](coordinate(specular)) * picture k, at
-// every width.
+// A SpecularFamily is picture(specular) = sum over k of weights[k](coordinate(specular)) * picture k.
 struct SpecularFamily {
   Range range;  // canonical speculars for which it holds
   SpecularCoordinate coordinate_kind = SpecularCoordinate::kSpecular;

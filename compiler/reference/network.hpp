@@ -36,8 +36,7 @@ struct Layer {
   bool operator==(const Layer&) const = default;
 };
 
-// A Network is fully connected, with normalised inputs and outputs, and `activation` after every layer except
-// the last.
+// A Network is fully connected, with normalised ends, and `activation` after all layers except the last.
 struct Network {
   Activation activation = Activation::kTanh;
   std::vector<Scaling> inputs;

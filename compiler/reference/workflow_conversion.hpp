@@ -44,8 +44,7 @@ struct Equation3 {
   bool operator==(const Equation3&) const = default;
 };
 
-// KhronosSolver is the solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for scaled
-// diffuse.
+// KhronosSolver solves KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for scaled diffuse.
 struct KhronosSolver {
   bool operator==(const KhronosSolver&) const = default;
 };
@@ -122,7 +121,6 @@ std::size_t convert_workflow(const WorkflowConversion& conversion, std::size_t c
 MetallicMaterial to_metallic(const WorkflowConversion& conversion, const SpecularMaterial& material);
 SpecularMaterial to_specular(const WorkflowConversion& conversion, const MetallicMaterial& material);
 
-// A MetallicDiagnosis is the diagnosis of one texel.
 struct MetallicDiagnosis {
   // This is the square root of the remaining weighted squared error, and 0 for an exact match. Pictures under
   // natural light differ by about 0.42 times this value, as root mean square of display values.
@@ -131,8 +129,7 @@ struct MetallicDiagnosis {
   // color for each) is within (1/255)^2 of the least one. Above 0.2 metallic is undetermined, which does not
   // change the picture.
   float metallic_uncertainty = 0.0f;
-  // This is true if a parameter was outside [0, 1], or the base color of a channel was, by more than half a
-  // step of 8 bits.
+  // This is true if a parameter was outside [0, 1], or a base color by more than half a step of 8 bits.
   bool is_clamped = false;
 };
 

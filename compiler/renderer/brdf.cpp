@@ -39,8 +39,7 @@ double power_lobe(Brdf brdf, double alpha, const LocalGeometry& g) {
   const double lobe = std::pow(cosine, exponent);
   if (brdf == Brdf::kPhong) return (exponent + 2.0) / (2.0 * pi) * lobe;
   if (brdf == Brdf::kBlinn) return (exponent + 8.0) / (8.0 * pi) * lobe;
-  // A light that gives a white diffuse surface radiance 1 gives the lobe radiance 1 at its peak, however low
-  // the light is.
+  // A light that gives a white diffuse surface radiance 1 gives the lobe radiance 1 at its peak.
   return lobe / (pi * g.cos_light);
 }
 

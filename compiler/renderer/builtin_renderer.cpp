@@ -19,8 +19,7 @@
 namespace remap {
 namespace {
 
-// A Reflectance is the meaning of parameters other than width and diffuse, and the reflectance that they give
-// the lobe.
+// A Reflectance is the meaning of the parameters other than width and diffuse for the lobe.
 enum class Reflectance {
   kScale,         // `specular`, 0 to 1
   kTrimmedScale,  // `specular`, 0 to 2, clamped to 1 so that energy is conserved
@@ -45,8 +44,7 @@ struct BuiltinModel {
   Range alpha = kAlphaRange;
 };
 
-// The names are as in the hub. `-plain` multiplies the microfacet lobe by a constant instead of Schlick's
-// Fresnel.
+// Names are the hub's. `-plain` multiplies the microfacet lobe by a constant instead of Schlick's Fresnel.
 constexpr std::array kModels = {
     BuiltinModel{"mitsuba/ward", Brdf::kWard, Reflectance::kScale},
     BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Reflectance::kScale},
@@ -87,8 +85,7 @@ constexpr std::array kModels = {
 constexpr Range kIorRange{1.0, 4.0};
 constexpr Range kEtaRange{0.0, 12.0};
 constexpr Range kExtinctionRange{0.0, 20.0};
-// This is F0 of a dielectric at `specular` 1 (Burley 2012). 0.5 means 4 %, the index 1.5; 0.375 means the
-// paper's 3 %.
+// This is a dielectric's F0 at `specular` 1 (Burley 2012). 0.5 means 4 %, index 1.5; 0.375 the paper's 3 %.
 constexpr double kDielectricF0 = 0.08;
 
 std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
@@ -187,8 +184,7 @@ class BuiltinRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
  private:
-  // Returns the directions. They depend only on the scene, and a sweep renders hundreds of pictures of a few
-  // scenes.
+  // Returns the directions. They depend only on the scene, and a sweep uses few scenes.
   std::shared_ptr<const std::vector<LitSample>> samples_of(const Scene& scene) const;
 
   mutable std::mutex mutex_;

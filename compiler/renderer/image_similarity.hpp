@@ -1,5 +1,4 @@
-// This file compares two pictures as a display shows them, by root mean square error and by structural
-// similarity.
+// This file compares two pictures as displayed, by root mean square error and structural similarity.
 #pragma once
 
 #include <span>

@@ -86,8 +86,7 @@ void require_material(const Material& material, const ModelDescription& model);
 // by models without diffuse). Other parameters get their standard values.
 Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse);
 
-// Converts a range of a model's own width parameter to alpha, ascending, because some conventions fall as
-// alpha rises.
+// Converts a range of a model's own width to alpha, ascending, because some widths fall as alpha rises.
 Range canonical_widths(RoughnessEncoding convention, const Range& own);
 
 // Describes `model` as the source or target of a conversion.

@@ -85,8 +85,7 @@ SurfacePoint camera_ray(int resolution, double column, double row) {
 bool sphere_point(int resolution, double column, double row, SurfacePoint* point) {
   const SurfacePoint ray = camera_ray(resolution, column, row);
   const double dx = ray.x, dy = ray.y;
-  // Intersect the ray (0, 0, d) + t (dx, dy, -1) with x^2 + y^2 + z^2 = 1. The smaller root is the visible
-  // point.
+  // Intersect the ray (0, 0, d) + t (dx, dy, -1) with x^2 + y^2 + z^2 = 1. The smaller root is visible.
   const double a = dx * dx + dy * dy + 1.0;
   const double b = kCameraDistance;
   const double discriminant = b * b - a * (b * b - 1.0);

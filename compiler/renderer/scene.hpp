@@ -25,8 +25,7 @@ struct Light {
 enum class Shape { kSphere, kTorus };
 inline constexpr NamedValues<Shape, 2> kShapes = {{{Shape::kSphere, "sphere"}, {Shape::kTorus, "torus"}}};
 
-// A Scene is one picture. `samples_per_axis` = 1 samples the pixel centre; N averages an N x N grid in each
-// pixel.
+// A Scene is one picture. `samples_per_axis` 1 samples the pixel centre; N averages an N x N grid.
 struct Scene {
   int resolution = 512;  // width and height in pixels
   int samples_per_axis = 1;
@@ -36,8 +35,7 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-// Returns `headlight` for a light at the camera. Otherwise returns its angle in degrees, with the distance if
-// it is not 3.
+// Returns `headlight` for a light at the camera. Otherwise returns degrees, with the distance if it is not 3.
 std::string light_name(const Light& light);
 
 // A SurfacePoint is a point or direction in world space, which is view space (camera on +z).

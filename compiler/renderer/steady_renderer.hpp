@@ -22,8 +22,7 @@ inline constexpr double kSteadyNoise = 0.01;
 inline constexpr int kMostSeeds = 64;
 
 // A SteadyRenderer renders like `inner`, but averages the pictures of some models over as many seeds as their
-// noise requires. The noise is measured, whatever the model's description claims. Other models are passed
-// through.
+// noise requires. The noise is measured, not taken from descriptions. Other models are passed through.
 class SteadyRenderer final : public Renderer {
  public:
   // Measures the noise of the external ones of `models`, under `light`: two pictures of 128^2 at two widths

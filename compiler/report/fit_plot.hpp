@@ -1,5 +1,4 @@
-// This file plots a table and its fits: both target parameters with the curves of the fits, and the errors of
-// the fits.
+// This file plots a table and its fits: both target parameters with the curves and errors of the fits.
 #pragma once
 
 #include <filesystem>

@@ -60,8 +60,7 @@ Material material_of(const End& end, double alpha, const std::vector<double>& sp
   return material;
 }
 
-// A CoveredPicture holds linear radiance of a shape and the fraction of each pixel that it covers, row by
-// row.
+// A CoveredPicture holds a shape's linear radiance and the covered fraction of each pixel, row by row.
 struct CoveredPicture {
   std::vector<float> radiance;  // red, green, blue; mean over the covered part of the pixel
   std::vector<float> coverage;  // 0 to 1
@@ -129,7 +128,6 @@ std::vector<float> over_background(const CoveredPicture& picture, const std::vec
   return colors;
 }
 
-// RowPictures holds the three pictures of a row.
 using RowPictures = std::array<CoveredPicture, kColumns>;
 
 // A RowProgress receives the finished fraction of a row's work, 0 to 1.

@@ -26,8 +26,7 @@ struct PreviewLight {
 // and kInput like load_environment.
 PreviewLight preview_light(const std::string& word, double distance, double exposure);
 
-// Returns `studio`, which lights spheres of built-in models, or `45` for other models or if no shape is a
-// sphere.
+// Returns `studio`, which lights spheres of built-in models, or `45` for other models or without a sphere.
 std::string default_light(const Fit& fit, const std::vector<Shape>& shapes);
 
 struct PreviewOptions {

@@ -29,7 +29,6 @@ struct PictureGrid {
 // (both above 0). Texels of small maps are repeated; a pixel of a large map shows at most nine texels.
 PictureGrid picture_grid(std::size_t width, std::size_t height, int side);
 
-// Returns the texels of the grid.
 std::vector<WarpTexel> samples_of(const PictureGrid& grid, const std::vector<WarpTexel>& texels);
 
 using DisplayColor = std::array<float, 3>;  // 0 to 1, encoded for a display

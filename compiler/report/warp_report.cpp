@@ -66,8 +66,7 @@ void draw_lines(const PlotBox& box, double scale, Image* picture) {
   for (int x = 0; x < picture->width && row >= 0 && row < picture->height; ++x) mark(x, row);
 }
 
-// Returns the bounding box of all layers, enlarged by a twentieth, and widened to an aspect ratio of 1:1 to
-// 3:1.
+// Returns the bounding box of all layers, enlarged by a twentieth, with an aspect ratio of 1:1 to 3:1.
 PlotBox box_around(const std::vector<PlottedPoints>& layers) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};

@@ -13,8 +13,7 @@
 
 namespace remap {
 
-// A WarpPictures holds pictures in display values. The longer side of maps and the width of spaces are 512
-// pixels.
+// A WarpPictures holds pictures in display values. Longer sides of maps and widths of spaces are 512 pixels.
 struct WarpPictures {
   Image source, target, result;          // shaded by shaded_map()
   Image source_strokes, target_strokes;  // the dimmed maps with the strokes in their colors

@@ -81,8 +81,7 @@ double mean_rmse(const Pictures& source, const Pictures& dark, const Pictures& b
   return sum / static_cast<double>(source.size());
 }
 
-// Returns the position of the minimum of the parabola through three values at -1, 0 and 1, clamped to [-1,
-// 1].
+// Returns the minimum's position of the parabola through values at -1, 0 and 1, clamped to [-1, 1].
 double vertex(double before, double middle, double after) {
   const double bend = before - 2.0 * middle + after;
   return bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;

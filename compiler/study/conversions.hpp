@@ -55,8 +55,7 @@ struct Conversion {
 // method. kShipped applies to pairs with a fit in `options.fits`.
 std::vector<Conversion> conversions_of(const EnvironmentsOptions& options);
 
-// This is the height of the pictures that the search compares, and also its number of progress calls per
-// alpha.
+// This is the height of the pictures in the search, and its number of progress calls per alpha.
 inline constexpr int kLeastErrorResolution = 48;
 
 // Returns the target parameters of least mean RMSE over the environments for each of `starts`, which have one

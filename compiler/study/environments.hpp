@@ -28,9 +28,8 @@ struct EnvironmentComparison {
 
 struct EnvironmentsResult {
   std::vector<EnvironmentComparison> comparisons;  // sorted by alpha, pair, method, environment
-  // If `sheet_alpha` is set, this holds one labelled sheet for each environment, in display values. A row
-  // shows a pair: the source, then the result of each method. It is dark if a method does not apply to a
-  // pair.
+  // If `sheet_alpha` is set, these are labelled sheets, one per environment. A row shows a pair: the source,
+  // then the result of each method. It is dark if a method does not apply to a pair.
   std::vector<Image> sheets;
 };
 

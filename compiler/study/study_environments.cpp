@@ -1,5 +1,4 @@
-// This file is `remap-study environments`, which compares pictures of source and converted spheres under
-// environment maps.
+// `remap-study environments` compares pictures of source and converted spheres under environment maps.
 #include <algorithm>
 
 #include "build/fit_folder.hpp"

@@ -35,8 +35,7 @@ void add_output_options(Command& app, StudyOptions& options, unsigned& jobs, con
 // and none is overexposed. Throws kUsage if the exposure is not above 0, and the errors of load_environment.
 std::vector<Environment> read_environments(const StudyOptions& options);
 
-// Returns the folder of fits that the user named, otherwise the default. Returns an empty path if the default
-// is missing.
+// Returns the user's folder of fits, otherwise the default. Returns an empty path if there is none.
 std::filesystem::path fit_folder_of(const StudyOptions& options);
 
 // Creates the output folder for the results of the study `name`. Throws kUsage for pictures without a folder.

@@ -1,5 +1,4 @@
-// This file is `remap-study reach`. It measures how much closer the target could come than converters bring
-// it.
+// `remap-study reach` measures how much closer the target could come than converters bring it.
 #include <algorithm>
 #include <memory>
 

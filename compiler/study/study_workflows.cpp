@@ -1,5 +1,4 @@
-// This file is `remap-study workflows`, which measures what conversions from the specular to the metallic
-// workflow lose.
+// `remap-study workflows` measures what conversions from the specular to the metallic workflow lose.
 #include <filesystem>
 
 #include "build/fit_folder.hpp"

@@ -57,8 +57,7 @@ struct WorkflowPictures {
   std::vector<double> ssim;  // for each light: of luma
 };
 
-// A WorkflowComparison holds all methods in one convention. The last is kLeastErrorMethod, a search without a
-// conversion.
+// A WorkflowComparison holds all methods in one convention. The last is kLeastErrorMethod, a search.
 struct WorkflowComparison {
   std::string convention;  // `plain`, `gltf`
   std::vector<WorkflowMethod> methods;
@@ -95,7 +94,7 @@ enum class FamilyKind {
 };
 inline constexpr std::size_t kFamilyKinds = 3;
 
-// A RoundTripErrors holds RMS errors of one method over the materials of one kind. Base color is sRGB, all
+// A RoundTripErrors holds RMS errors of one method over one kind of materials. Base color is sRGB, all
 // channels.
 struct RoundTripErrors {
   std::string method;

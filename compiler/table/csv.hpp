@@ -51,7 +51,6 @@ struct Csv {
   double number(const CsvLine& line, const CsvCell& cell, const std::string& column_name) const;
 };
 
-// Splits one line into its cells.
 std::vector<CsvCell> split_csv_line(std::string_view line, char delimiter);
 
 // Parses UTF-8 text delimited by comma, tab or semicolon, whichever occurs most in the header row. Cells

@@ -32,8 +32,7 @@ MaterialTable parse_material_table(std::string_view text, const std::string& nam
 
 std::string material_table_text(const MaterialTable& table);
 
-// An AnyTable is a table of either form: alpha and specular (remapc sweep), or named parameters (remapc
-// sample).
+// An AnyTable is a table of alpha and specular (remapc sweep), or of named parameters (remapc sample).
 using AnyTable = std::variant<Table, MaterialTable>;
 
 // Reads CSV text that was parsed as the form that its comments declare. A comment source_columns makes it a

@@ -38,7 +38,6 @@ bool is_published(const Csv& csv) {
          !holds("specular2", "");
 }
 
-// A TableReader parses one table.
 class TableReader {
  public:
   TableReader(const Csv& csv, const ColumnMap& map) : csv_(csv), map_(map) {

@@ -1,6 +1,5 @@
-// This file stores tables as files. Commands write plain CSV, which numpy, pandas and spreadsheets read
-// without options. FILE.json beside it records how it was made (decision 052). Files with comments are read
-// as well.
+// Commands write plain CSV, which numpy, pandas and spreadsheets read without options. FILE.json beside it
+// records how it was made (decision 052). Files with comments are read as well.
 #pragma once
 
 #include <filesystem>

@@ -50,8 +50,7 @@ struct Placement {
 Placement placement_of(const MaterialRef& material, const AppearanceFeatures& features,
                        const AppearanceSpace& space, int dimension);
 
-// Return positions of all texels, or of `texels`, with NaN for texels that are not finite or not in the
-// table.
+// Return positions of all texels, or of `texels`, with NaN for those not finite or not in the table.
 Points positions_of(const Placement& placement, const MaterialRef& material);
 Points positions_of(const Placement& placement, const MaterialRef& material,
                     const std::vector<std::uint32_t>& texels);

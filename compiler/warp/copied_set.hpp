@@ -1,5 +1,4 @@
-// This file writes the exact copy of a warp to files: each texel of the source is copied from one template
-// texel.
+// This file writes a warp's exact copy to files: each source texel is copied from one template texel.
 #pragma once
 
 #include <array>
@@ -10,7 +9,6 @@
 
 namespace remap {
 
-// A CopiedTemplate holds the template and its table.
 struct CopiedTemplate {
   MaterialRef material;
   MapFrame frame;

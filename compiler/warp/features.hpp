@@ -75,8 +75,7 @@ Eigen::VectorXd samples_of(const SampledFeatures& features, const TabulatedMater
 Eigen::VectorXd samples_of(const SampledFeatures& features, const MaterialRef& material, std::uint32_t texel);
 Eigen::VectorXd features_of_samples(const SampledFeatures& features, const Eigen::VectorXd& samples);
 
-// Works like appearance_features(), by samples. `weights` come from direction_weights(), and are ignored for
-// profiles.
+// Works like appearance_features(), by samples. `weights` are direction_weights(), unused for profiles.
 FeaturePair sampled_features(const MaterialRef& source, const MaterialRef& target,
                              AppearanceDistance distance, const Eigen::VectorXd& weights);
 

@@ -1,5 +1,4 @@
-// This file holds the specular lobe of a model over directions and alpha, from which features of parameters
-// are computed.
+// This file tabulates a model's specular lobe over directions and alpha, to compute features of parameters.
 #pragma once
 
 #include <vector>
@@ -21,7 +20,7 @@ struct WidthPosition {
 };
 WidthPosition width_position(double alpha) noexcept;
 
-// A LobeTable holds slope and base of a model (Lobe in brdf.hpp) at every direction (row) and node of alpha
+// A LobeTable holds slope and base of a model (Lobe in brdf.hpp) by direction (row) and node of alpha
 // (column).
 struct LobeTable {
   Eigen::MatrixXd slope, base;
@@ -30,8 +29,7 @@ LobeTable lobe_table(const BrdfModel& model, const std::vector<QuadratureDirecti
 
 inline constexpr std::size_t kReferenceTexels = 400;
 
-// Returns the mean reflectance of a material over kReferenceTexels texels and all channels, at every
-// direction.
+// Returns a material's mean reflectance over kReferenceTexels texels and all channels, by direction.
 Eigen::VectorXd mean_reflectance(const WarpMaterial& material, const LobeTable& table);
 
 }  // namespace remap

@@ -81,8 +81,7 @@ struct Overlap {
   std::size_t other = 0;  // index of that stroke
   double share = 0.0;     // of the texels, 0 to 1
 };
-// Finds the stroke that covers the largest part of `stroke` on one side. Texel indices are below
-// `texel_count`.
+// Finds the stroke that covers most of `stroke` on one side. Indices are below `texel_count`.
 Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,
                         std::size_t stroke, std::size_t texel_count);
 

@@ -15,8 +15,7 @@ struct Extent {
 };
 Extent extent_of(const Points& positions, Eigen::Index axis);
 
-// Returns the mean position of `texels`, ignoring texels that are not finite, or the origin if there are
-// none.
+// Returns the mean position of the finite ones of `texels`, or the origin if there are none.
 Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels);
 
 struct Occupancy {

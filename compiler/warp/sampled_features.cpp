@@ -36,8 +36,7 @@ Eigen::VectorXd radial_measure(const std::vector<double>& radii) {
   return measure;
 }
 
-// Returns one channel of a profile at a radius: linear between samples, constant up to the first, 0 beyond
-// the last.
+// Returns one channel of a profile at a radius: linear, constant up to the first sample, 0 beyond the last.
 double profile_at(const std::vector<double>& radii, const float* samples, double radius) {
   const auto above = std::lower_bound(radii.begin(), radii.end(), radius);
   if (above == radii.end()) return 0.0;

@@ -209,8 +209,7 @@ struct ColorStroke {
                     "without a picture below)");
 }
 
-// Removes the clusters that are edges of strokes. `first_stroke` is the index of the first cluster after the
-// background.
+// Removes the clusters that are edges of strokes. `first_stroke` is the first cluster after the background.
 std::vector<ColorCount> without_rims(const std::vector<ColorCount>& clusters, const Painting& painting,
                                      const std::vector<std::uint8_t>& labels, std::size_t first_stroke) {
   std::vector<Surroundings> around(clusters.size());

@@ -30,8 +30,7 @@ std::vector<StrokePair> read_color_strokes(const std::filesystem::path& source_i
                                            const std::filesystem::path& template_image,
                                            const MapFrame& target);
 
-// A StrokeChannel receives one channel: its stored values, row-major from the top; integers are scaled to 0
-// to 1.
+// A StrokeChannel receives one channel: stored values, row-major from the top, integers as 0 to 1.
 using StrokeChannel = std::function<void(const std::vector<float>& values, bool is_alpha)>;
 
 // Calls `use` for each channel in the order of the file. Throws kInput if the image cannot be read or its

@@ -27,8 +27,7 @@ struct TabulatedSet {
 bool is_tabulated_folder(const std::filesystem::path& folder);
 
 // Reads a folder. Throws kInput for a folder without a table, a file that cannot be read, and unknown columns
-// or channels. Also throws it for radii that differ between channels, and for values that are negative or not
-// finite.
+// or channels. Also throws it for radii that differ between channels, and negative or infinite values.
 TabulatedSet read_tabulated_set(const std::filesystem::path& folder);
 
 // Returns the reflectance of a MERL file at the directions of half_vector_quadrature(), channel by channel.

@@ -58,8 +58,7 @@ struct MaterialRequest {
   bool from_metallic = false, is_albedo = false;
 };
 
-// Requests the maps of the specular workflow if there are any, then of the metallic workflow, then of the
-// diffuse lobe.
+// Requests the maps of the specular workflow, otherwise of the metallic one, otherwise the diffuse map.
 MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
   const FoundSet set = only_set(folder, albedo);
   MaterialRequest result;

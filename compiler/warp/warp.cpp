@@ -54,8 +54,7 @@ Selection selection_of(const MaterialRef& material, const std::vector<StrokePair
   return result;
 }
 
-// Returns the number of directions along which the centres of the strokes differ by more than a tenth of the
-// radius.
+// Returns the number of directions in which the strokes' centres differ by over a tenth of the radius.
 int fixed_directions(const Points& centres) {
   const Points centred = centres.rowwise() - centres.colwise().mean();
   const Eigen::VectorXd squares = symmetric_eigen(centred.transpose() * centred).values;

@@ -1,6 +1,5 @@
-// This file runs child processes. Each child has a thread that forks it, reads its output and reaps it. The
-// kernel signals the death of a parent when the thread that forked dies, so that thread must live as long as
-// the child.
+// Each child process has a thread that forks it, reads its output and reaps it. The kernel signals the death
+// of a parent when the thread that forked dies, so that thread must live as long as the child.
 #include "worker/child_process.hpp"
 
 #include <algorithm>

@@ -44,8 +44,7 @@ class ChildProcess {
   // Adds a line of output that is not an answer to the log.
   void note(const std::string& line);
 
-  // Describes how it ended: `died with signal 9`, `ended with exit code 3`, or `closed its input` if it still
-  // runs.
+  // Describes how it ended: `died with signal 9`, `ended with exit code 3`, or, running, `closed its input`.
   std::string ending();
 
   // Returns the last lines of its standard error, `A | B | C`, or an empty text if there are none.

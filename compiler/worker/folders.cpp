@@ -41,8 +41,7 @@ fs::path folder_in_memory() {
   return is_writable_folder(memory) ? memory : fs::temp_directory_path();
 }
 
-// Returns the mark of the process in the name of a private folder, before the six letters that make it
-// unique.
+// Returns the process's mark in a private folder's name, before the six letters that make it unique.
 std::string_view mark_in(std::string_view name) {
   const std::size_t end = name.rfind('-');
   if (!name.starts_with(kPrefix) || end == std::string_view::npos || end <= kPrefix.size()) return {};

@@ -5,7 +5,7 @@
 
 namespace remap {
 
-// Returns where scripts/renderers installs: `REMAP_RENDERERS`, otherwise `remap/renderers` in the user's data
+// Returns where scripts/renderers installs: `REMAP_RENDERERS`, or `remap/renderers` in the user's data
 // folder.
 std::filesystem::path renderers_folder();
 
@@ -16,8 +16,7 @@ std::filesystem::path default_cache_folder();
 // configuration folder. The file may be missing.
 std::filesystem::path own_worker_list();
 
-// Returns the list that ships with remap, found from the running program, or an empty path if it is not
-// installed.
+// Returns remap's own list, found from the running program, or an empty path if it is not installed.
 std::filesystem::path shipped_worker_list();
 
 // A PrivateFolder is a folder of this process, deleted with the object. Its name holds the mark of this

@@ -47,7 +47,6 @@ std::string folder_name(const std::string& text) {
   return name.substr(0, 60);
 }
 
-// Returns the size of a picture in bytes.
 std::size_t picture_bytes(const PictureRequest& request) {
   const auto side = static_cast<std::size_t>(request.resolution);
   return side * side * static_cast<std::size_t>(request.channels) * sizeof(float);

@@ -21,8 +21,7 @@ struct WorkerDescription {
   bool meshes = false;  // accepts shapes other than the sphere, as files
 };
 
-// A PictureRequest is the request for one picture, without parts that differ from run to run. It is the key
-// of a cache.
+// A PictureRequest is the request for one picture, the same in every run. It is the key of a cache.
 struct PictureRequest {
   std::string text;   // JSON: model, parameters, scene, seed, channels
   std::string shown;  // `mitsuba3/ggx alpha 0.2, specular 0.5, light 60, 256 x 256`
@@ -45,8 +44,7 @@ bool is_answer(const std::string& line);
 // Returns the error that an answer reports, if it does. Throws kInput, beginning with `context`, if the line
 // is not the answer to request `id`.
 std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& context);
-// Reads a description. `prefix` is the part of every model's name before the `/`; an empty prefix accepts
-// any.
+// `prefix` is the part of every model's name before the `/`; an empty prefix accepts any.
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& context);
 

@@ -1,6 +1,5 @@
 // This file combines all renderers: the built-in one and workers. A worker is started when a model with its
-// prefix is first requested. The workers come from the command line, the user's own list, and the shipped
-// list.
+// prefix is first requested. Workers come from the command line, the user's list, and the shipped list.
 #pragma once
 
 #include <filesystem>
@@ -56,8 +55,7 @@ std::vector<WorkerEntry> read_worker_list(const std::filesystem::path& path);
 WorkerEntry parse_worker(const std::string& text);
 
 // Returns all workers by name. If several have the same name, the first counts, in the order `given`, the
-// user's list, the shipped list. Throws kInput for a list that cannot be read, and kUsage for errors in
-// `given`.
+// user's list, the shipped list. Throws kInput for an unreadable list, kUsage for errors in `given`.
 std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
 
 }  // namespace remap

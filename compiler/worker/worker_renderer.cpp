@@ -29,8 +29,7 @@ WorkerSettings settled(WorkerSettings settings) {
 
 }  // namespace
 
-// A Turn is the right to render one picture. Another thread that needs the same picture waits until it is
-// done.
+// A Turn is the right to render one picture. Other threads wait for the same picture.
 class WorkerRenderer::Turn {
  public:
   Turn(const WorkerRenderer& renderer, const PictureRequest& request)
@@ -134,8 +133,7 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
   }
 }
 
-// Throws if it was one loss too many. Otherwise it waits, because a lost machine is only recognised a little
-// later.
+// Throws if it was one loss too many. Otherwise it waits, because a lost machine is noticed late.
 void WorkerRenderer::accept_loss(const LostWorker& lost, int losses) const {
   if (losses == kMostLosses)
     throw input_error(

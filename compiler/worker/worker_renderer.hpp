@@ -32,8 +32,7 @@ struct WorkerSettings {
   // This is called from any thread with urgent warnings: the first process that is lost, the first damaged
   // picture of the cache, and that the cache cannot be written. The run continues.
   std::function<void(const std::string&)> on_warning;
-  // This is the pause before the second process renders a picture that cost one process. It doubles before
-  // the third.
+  // This is the pause before a second process renders a picture that cost one. It doubles before the third.
   std::chrono::milliseconds pause{1000};
 };
 

@@ -1,5 +1,4 @@
-// This file reads materials of glTF 2.0 files (.gltf, .glb), with the Khronos extensions for surface
-// reflection.
+// This file reads materials of glTF 2.0 files (.gltf, .glb), with Khronos extensions for reflection.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -33,7 +32,6 @@ namespace {
 constexpr double kUsualIor = 1.5;
 constexpr std::uintmax_t kLargestAsset = std::uintmax_t{4} << 30;  // the limit of the glb format
 
-// An InputRole is the role of an input.
 struct InputRole {
   GltfInput input;
   Role role;

@@ -288,8 +288,7 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
   });
 }
 
-// Finds banding: a step of 8 bits at roughness r widens alpha = r^2 by 2 / (255 r), which is 20 % at 10 /
-// 255.
+// Finds banding: an 8-bit step at roughness r widens alpha = r^2 by 2 / (255 r), so by 20 % at 10 / 255.
 void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
              std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {

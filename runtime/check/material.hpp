@@ -1,5 +1,4 @@
-// This file describes a material as its files do: maps with roles and texels, factors, and further statements
-// of an asset.
+// This file describes a material as its files do: maps with roles and texels, factors, and other statements.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +31,7 @@ struct TexelSample {
 
 // Reads an image of any size in bands. Throws kInput with the file's name.
 TexelSample sample_of(const std::filesystem::path& file);
-// Reads a texture of an asset in the same way. It also reads WebP with alpha, which only conversions of
-// assets do.
+// Reads a texture of an asset in the same way. Like conversions of assets, it reads WebP with alpha.
 TexelSample sample_of_texture(const std::filesystem::path& file);
 
 // A MaterialMap is a file of a material, or an image inside one.
@@ -109,8 +107,7 @@ struct CheckedMaterial {
   bool same_size(const MaterialUse& a, const MaterialUse& b) const;
 };
 
-// A FoundMaterials holds the materials of a folder and its subfolders: sets of maps by their names, and glTF
-// and MTL assets.
+// A FoundMaterials holds the materials of a folder and its subfolders: sets of maps, and glTF and MTL assets.
 struct FoundMaterials {
   std::vector<CheckedMaterial> materials;
   std::vector<std::string> problems;  // a message for each file or folder that cannot be read
@@ -118,8 +115,8 @@ struct FoundMaterials {
   std::shared_ptr<const ScratchFolder> embedded;
 };
 
-// Finds the materials of a folder, of a glTF or MTL file, or of a single map. Throws kInput if `path` does
-// not exist.
+// Finds the materials of a folder, a glTF or MTL file, or a single map. Throws kInput if `path` does not
+// exist.
 FoundMaterials materials_of(const std::filesystem::path& path, const Naming& naming);
 
 // Adds the materials of one asset.

@@ -49,8 +49,7 @@ bool same_folder(const fs::path& a, const fs::path& b) {
   return (a / "").lexically_normal() == (b / "").lexically_normal();
 }
 
-// Adds the roughness maps of sets in the same folder to asset materials, because they may contradict each
-// other.
+// Adds roughness maps of sets in the same folder to asset materials, because both may contradict.
 void add_neighbours(FoundMaterials& found) {
   for (CheckedMaterial& material : found.materials) {
     if (material.kind != MaterialKind::kGltf) continue;

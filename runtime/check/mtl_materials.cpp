@@ -1,5 +1,4 @@
-// This file reads materials of Wavefront MTL files, with the lines for metallic and roughness that later
-// tools added.
+// This file reads materials of Wavefront MTL files, with the metallic and roughness lines of later tools.
 #include <algorithm>
 #include <array>
 #include <string_view>

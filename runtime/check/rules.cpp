@@ -24,8 +24,7 @@ constexpr std::array kExtensions = {"KHR_materials_specular"sv,
                                     "KHR_materials_dispersion"sv,
                                     "KHR_materials_diffuse_transmission"sv,
                                     "KHR_materials_pbrSpecularGlossiness"sv};
-// These are all extensions except the last one. Importers that ignore fewer of them have their own lists
-// below.
+// These are all extensions except the last one. Importers that ignore fewer have lists below.
 constexpr std::span kAllButSpecGloss = std::span(kExtensions).first(10);
 constexpr std::array kThree = {"KHR_materials_pbrSpecularGlossiness"sv};
 constexpr std::array kUnreal = {"KHR_materials_volume"sv, "KHR_materials_iridescence"sv,

@@ -1,5 +1,4 @@
-// This file declares the rules that find mistakes in a material. Each rule states the pattern that it
-// detects.
+// This file declares the rules that find mistakes in a material, each with the pattern that it detects.
 #pragma once
 
 #include <span>
@@ -50,8 +49,7 @@ struct MaterialFinding {
   Fix fix;
 };
 
-// A GltfConsumer is a program for which files are checked, by its documentation (docs/check.md has the
-// links).
+// A GltfConsumer is a program for which files are checked, by its documentation (links: docs/check.md).
 struct GltfConsumer {
   std::string_view name;
   std::string_view title;
@@ -74,8 +72,7 @@ std::span<const Rule> rules();
 // Returns the findings of all rules in a material whose maps have been read. `reader` may be null.
 std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader);
 
-// This namespace holds the rules for single maps, for pairs of maps and for statements of assets; rules()
-// lists them.
+// This namespace holds rules for single maps, pairs of maps and statements of assets; rules() lists them.
 namespace look {
 using Look = void(const CheckedMaterial&, const GltfConsumer*, const Rule&, std::vector<MaterialFinding>&);
 Look linear_color, specgloss_channels, specular_color, constant_map, banding, bad_values, metallic_greys,

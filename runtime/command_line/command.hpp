@@ -62,8 +62,7 @@ Reader<Value> one_of(const NamedValues<Value, Count>& table, const std::string& 
           names_of(table)};
 }
 
-// Returns a reader for one of the entries of `table`, by their field `name`. The table must live as long as
-// the program.
+// Returns a reader for an entry of `table`, by its field `name`. The table must live as long as the program.
 template <typename Entry>
 Reader<const Entry*> one_of(std::span<const Entry> table, const std::string& noun) {
   std::vector<std::string> known;
@@ -102,8 +101,7 @@ class Option {
   Option* required();
   // For lists: sets the character between two items of one word.
   Option* delimiter(char character);
-  // For lists: decides whether words after the first belong to the option. If not, the option is repeated for
-  // each.
+  // For lists: decides whether words after the first belong to the option. If not, repeat the option.
   Option* allow_extra_args(bool allowed);
   Option* expected(int min, int max);
   // For lists: items come in groups of this many words.

@@ -1,5 +1,4 @@
-// This file turns requests to stop the program (SIGINT, SIGTERM, SIGHUP, SIGPIPE) into a flag that long work
-// polls.
+// This file turns requests to stop (SIGINT, SIGTERM, SIGHUP, SIGPIPE) into a flag that long work polls.
 #pragma once
 
 #include <atomic>

@@ -94,9 +94,8 @@ std::string refused_value_text(const CLI::App& command, const std::string& what)
          "' (allowed: " + allowed + ")";
 }
 
-// Returns the message for a command line that `app` refused with `error`. It states the mistake and the fix,
-// as in `unknown option --form (did you mean --from?)` or `--output is required (see texremap convert
-// --help)`.
+// Returns the message for a command line that `app` refused with `error`. It has the mistake and the fix,
+// such as `unknown option --form (did you mean --from?)`.
 std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
   // Report a mistyped option first, because it is the likelier reason: with `--form a`, --from is missing.
@@ -128,8 +127,7 @@ std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) 
   return what + see_help(command);
 }
 
-// Returns the words in reverse, as CLI11 reads them. `PROGRAM help COMMAND` and `PROGRAM version` become
-// options.
+// Returns the words in reverse, as for CLI11. `PROGRAM help COMMAND` and `PROGRAM version` become options.
 std::vector<std::string> words_of(int argc, const char* const* argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (!words.empty() && words.front() == "help") {

@@ -1,5 +1,4 @@
-// This file gives the text of `--version`: the version, and the facts about the build that an error report
-// needs.
+// This file gives the text of `--version`: the version, and facts about the build for error reports.
 #pragma once
 
 #include <string>

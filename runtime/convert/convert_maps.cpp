@@ -40,8 +40,7 @@ float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
   return static_cast<float>(bits >> 40) * 0x1p-24f - 0.5f;
 }
 
-// Rows holds a row for each channel of each parameter of a segment. A row has its own memory or lies in a
-// map.
+// Rows holds a row for each channel of a segment's parameters. A row has its own memory or is in a map.
 template <typename Float>
 class SegmentRows {
  public:
@@ -102,8 +101,7 @@ struct Texels {
   Byte* at(const Segment& segment) const { return remap::at(channels[0].view, segment.x, segment.y); }
 };
 
-// Returns the groups of channels that fill texels of floats together. Parameters with the same map have
-// separate groups.
+// Returns the groups of channels that fill texels of floats together. Parameters of one map are separate.
 template <typename Byte>
 std::vector<Texels<Byte>> filled_texels(const std::vector<PlacedView<Byte>>& channels) {
   std::vector<Texels<Byte>> all;
@@ -306,8 +304,7 @@ void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) cons
   }
 }
 
-// Returns true if `row` shares memory with another source row of the segment. The row of the same channel
-// does not count.
+// Returns true if `row` shares memory with another source row. The same channel's row does not count.
 bool Conversion::is_source_of_another(Parameter target, std::size_t channel, const float* row,
                                       std::size_t count, const Scratch& scratch) const {
   const std::less<const float*> before;

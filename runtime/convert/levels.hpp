@@ -1,6 +1,5 @@
 // This file converts the 256 levels of an 8-bit map by tables: the value of each level, and the closest level
-// of every float. It works for any rising curve whose levels are further apart than 128th parts of a power of
-// two.
+// of every float. It works for any rising curve with levels further apart than 128th parts of a power of two.
 #pragma once
 
 #include <algorithm>

@@ -46,8 +46,7 @@ Stored from_float(float value) noexcept {
   }
 }
 
-// Calls `work` with the stride. For packed values the stride is a constant, so that compilers vectorise the
-// loops.
+// Calls `work` with the stride. For packed values it is a constant, so that compilers vectorise the loops.
 template <std::size_t kSize, typename Work>
 void with_stride(std::size_t stride, Work work) noexcept {
   if (stride == kSize) return work(std::integral_constant<std::size_t, kSize>{});
@@ -167,8 +166,7 @@ std::uint16_t float_to_half(float value) noexcept {
   constexpr std::uint32_t kInfinity = std::uint32_t{255} << 23;
   constexpr std::uint32_t kHalfOverflow = std::uint32_t{127 + 16} << 23;        // 65536
   constexpr std::uint32_t kHalfSmallestNormal = std::uint32_t{127 - 14} << 23;  // 2^-14
-  // This is 0.5. One unit in its last place is the step of half denormals, 2^-24, so the addition rounds to
-  // this step.
+  // This is 0.5. A unit in its last place is the step of half denormals, 2^-24, so additions round to it.
   constexpr std::uint32_t kDenormalMagic = std::uint32_t{(127 - 15) + (23 - 10) + 1} << 23;
   const float lined_up = __builtin_bit_cast(float, magnitude) + __builtin_bit_cast(float, kDenormalMagic);
   const std::uint32_t denormal = __builtin_bit_cast(std::uint32_t, lined_up) - kDenormalMagic;

@@ -32,8 +32,7 @@ struct ConverterData {
   bool operator==(const ConverterData&) const = default;
 };
 
-// Returns a file of converters in the given order. The same converters give the same bytes, and floats read
-// back exactly.
+// Returns a file of converters in order. Equal converters give equal bytes, and floats read back exactly.
 std::string converters_to_json(const std::vector<ConverterData>& converters);
 // Reads such a file. Throws kInput, beginning with `context`, for any other text.
 std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& context);

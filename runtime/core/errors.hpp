@@ -1,5 +1,4 @@
-// This file makes the errors of each kind. Callers throw them: `throw input_error("place: what is wrong
-// (fix)")`.
+// This file makes the errors of each kind. Throw them: `throw input_error("place: what is wrong (fix)")`.
 #pragma once
 
 #include <cerrno>

@@ -21,8 +21,7 @@ constexpr std::string_view kUnfinished = ".unfinished-";
   throw system_error(ErrorKind::kOutput, path.string() + ": cannot be written", code);
 }
 
-// Returns the mark in the name of an unfinished file, before its random letters. Returns an empty text for
-// other names.
+// Returns the mark in an unfinished file's name, before its random letters. Returns "" otherwise.
 std::string_view mark_in(std::string_view name) {
   const std::size_t found = name.rfind(kUnfinished);
   if (!name.starts_with('.') || found == std::string_view::npos) return {};

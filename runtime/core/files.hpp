@@ -87,8 +87,7 @@ class OwnedFile {
   OwnedFile(const std::filesystem::path& folder, const std::filesystem::path& below, OwnFile use);
   bool exists() const noexcept { return file_.is_open(); }
   InputFile content() const { return {path_, file_.get()}; }
-  // Appends with one write, so that lines of several processes do not mix. Waits for the disk. Throws
-  // kOutput.
+  // Appends with one write, so that lines of processes do not mix. Waits for the disk. Throws kOutput.
   void append(std::string_view text) const;
 
  private:
@@ -105,8 +104,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 // Throws kOutput if `path` is a file already, unless `force` is set. All results follow this rule.
 void require_new(const std::filesystem::path& path, bool force);
 
-// Returns the path of the installed file `below` in the prefix of the running program, or an empty path if it
-// is missing.
+// Returns the path of the installed file `below` in the running program's prefix, or an empty path.
 std::filesystem::path installed(const std::filesystem::path& below);
 
 // Creates the folder of `path` if it does not exist. Throws kOutput on failure.

@@ -18,8 +18,7 @@ namespace remap {
 void require_regular_file(const std::filesystem::path& path);
 
 // Sets the folders whose files others may have put there. A file below one of them must still lie below it
-// after links are resolved. The setting holds for the whole process; a command sets it before it reads its
-// inputs.
+// after links are resolved. The setting holds for the whole process; set it before reading inputs.
 void confine_inputs(std::vector<std::filesystem::path> folders);
 
 class InputFile {
@@ -34,8 +33,7 @@ class InputFile {
   std::uintmax_t size() const noexcept { return size_; }  // the size when the file was opened
   int descriptor() const noexcept { return descriptor_; }
 
-  // Reads `size` bytes from `place` on, and fewer only at the end of the file. Many threads may call it.
-  // Throws kInput.
+  // Reads `size` bytes from `place` on, and fewer only at the end of the file. Thread-safe. Throws kInput.
   std::size_t read(std::uintmax_t place, char* bytes, std::size_t size) const;
 
  private:
@@ -61,8 +59,7 @@ void for_pieces(const InputFile& file, const Take& take) {
 // InputLines reads the lines of a file, one after another.
 class InputLines {
  public:
-  // This is the longest line that is read. Lines of this project's files are far shorter, but a sparse file
-  // may be huge.
+  // Limits a line. This project's files have far shorter lines, but a sparse file may be huge.
   static constexpr std::size_t kLongest = std::size_t{16} << 20;
   // Begins to read at `start`. `file` must outlive this object.
   explicit InputLines(const InputFile& file, std::uintmax_t start = 0) : file_(file), end_(start) {}

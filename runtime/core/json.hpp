@@ -74,8 +74,7 @@ class Json {
   const List* entries() const { return std::get_if<List>(&value_); }
   const Object* fields() const { return std::get_if<Object>(&value_); }
   List* entries() { return std::get_if<List>(&value_); }
-  // number() returns nothing if this is not a number. whole() returns nothing if this is not a signed 64-bit
-  // integer.
+  // Return nothing if this is not a number (number()) or not a signed 64-bit integer (whole()).
   std::optional<double> number() const;
   std::optional<std::int64_t> whole() const;
   bool is_null() const { return std::holds_alternative<std::monostate>(value_); }

@@ -92,8 +92,7 @@ double rounded_up(double value, int digits) {
 
 double rounded(double value, int digits) { return parse_number(scientific(value, digits)).value_or(value); }
 
-// Keeps the float in memory, because gcc 12 at -O3 omits the rounding of two neighbours converted as a
-// vector.
+// Keeps the float in memory, because gcc 12 at -O3 does not round two neighbours in a vector.
 double rounded_to_float(double value) {
   const volatile float rounded = static_cast<float>(value);
   return static_cast<double>(rounded);

@@ -1,5 +1,4 @@
-// This file packs values as bytes for another process of the same program. Numbers are stored as they are in
-// memory.
+// This file packs values as bytes for another process of the same program. Numbers are as in memory.
 #pragma once
 
 #include <cstddef>

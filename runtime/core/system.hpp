@@ -98,8 +98,7 @@ struct ProcessCopy {
 // Starts a copy, which calls `serve` with its end of the stream and then ends. The copy also ends with this
 // process, which must have only one thread. Returns nothing if the system cannot copy processes.
 std::optional<ProcessCopy> copy_process(const std::function<void(int descriptor)>& serve);
-// Closes the stream and waits for the end. Returns `by signal 11 (Segmentation fault)`, or `with exit code
-// 0`.
+// Closes the stream and waits. Returns `by signal 11 (Segmentation fault)`, or `with exit code 0`.
 std::string end_of(const ProcessCopy& copy);
 // Asks the process to stop, as Ctrl-C does.
 void interrupt(const ProcessCopy& copy);

@@ -58,8 +58,7 @@ float furthest(float good, float bad, const Predicate& holds) {
   }
 }
 
-// Rounds `value` to 4 significant digits, downwards or upwards. Returns `end` if the value is that end of the
-// range.
+// Rounds `value` to 4 significant digits, downwards or upwards. Returns `end` if the value is that end.
 double shortened(float value, double end, bool upwards) {
   if (value == float_of(end) || value == 0.0f) return end;
   const double exact = static_cast<double>(value);

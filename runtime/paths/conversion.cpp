@@ -15,8 +15,7 @@ struct NamedEnd {
   const WorkflowModel* model = nullptr;  // null if `name` is a BRDF model
   std::optional<WorkflowKind> kind;      // from the request
 
-  // The graph gives the roughness parameter of a BRDF model. The search for a path refuses an unknown model
-  // later.
+  // The graph gives the roughness parameter of a BRDF model. The search for a path refuses unknown models.
   const ConverterGraph* graph = nullptr;
 
   bool has_workflow() const { return model != nullptr || kind; }

@@ -1,5 +1,5 @@
-// This file finds the least paths through a directed graph of numbered nodes and edges. path.hpp explains the
-// numbers.
+// This file finds the least paths through a directed graph of numbered nodes and edges. path.hpp explains
+// them.
 #pragma once
 
 #include <cstddef>

@@ -83,7 +83,6 @@ std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std:
   return std::nullopt;
 }
 
-// Adds the sets of one folder.
 void add_sets(const ImageFolder& folder, const std::string& folder_name, const Naming& naming,
               Discovery& discovery) {
   std::vector<NamedMap> maps;

@@ -55,13 +55,11 @@ struct FoundSet {
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
 // Returns the channel names for a request, or nothing for the whole image.
 std::vector<std::string> channel_names(Channels channels);
-// Returns the encoding of a map of this role. Returns nothing if the map holds roughness as the model defines
-// it.
+// Returns the encoding of a map of this role. Returns nothing if the map holds the model's roughness.
 std::optional<RoughnessEncoding> encoding_of(Role role);
 // Sets `state`, `width`, `specular` and `remarks` from the roles of the maps.
 void judge(FoundSet& set);
-// Returns a message such as `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep
-// one`.
+// Returns a text like `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep one`.
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
 
 struct DiscoveryOptions : WalkOptions {

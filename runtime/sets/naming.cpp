@@ -19,8 +19,7 @@ struct NameParts {
 
 namespace {
 
-// These are formats and qualities next to a resolution (4K-PNG, 2K-HQ) or before a second extension
-// (.exr.tx).
+// Formats and qualities stand next to a resolution (4K-PNG, 2K-HQ) or before a second extension (.exr.tx).
 constexpr std::array<std::string_view, 12> kFormats = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
                                                        "tga", "bmp", "hdr",  "hq",  "lq",  "webp"};
 
@@ -39,8 +38,7 @@ bool is_version(std::string_view piece) {
          std::all_of(piece.begin() + 1, piece.end(), is_digit);
 }
 
-// Returns true if a capital at `i` begins a new part of a name, like S in heroSpec and the second M in
-// ORMMap.
+// Returns true if a capital at `i` begins a new part of a name, like S in heroSpec and M in ORMMap.
 bool begins_part(std::string_view name, std::size_t i) {
   if (i == 0 || !is_upper(name[i]) || is_separator(name[i - 1])) return false;
   if (!is_upper(name[i - 1])) return true;
@@ -122,8 +120,7 @@ Naming::Naming(std::vector<Habit> habits, std::vector<std::string> ignored_words
 }
 
 // Returns the best of the words that `ending` spells. Words of the user's conventions come first, then words
-// with the same spelling. Then come words whose convention writes resolutions in this place, then the first
-// of the table.
+// with the same spelling. Then come words whose convention has resolutions here, then the first of the table.
 const Naming::Word* Naming::best_word(const Ending& ending) const {
   const auto found = words_.find(ending.key);
   if (found == words_.end()) return nullptr;
@@ -145,8 +142,7 @@ const Naming::Word* Naming::best_word(const Ending& ending) const {
   return best;
 }
 
-// Returns the end of the name from `begin`, which lies in piece `first`. Returns nothing if it is longer than
-// any word.
+// Returns the end of the name from `begin`, which lies in piece `first`. Returns nothing if it is too long.
 std::optional<Naming::Ending> Naming::ending_from(const NameParts& parts, std::size_t first,
                                                   std::size_t begin) const {
   Ending ending;

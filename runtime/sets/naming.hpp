@@ -190,12 +190,10 @@ class Naming {
   std::size_t longest_word_ = 0;
 };
 
-// Returns true if a piece of a name is a resolution, such as 4K, 1024 or 2048x2048. A word of a map must not
-// be one.
+// Returns true if a piece of a name is a resolution, such as 4K, 1024 or 2048x2048. Map words must not be.
 bool is_resolution(std::string_view piece);
 
-// Returns true if a piece is a format or quality next to a resolution (4K-PNG, 2K-HQ). A word of a map must
-// not be one.
+// Returns true if a piece is a format or quality next to a resolution (4K-PNG, 2K-HQ). Map words must not be.
 bool is_format_word(std::string_view piece);
 
 // Returns a word in lower case without separators. Words with equal keys are the same word.
@@ -205,8 +203,7 @@ std::string word_key(std::string_view word);
 // common renderers.
 const Naming& built_in_naming();
 
-// Returns the built-in conventions extended by the ones in `file`. Throws kInput, with file and field, if its
-// form is wrong.
+// Returns the built-in conventions extended by the ones in `file`. Throws kInput, with file and field.
 Naming read_naming(const std::filesystem::path& file);
 
 // Reads the text of a naming file in the same way. Errors begin with `context`.

@@ -25,8 +25,7 @@ constexpr std::array<std::pair<std::string_view, TileStyle>, 3> kTokens = {
 
 bool is_udim(int number) { return number >= kFirstUdim && number <= kLastUdim; }
 
-// Returns the number that `digits` spells. Returns nothing for other text and for more digits than an int
-// holds.
+// Returns the number that `digits` spells. Returns nothing for other text and for too many digits.
 std::optional<int> digits_value(std::string_view digits) {
   if (digits.empty() || digits.size() > kMostDigits || !std::all_of(digits.begin(), digits.end(), is_digit))
     return std::nullopt;

@@ -38,8 +38,7 @@ struct Tile {
 };
 
 // Returns the pattern of `name`, a file name without folder, or nothing if it has no placeholder. A real file
-// may be called C#.png, so call this only for names of which no file exists. Throws kUsage for several
-// placeholders.
+// may be called C#.png, so call this only if no such file exists. Throws kUsage for several placeholders.
 std::optional<TilePattern> tile_pattern(std::string_view name);
 
 // Returns the file name of one tile. Throws kUsage for a number outside the range of the style.

@@ -9,8 +9,7 @@
 
 namespace remap {
 
-// A SpecularMaterial is one texel. Colors are linear, all values are 0 to 1. `width` is the workflow's own
-// parameter.
+// A SpecularMaterial is one texel. Colors are linear, values 0 to 1. `width` is the workflow's own parameter.
 struct SpecularMaterial {
   std::array<float, 3> diffuse{}, specular{};
   float width = 0.0f;

@@ -50,8 +50,7 @@ class Block {
   using Row = std::array<float, kBlockTexels>;
   float* scratch(std::size_t parameter, std::size_t channel = 0);
 
-  // Lists the parameters that have rows. This saves time, because a block is short and most converters have
-  // two.
+  // Lists the parameters that have rows. This saves time, because most converters have two.
   struct Parameters {
     std::array<Parameter, kParameterCount> all{};
     std::size_t count = 0;

@@ -31,7 +31,6 @@ class ContentHash {
   std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> state_;
 };
 
-// Returns the hash of one file.
 std::string hash_of_file(const InputFile& file);
 inline std::string hash_of_file(const std::filesystem::path& path) { return hash_of_file(InputFile(path)); }
 

@@ -1,5 +1,4 @@
-// This file describes layouts of images in files, and how a new image may differ from the image that it
-// follows.
+// This file describes layouts of images in files, and how a new image may differ from its model.
 #pragma once
 
 #include <algorithm>

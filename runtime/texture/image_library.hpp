@@ -65,8 +65,7 @@ class NewImage {
   virtual void finish() = 0;
   // Returns the path of the finished file, which still has its temporary name.
   virtual const std::filesystem::path& finished_file() const noexcept = 0;
-  // Returns the content of the finished file for reading. A host that keeps its file open need not open it
-  // again.
+  // Returns the content of the finished file for reading. A host with an open file need not open it again.
   virtual std::shared_ptr<const InputFile> content() const {
     return std::make_shared<const InputFile>(finished_file());
   }

@@ -15,8 +15,7 @@
 
 namespace remap {
 
-// A LayoutParameter is a parameter that a conversion makes or passes through, in one channel, or in three for
-// a color.
+// A LayoutParameter is a parameter that a conversion makes or passes through, in one channel or three.
 struct LayoutParameter {
   Parameter parameter = Parameter::kRoughness;
   std::optional<RoughnessEncoding> width;  // for kRoughness: roughness or glossiness
@@ -63,8 +62,7 @@ struct NamedLayout {
   std::optional<PixelType> type;
   std::optional<NormalGreen> normals;  // its convention for green of normal maps, if documented
 };
-// Returns `as-inputs`, `separate`, `orm`, `arm`, `specgloss`, and layouts of engines: `gltf`, `unity`,
-// `unreal`, ...
+// Returns `as-inputs`, `separate`, `orm`, `arm`, `specgloss`, and engines: `gltf`, `unity`, `unreal`, ...
 std::span<const NamedLayout> named_layouts();
 std::span<const NamedLayout> engine_layouts();
 // Returns the engine's layout for a name or for a word of `--to`, or null.

@@ -14,7 +14,6 @@ namespace {
 constexpr int kBands = 16, kTexelsARow = 256;
 constexpr std::size_t kEstimatedTexels = 2048;
 
-// A StoredRows holds one row of every map, as stored.
 using StoredRows = std::map<std::size_t, std::vector<std::byte>>;
 
 // Returns every `step`-th value of a channel.

@@ -248,7 +248,6 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bo
   plan.copies.push_back({source, path, {}, turns_green});
 }
 
-// Returns a file that holds one parameter.
 PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   if (is_color(parameter)) return color_map(set, parameter, choice);
   return new_map(file_name(parameter, choice, choice.names), kGrey, {ConvertedChannel{parameter}}, set,
@@ -328,7 +327,6 @@ void require_held(const TargetChoice& choice) {
                                          " (a channel would be empty)");
 }
 
-// Returns a file of a layout.
 PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
   if (file.content.size() == 1)
     if (const auto* own = std::get_if<LayoutParameter>(&file.content.front()))

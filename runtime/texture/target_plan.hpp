@@ -1,5 +1,4 @@
-// This file plans the files of a conversion and the content of their channels, and refuses to overwrite
-// inputs.
+// This file plans the files of a conversion and their channels, and refuses to overwrite inputs.
 #pragma once
 
 #include <filesystem>
@@ -47,8 +46,7 @@ struct TargetPlan {
 // exponents are larger.
 void require_target_scale(const TextureSet& set, const TargetPlan& plan);
 
-// A ResultNames holds the text before and after the names of results without an input: `wood` specular
-// `.1001`.
+// A ResultNames holds the text around names of results without an input: `wood` specular `.1001`.
 struct ResultNames {
   std::string set;
   std::string after;

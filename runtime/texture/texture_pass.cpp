@@ -43,7 +43,6 @@ bool converts(const std::vector<Target>& targets) {
   });
 }
 
-// Returns the maps that the targets need.
 std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Target>& targets) {
   std::set<std::size_t> maps;
   if (converts(targets)) maps = set.maps_of_material();

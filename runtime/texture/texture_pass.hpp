@@ -27,7 +27,6 @@ using TargetChannel = std::variant<ConvertedChannel, MaskChannel, ChannelPlace, 
 // Returns true if a converter makes the channel, so it is neither a copy nor a constant.
 inline bool is_converted(const TargetChannel& channel) noexcept { return channel.index() < 2; }
 
-// A TargetPart is one part of a result.
 struct TargetPart {
   std::size_t model = 0;  // index of the map of the set that the part follows
   ImageChanges changes;

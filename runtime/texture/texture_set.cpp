@@ -98,8 +98,7 @@ const std::vector<std::string_view>& layer_words(Parameter parameter) {
 }
 
 // Returns the color channels of a layer, such as `ViewLayer.Combined.R` without the last word. If there are
-// several layers, the name must have a word of the parameter. Returns nothing if no layer fits, or several
-// do.
+// several layers, the name must have a word of the parameter. Returns nothing unless one layer fits.
 std::vector<std::size_t> layer_channels(const ImageLayout& layout, std::optional<Parameter> parameter) {
   std::map<std::string, ImageLayout> layers;
   std::map<std::string, std::vector<std::size_t>> places;

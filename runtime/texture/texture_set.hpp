@@ -1,5 +1,4 @@
-// This file describes the maps of one material: which channels of which files hold the parameters of a
-// converter.
+// This file describes the maps of one material: which channels of files hold a converter's parameters.
 #pragma once
 
 #include <cstddef>
@@ -22,14 +21,12 @@ namespace remap {
 // A ConstantValues holds linear values instead of a map: one, or one each for red, green and blue.
 using ConstantValues = std::vector<float>;
 
-// A MapName is a file and names of its channels. Without names it means the color channels or the only
-// channel.
+// A MapName is a file and names of its channels. Without names: the color channels or the only channel.
 struct MapName {
   std::filesystem::path file;
   std::vector<std::string> channels;
 };
 
-// A ParameterRequest is one requested parameter.
 struct ParameterRequest {
   std::variant<MapName, ConstantValues> source;
   std::vector<float> factors;        // for the linear values: none, one, or one per channel
@@ -59,7 +56,6 @@ struct TextureSetRequest {
   bool resample = false;                        // enlarge maps to the largest width and height among them
 };
 
-// A ChannelPlace is the place of a channel in the set.
 struct ChannelPlace {
   std::size_t map = 0;
   std::size_t channel = 0;  // index into the channels of its layout

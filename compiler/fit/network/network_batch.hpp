@@ -19,8 +19,7 @@ struct NetworkShape {
   std::size_t parameter_count() const;
 };
 
-// Splits a parameter vector into layers. It has for each layer the weights, in the order of remap::Layer,
-// then the biases.
+// Splits a parameter vector into layers. Each layer has weights, in remap::Layer's order, then biases.
 std::vector<Layer> layers_from_parameters(const NetworkShape& shape, const double* parameters);
 
 // Returns 1 for each weight and 0 for each bias of a parameter vector.

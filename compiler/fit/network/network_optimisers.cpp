@@ -48,8 +48,7 @@ class ValidationWatch {
   OptimisedNetwork best_;
 };
 
-// NetworkResiduals gives residuals of all samples and outputs and one residual per weight for the decay, with
-// their Jacobian.
+// NetworkResiduals gives residuals of all outputs and one per weight for the decay, and the Jacobian.
 class NetworkResiduals : public ceres::CostFunction {
  public:
   NetworkResiduals(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)

@@ -9,8 +9,7 @@
 
 namespace remap {
 
-// A NetworkSamples holds normalised samples, one column each. Validation samples determine when the training
-// stops.
+// A NetworkSamples holds normalised samples, one column each. Validation samples stop the training.
 struct NetworkSamples {
   Eigen::MatrixXd training_inputs, training_outputs;
   Eigen::MatrixXd validation_inputs, validation_outputs;
@@ -34,8 +33,7 @@ struct OptimisedNetwork {
   int best_iteration = 0;
 };
 
-// This is called after each iteration with the finished fraction, 0 to 1. It must not throw; false stops the
-// training.
+// Is called after each iteration with the finished fraction, 0 to 1. It must not throw; false stops.
 using StepReport = std::function<bool(double share)>;
 
 // Runs Levenberg-Marquardt with a dense analytic Jacobian, for networks of up to some hundred parameters. The

@@ -152,8 +152,7 @@ NetworkShape shape_of(const Samples& samples, const TrainingOptions& options) {
 }
 
 // Returns uniform weights after Glorot and Bengio (2010) for tanh and after He et al. (2015) for other
-// activations. Hidden biases are uniform in [-1, 1], so that the units bend at different positions of the
-// input range.
+// activations. Hidden biases are uniform in [-1, 1], so that units bend at different positions.
 VectorXd initial_parameters(const NetworkShape& shape, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };

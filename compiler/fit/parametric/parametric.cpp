@@ -32,8 +32,7 @@ struct Least {
   }
 };
 
-// Returns the least value of `quantity` over a grid of the domain. With `flat` it is the same at every
-// specular.
+// Returns the least value of `quantity` over a grid of the domain. `flat` means equal at every specular.
 Least least_over(const Domain& domain, bool flat, const auto& quantity) {
   Least least;
   for (int i = 0; i <= kAlphaSteps; ++i) {

@@ -25,8 +25,7 @@ struct SpecularForm {
   std::string_view summary;
   std::vector<int> powers;  // in increasing order, repetitions allowed; includes 1
   bool pole = false;        // true if the factor of specular1 has the term pole / alpha1
-  // Returns true if the term has the same power as the term before it. The earlier term then holds the
-  // constant of both.
+  // Returns true if the term has the same power as the term before it. The earlier one holds both constants.
   bool is_repeated(std::size_t term) const;
   std::size_t coefficient_count() const;
 };
@@ -40,8 +39,7 @@ struct ParametricForm {
   const SpecularForm* specular = nullptr;
 };
 
-// Finds `paper`, or `paper+pole` with the term c5 / alpha of the authors' scripts. Throws kUsage for another
-// name.
+// Finds `paper`, or `paper+pole` with the term c5 / alpha of the authors' scripts. Throws kUsage otherwise.
 ParametricForm find_form(const std::string& name);
 
 }  // namespace remap

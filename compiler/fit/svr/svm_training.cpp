@@ -1,5 +1,4 @@
-// This file converts samples to libsvm's data structures, trains, and converts the model to a sum of
-// Gaussians.
+// This file converts samples to libsvm's data structures, trains, and converts the model to Gaussians.
 #include "fit/svr/svm_training.hpp"
 
 #include <algorithm>
@@ -38,7 +37,7 @@ struct ModelDeleter {
   void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
 };
 
-// An OwnedProblem holds the samples in libsvm's format: one list of (index, value) per sample, terminated by
+// An OwnedProblem holds the samples in libsvm's format: a list of (index, value) per sample that ends with
 // index -1.
 struct OwnedProblem {
   OwnedProblem(const SvrSamples& samples, const std::vector<Scaling>& scalings) : outputs(samples.outputs) {

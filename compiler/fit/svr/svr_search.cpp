@@ -157,8 +157,7 @@ class Contest {
  public:
   Contest(FoldedSamples folded, unsigned jobs) : folded_(std::move(folded)), jobs_(jobs) {}
 
-  // Evaluates the new points of `points` on the first folds. Then it evaluates the promising ones on the
-  // other folds.
+  // Evaluates the new `points` on the first folds, and the promising ones on the other folds.
   void enter(const std::vector<Point>& points) {
     std::vector<Trial*> entered;
     for (const Point& point : points) {
@@ -175,8 +174,7 @@ class Contest {
     if (progress_) progress_(1.0);
   }
 
-  // Returns the finished candidate with the smallest error, the first in the order of points if several are
-  // equal.
+  // Returns the finished candidate with the smallest error, the first of equal ones.
   const Trial& best() const {
     const Trial* best = nullptr;
     for (const auto& [point, candidate] : candidates_)

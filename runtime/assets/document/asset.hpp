@@ -58,8 +58,7 @@ class AssetResources : public AssetFiles {
   // Returns the image at a size that is at least its own in both directions. It is bilinear, in linear light,
   // with all channels except alpha in sRGB.
   virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
-  // Returns the prefix of the names of new images. It is not empty if another asset may add an image of the
-  // same name.
+  // Returns the prefix of the names of new images. It is set if another asset may add the same name.
   virtual std::string image_prefix() const { return ""; }
 };
 
@@ -103,7 +102,6 @@ struct MaterialFactor {
   std::vector<double> values;
 };
 
-// An AssetMaterial is the outcome of a material of the asset.
 struct AssetMaterial {
   std::size_t index = 0;  // in the order of the file
   std::string name;       // from the file; may be empty

@@ -1,5 +1,4 @@
-// This file handles URIs of buffers and images in glTF files: data, files beside the asset, and remote
-// addresses.
+// This file handles URIs in glTF files: data, files beside the asset, and remote addresses.
 #pragma once
 
 #include <array>
@@ -16,8 +15,7 @@ namespace remap {
 // Returns `a b` for `a%20b`. A percent sign without two digits stays.
 std::string percent_decoded(std::string_view text);
 
-// Returns `a%20b` for `a b`. It encodes everything except letters, digits and - . _ ~ (RFC 3986, section
-// 2.3).
+// Returns `a%20b` for `a b`. Only letters, digits and - . _ ~ stay (RFC 3986, section 2.3).
 std::string percent_encoded(std::string_view text);
 
 // These are all suffixes of names of new images.

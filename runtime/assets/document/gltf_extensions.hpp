@@ -1,5 +1,4 @@
-// This file lists names of glTF that conversions of materials read and write, and groups extensions by their
-// effect.
+// This file lists glTF names that material conversions read and write, and groups extensions by effect.
 #pragma once
 
 #include <string_view>

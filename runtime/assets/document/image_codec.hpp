@@ -11,8 +11,7 @@
 
 namespace remap {
 
-// An ImagePixels holds integers as the file stores them. No curve is applied, and they are not multiplied by
-// alpha.
+// An ImagePixels holds integers as the file stores them. No curve and no alpha is applied.
 struct ImagePixels {
   std::size_t width = 0, height = 0;
   std::size_t channels = 0;            // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
@@ -36,8 +35,7 @@ inline constexpr int kUsualPngLevel = 3, kSmallestPngLevel = 9;
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
-  // Decodes an image, and expands palettes. Throws kInput, beginning with `context`, for bytes that it cannot
-  // read.
+  // Decodes an image, and expands palettes. Throws kInput, beginning with `context`, for other bytes.
   virtual ImagePixels decode(std::string_view bytes, const std::string& context) const = 0;
   // Returns a PNG file. `level` is 1 (fast) to 9 (small). Throws kOutput.
   virtual std::string encode_png(const ImagePixels& pixels, int level) const = 0;

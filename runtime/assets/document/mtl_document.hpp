@@ -30,8 +30,7 @@ struct MtlBlock {
 
 class MtlDocument {
  public:
-  // Scans `text`, which must outlive this object. Throws kInput, beginning with `context`, beyond the limits
-  // above.
+  // Scans `text`, which must outlive this object. Beyond the limits it throws kInput with `context`.
   MtlDocument(std::string_view text, const std::string& context);
 
   std::string_view text() const noexcept { return text_; }

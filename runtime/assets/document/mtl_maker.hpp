@@ -24,8 +24,7 @@ inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "text
 // 2.7 wrote exponents of its own Blinn and Phong shaders, which the specification describes.
 MtlMaker maker_of(const MtlDocument& document);
 
-// Returns the warning that reports how a file of this maker is read: `Blender wrote it: ...`. It is empty for
-// kText.
+// Returns the warning about reading a file of this maker, `Blender wrote it: ...`, or nothing for kText.
 std::string maker_warning(MtlMaker maker);
 
 // Returns the Ns that Blender writes for roughness 0.

@@ -54,8 +54,7 @@ std::string TextEdits::colon_of(SpanValue object) const {
   return std::string(json_.text().substr(begin, end - begin));
 }
 
-// Removes each child with one separator: the following one before the first kept child, otherwise the
-// preceding one.
+// Removes each child with the separator after it; after the first kept child, with the separator before it.
 void TextEdits::add_splices(SpanValue container, const Changes& changes,
                             std::vector<TextSplice>& splices) const {
   const std::vector<SpanValue> children = container.children();

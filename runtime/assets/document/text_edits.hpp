@@ -24,7 +24,6 @@ class TextEdits {
   void replace(SpanValue value, std::string text);
   // Removes an entry or a member. No other edit may touch the inside of it.
   void remove(SpanValue child);
-  // Removes every member with that key.
   void remove_members(SpanValue object, std::string_view key);
   // Appends a member after the last one, with the same white space as between the others.
   void append_member(SpanValue object, std::string_view key, const std::string& text);
@@ -34,8 +33,7 @@ class TextEdits {
 
   // Returns the bytes that are replaced, in order. Insertions replace no bytes.
   std::vector<TextSpan> touched() const;
-  // Returns the edited text. Throws kNumeric if two edits touch the same bytes, which is an error of the
-  // caller.
+  // Returns the edited text. Throws kNumeric if two edits touch the same bytes, a caller's error.
   std::string result() const;
 
  private:

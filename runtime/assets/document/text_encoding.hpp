@@ -16,7 +16,6 @@ enum class TextEncoding { kBytes, kUtf16Little, kUtf16Big };
 // Detects the encoding by the byte order mark, or by the zeros of the first letters.
 TextEncoding encoding_of(const ByteSource& source);
 
-// A TextReader reads a text in blocks.
 class TextReader {
  public:
   // Both arguments must outlive this object.

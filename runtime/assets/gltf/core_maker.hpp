@@ -1,5 +1,4 @@
-// This file converts materials of any workflow to core glTF. Materials with the same images and factors share
-// results.
+// This file converts materials of any workflow to core glTF. Equal images and factors share results.
 #pragma once
 
 #include <array>

@@ -30,8 +30,7 @@ bool is_in_extras(SpanValue value) {
   return false;
 }
 
-// Returns every `uri` of the file, even in extensions. It skips extras, because they belong to other
-// programs.
+// Returns every `uri` of the file, also in extensions. It skips extras, which belong to other programs.
 std::vector<AssetResource> resources_of(const SpannedJson& json) {
   std::vector<AssetResource> resources;
   std::set<std::string> known;
@@ -60,8 +59,7 @@ void drop_unnamed(AssetConversion& conversion, const std::string& context) {
                 [&](const AssetResource& resource) { return !named.contains(resource.path); });
 }
 
-// A ViewCheck checks that views lie within their buffers, and the first buffer of a container within its
-// binary chunk.
+// A ViewCheck checks that views lie within buffers, and a container's first buffer within its binary chunk.
 class ViewCheck {
  public:
   ViewCheck(const SpannedJson& json, const GltfContainer& container, const std::string& context)

@@ -1,4 +1,4 @@
-// This file reads the bytes that a glTF file names: images and views, in the binary chunk, in data URIs, in
+// This file reads the bytes that a glTF file names: images and views, in the binary chunk, data URIs or
 // files.
 #pragma once
 
@@ -33,8 +33,7 @@ class GltfBytes {
   std::vector<SpanValue> images_, views_, buffers_;
 };
 
-// Returns an entry of a list of the file. Messages call one entry `name`. Throws kInput for an index beyond
-// the list.
+// Returns an entry of a list of the file. `name` is for messages. Throws kInput for an index beyond the list.
 SpanValue gltf_entry(const std::vector<SpanValue>& list, std::size_t index, const char* name);
 
 // Returns the bytes of a data URI (RFC 2397), whose type may have parameters. Throws kInput.

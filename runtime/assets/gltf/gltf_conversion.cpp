@@ -37,7 +37,6 @@ std::optional<std::pair<std::size_t, std::string>> pointed_material(std::string_
   return std::pair(index, std::string(end, static_cast<std::size_t>(pointer.data() + pointer.size() - end)));
 }
 
-// An ImageParts holds images of the file, and new ones.
 struct ImageParts {
   ImageParts(const GltfSource& source, const AssetOptions& options, const AssetResources& resources)
       : bytes(source.json, source.container, source.bytes, resources),
@@ -164,8 +163,7 @@ class GltfConversion {
     result_.asset.text = text.result();
   }
 
-  // Reports vertex colors: COLOR_0 multiplies a color of one workflow, and another color of the other
-  // workflow.
+  // Reports vertex colors, because COLOR_0 multiplies different colors in both workflows.
   void note_colored() {
     std::vector<std::size_t> counts(result_.asset.materials.size());
     for (const SpanValue& mesh : root_["meshes"].children())

@@ -16,8 +16,8 @@ namespace remap {
 
 class MaterialTextures;
 
-// A TextureText is a texture of a converted material: an info of the file, unchanged or with the index of a
-// new texture.
+// A TextureText is a texture of a converted material: an info of the file, unchanged or with a new texture's
+// index.
 struct TextureText {
   SpanValue info;                    // empty without a texture
   std::optional<std::size_t> added;  // of GltfNewImages::add_texture()
@@ -39,7 +39,6 @@ struct ExtensionText {
   std::vector<MemberText> members;
 };
 
-// A MaterialEdit holds the edits of a material's text.
 struct MaterialEdit {
   SpanValue material;
   std::vector<MemberText> core;  // members of pbrMetallicRoughness, in their order
@@ -70,8 +69,8 @@ struct DirectionParts {
 // Makes the direction from KHR_materials_pbrSpecularGlossiness to core, with or without
 // KHR_materials_specular and _ior.
 std::unique_ptr<GltfDirection> make_specgloss_to_core(const DirectionParts& parts);
-// Makes the direction from core, with KHR_materials_specular and _ior, to KHR_materials_pbrSpecularGlossiness
-// beside it.
+// Makes the direction that adds KHR_materials_pbrSpecularGlossiness to core, with KHR_materials_specular or
+// _ior.
 std::unique_ptr<GltfDirection> make_core_to_specgloss(const DirectionParts& parts);
 // Makes the direction that folds KHR_materials_specular and _ior into core.
 std::unique_ptr<GltfDirection> make_specular_fold(const DirectionParts& parts);

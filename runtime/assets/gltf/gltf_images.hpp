@@ -1,5 +1,4 @@
-// This file finds the images of a glTF file by their textures and decodes them. gltf_new_images.hpp handles
-// new images.
+// This file finds images of a glTF file by texture and decodes them. gltf_new_images.hpp makes new ones.
 #pragma once
 
 #include <cstddef>

@@ -113,8 +113,7 @@ class SpareFinder {
     if (!spares_.views.empty()) spares_.chunk_end = spare_tail();
   }
 
-  // Returns where the spare views at the end of the buffer begin. Without such views it returns the buffer's
-  // end.
+  // Returns where the spare views at the end of the buffer begin. Without any it returns the buffer's end.
   std::uint64_t spare_tail() const {
     constexpr std::uint64_t kMostGap = 15;  // between views that exporters align
     std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;

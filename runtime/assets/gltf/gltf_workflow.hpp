@@ -1,5 +1,4 @@
-// This file describes the workflows of glTF materials: their inputs, and the meaning of these for a
-// converter.
+// This file describes the workflows of glTF materials: their inputs, and what these mean to a converter.
 #pragma once
 
 #include <memory>
@@ -26,8 +25,7 @@ std::span<const GltfInput> inputs_of(GltfWorkflow workflow);
 // Returns the input that holds base color or diffuse.
 GltfInput color_of(GltfWorkflow workflow);
 
-// Reads the inputs of the workflow. Throws like read_inputs(), and kInput for an index of refraction between
-// 0 and 1.
+// Reads the inputs of the workflow. Throws like read_inputs(), and kInput for an index between 0 and 1.
 GltfMaterial read_material(SpanValue material, GltfWorkflow workflow, std::vector<std::string>& warnings);
 
 // Makes the converter from the workflow to the workflow model `target`. Both ends have roughness.
@@ -39,8 +37,7 @@ MaterialValues values_of(GltfWorkflow workflow, const GltfMaterial& material);
 // Returns the factors times the first texel of each texture.
 MaterialValues first_values_of(GltfWorkflow workflow, GltfMaterial material, const UsedTextures& used);
 
-// A GltfMaps holds the maps of a material, ready for a converter. At least one of them varies. `used` must
-// outlive it.
+// A GltfMaps holds a material's maps for a converter. At least one varies. `used` must outlive it.
 struct GltfMaps {
   GltfMaps(GltfWorkflow workflow, const GltfMaterial& material, const UsedTextures& used);
   GltfMaps(const GltfMaps&) = delete;

@@ -1,5 +1,4 @@
-// This file finds and decodes the textures of a converted material, brings them onto one grid, and replaces
-// them.
+// This file finds and decodes a converted material's textures, brings them onto one grid, and replaces them.
 #pragma once
 
 #include <cstddef>

@@ -35,8 +35,8 @@ MetalRoughMaps metal_rough_maps(const Converter& converter, MapSources sources);
 
 // A SpecGlossMaps holds maps of KHR_materials_pbrSpecularGlossiness.
 struct SpecGlossMaps {
-  // This map is sRGB, with the alpha of the color map. It is missing if diffuse is a factor, or the color map
-  // times one.
+  // This map is sRGB, with the alpha of the color map. It is missing if diffuse is (the color map times) a
+  // factor.
   std::optional<ImagePixels> diffuse;
   bool keeps_color = false;  // diffuse is the color map times `diffuse_factors`
   float alpha = 1.0f;        // of a color map that a factor replaces

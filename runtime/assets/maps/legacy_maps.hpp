@@ -33,7 +33,6 @@ struct LegacyMapResult {
 
 LegacyMapResult converted_maps(const LegacyMaps& maps);
 
-// Returns one channel of an image as a grey image.
 ImagePixels channel_of(const ImagePixels& pixels, std::size_t channel);
 
 // Returns an image of three channels, or four with opacity: the colors of `color`, or white, and as alpha a
@@ -48,8 +47,7 @@ ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, boo
 // Replaces a channel by a channel of a map of the same size (load_scalar_row()).
 void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
 
-// Loads `count` values of row `y`, from 0 to 1. They come from the channel that MTL selects for a scalar map
-// (-imfchan).
+// Loads `count` values of row `y`, from 0 to 1. They come from MTL's channel for scalar maps (-imfchan).
 void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, float* values);
 
 }  // namespace remap

@@ -37,8 +37,7 @@ GgxLobe ggx_lobe(const LegacyMaterial& material);
 MetalRoughFactors core_of_legacy(const LegacyMaterial& material);
 
 // Returns core glTF for a material without a highlight: base color = diffuse, roughness 1. Core cannot remove
-// the F0 of .04. At roughness 1 this F0 adds about what the diffuse lobe loses by it, so a bright color stays
-// unchanged.
+// the F0 of .04. At roughness 1 this F0 adds about what the diffuse lobe loses by it, so bright colors stay.
 MetalRoughFactors core_of_diffuse(const std::array<double, 3>& diffuse);
 
 // A LegacyDielectric is glTF with KHR_materials_specular: metallic 0, and a specular whose F90 equals the

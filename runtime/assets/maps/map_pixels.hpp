@@ -1,5 +1,4 @@
-// This file turns pixels of images into maps of the conversion in memory (remap/convert_maps.hpp), and
-// measures them.
+// This file turns pixels into maps of the conversion in memory (remap/convert_maps.hpp), and measures them.
 #pragma once
 
 #include <array>
@@ -31,8 +30,8 @@ bool is_constant(const ImagePixels& pixels);
 // Returns true if the values of a channel are within a step of 8 bits.
 bool hardly_varies(const ImagePixels& pixels, std::size_t channel);
 
-// Returns the first texel as stored, from 0 to 1: red, green, blue and alpha. Grey is repeated, and a missing
-// alpha is 1.
+// Returns the first texel as stored, 0 to 1: red, green, blue and alpha. Grey is repeated; missing alpha is
+// 1.
 std::array<float, 4> first_texel(const ImagePixels& pixels);
 
 // Converts a stored sRGB value to a linear one.

@@ -87,8 +87,7 @@ class GridSampler {
   const TextureGrid& grid_;
 };
 
-// If the texture coordinates of `from` move by 1 in u or v, the coordinates of `to` move by one of the
-// columns.
+// If the coordinates of `from` move by 1 in u or v, the coordinates of `to` move by one of the columns.
 using Matrix = std::array<std::array<double, 2>, 2>;
 Matrix steps_between(const TextureTransform& from, const TextureTransform& to) {
   Matrix steps{};

@@ -10,7 +10,6 @@
 
 namespace remap {
 
-// A TextureTransform is a KHR_texture_transform.
 struct TextureTransform {
   double offset[2] = {0.0, 0.0};
   double scale[2] = {1.0, 1.0};
@@ -37,10 +36,9 @@ struct CommonGrid {
   bool repeats = true;  // if false, it needs mesh coordinates within 0 to 1
 };
 
-// Returns the place of the texture that repeats least, if every other one repeats an integer number of times
-// in it. Texels are as fine as the finest, up to 4096 a side or the largest image. Otherwise returns the
-// place of a texture that covers coordinates from 0 to 1 without a repeat. Returns nothing if there is
-// neither.
+// Returns the place of the texture that repeats least, if every other one repeats in it an integer number of
+// times. Texels are as fine as the finest, up to 4096 a side or the largest image. Otherwise returns the
+// place of a texture that covers coordinates from 0 to 1 without a repeat. Returns nothing otherwise.
 std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures);
 
 // Returns `map` on another grid: for each texel, the value of the map at the same texture coordinates before

@@ -71,16 +71,14 @@ struct SurfaceMaps {
 };
 
 // Loads the maps that the conversion of a surface needs. Appends warnings. Throws kInput if a map is missing
-// or cannot be read. Also throws it if maps differ in size (unless `options.enlarges`) or in their place on
-// the surface.
+// or cannot be read. Also throws if maps differ in size (unless `options.enlarges`) or place on the surface.
 SurfaceMaps load_maps(const MtlSurface& surface, MtlImages& images, const AssetOptions& options,
                       std::vector<std::string>& warnings);
 
 // Returns the key of a conversion of maps: their names, options and factors.
 std::string key_of(const MtlSurface& surface, const LegacyMaterial& factors);
 
-// Returns a warning `map_Ns shine.png is read as ...`. The specification defines this map, but tools
-// disagree.
+// Returns a warning `map_Ns shine.png is read as ...`, because tools disagree with the specification.
 std::string exponent_warning(const MtlSurface& surface);
 
 }  // namespace remap

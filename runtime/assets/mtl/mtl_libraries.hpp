@@ -15,7 +15,6 @@
 
 namespace remap {
 
-// An MtlLibrary is an MTL file and its images.
 struct MtlLibrary {
   // `path` is relative to the OBJ file. `resources` must outlive this object. Without `maker`, the file
   // itself shows who wrote it.

@@ -211,7 +211,7 @@ void apply_blender(double scale, MtlSurface& surface) {
   if (surface.specular && !surface.specular_map) surface.specular_level = 2.0 * surface.specular->front();
 }
 
-// Applies the rules of nvdiffrec and its descendants: Ks and map_Ks hold roughness in green and metallic in
+// Applies the rules of nvdiffrec and its descendants: Ks and map_Ks have roughness in green, metallic in
 // blue.
 void apply_nvdiffrec(MtlSurface& surface) {
   const std::array<double, 3> packed = surface.specular.value_or(kUnused);
@@ -223,8 +223,7 @@ void apply_nvdiffrec(MtlSurface& surface) {
   surface.metallic_map->channel = 'b';
 }
 
-// Replaces what was read by the specification with the maker's metallic and roughness. Pr, Pm and their maps
-// stay.
+// Replaces values of the specification by the maker's metallic and roughness. Pr, Pm and their maps stay.
 void apply_maker(MtlMaker maker, MtlSurface& surface) {
   switch (maker) {
     case MtlMaker::kText:

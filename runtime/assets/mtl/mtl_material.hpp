@@ -43,8 +43,7 @@ struct MtlMap {
 // Reads the file of a statement. Options may also follow the name, as some tools write them.
 MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement);
 
-// An MtlSurface is what reflects light. If a statement is repeated, the last one counts, as in other
-// programs.
+// An MtlSurface is what reflects light. Of a repeated statement, the last one counts, as elsewhere.
 struct MtlSurface {
   std::optional<std::array<double, 3>> diffuse, specular;  // Kd, Ks, clamped to 0 and 1
   std::optional<double> exponent;                          // Ns, at most 10000; may be below 0
@@ -95,8 +94,7 @@ struct MetalRoughNumbers {
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double metallic = 0.0, roughness = 1.0;
 };
-// With `is_core` the target adds a highlight to every dielectric, so a dielectric without a highlight becomes
-// rough.
+// With `is_core` the target adds a highlight to dielectrics, so one without a highlight becomes rough.
 MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
 
 // An MtlReflection is the surface as factors, which its maps multiply.

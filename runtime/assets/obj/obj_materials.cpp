@@ -43,8 +43,7 @@ Json specular_of(double specular, const std::array<double, 3>& color) {
   return Json{{"specularFactor", float_value(specular)}, {"specularColorFactor", numbers_of(scaled)}};
 }
 
-// Returns the opacity channel: the alpha of a map that has one, as most tools write it, otherwise its
-// luminance.
+// Returns the opacity channel: a map's alpha if it has one, as most tools write it, or its luminance.
 char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
   if (map.channel != '\0') return map.channel;
   return pixels.has_alpha() ? 'm' : 'l';
@@ -52,8 +51,7 @@ char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
 
 }  // namespace
 
-// A ConvertedImages holds the images that a conversion of maps has made. kNoImage means that the result is a
-// factor.
+// A ConvertedImages holds the images from a conversion of maps. kNoImage means that the result is a factor.
 struct ObjMaterials::ConvertedImages {
   LegacyMapResult result;
   bool has_own_base = false;
@@ -248,8 +246,7 @@ void ObjMaterials::set_specular_level(MaterialDraft& draft) {
                              : Json{{"specularColorFactor", numbers_of({level, level, level})}});
 }
 
-// Returns true for glass. illum 4, 6, 7 and 9 refract, but Maya writes illum 4 with an index of 1 for opaque
-// materials.
+// Detects glass. illum 4, 6, 7 and 9 refract, but Maya writes illum 4 with index 1 for opaque materials.
 bool ObjMaterials::is_glass(MaterialDraft& draft) const {
   const MtlCover& cover = draft.cover;
   if (!cover.refracts || is_transparent(draft) || cover.refraction.value_or(2.0) <= 1.0) return false;
@@ -464,8 +461,7 @@ void ObjMaterials::set_emission(MaterialDraft& draft) {
   if (cover.emissive_map || !is_dark) draft.material["emissiveFactor"] = numbers_of(factor);
 }
 
-// Most exporters write a map of normals as map_Bump, because MTL has no statement for it that all programs
-// know.
+// Most exporters write normals as map_Bump, because MTL has no statement for them that all programs know.
 void ObjMaterials::set_normals(MaterialDraft& draft) {
   const std::optional<MtlMap>&bump = draft.cover.bump_map,
         &map = draft.cover.normal_map ? draft.cover.normal_map : bump;

@@ -16,7 +16,6 @@
 
 namespace remap {
 
-// A NewImagePlace is the place of images.
 enum class NewImagePlace {
   kBuffer,  // into the buffer
   kFiles,   // existing files stay where they are, new ones lie beside them
@@ -40,8 +39,7 @@ class GltfTextures {
   // become PNG. Appends warnings. Throws kInput if the image is missing, cannot be read, or has options that
   // change its look.
   std::size_t add_file(MtlImages& images, const MtlMap& map, std::vector<std::string>& warnings);
-  // Adds an image, named after the file of `model`, or finds an earlier one with the same bytes. Returns its
-  // index.
+  // Adds an image, named after `model`, or finds an earlier one with equal bytes. Returns its index.
   std::size_t add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
                          std::string_view suffix);
   // Returns a reference to a texture of an image, with its place on the surface from `map`.

@@ -1,5 +1,4 @@
-// This file describes conversions by the names of their ends: models, workflows, renderers and people's names
-// for them.
+// This file describes conversions by the names of their ends: models, workflows, renderers and aliases.
 #pragma once
 
 #include <memory>
@@ -22,8 +21,7 @@ struct ModelName {
   // Returns the alias if there is one, otherwise the name.
   std::string_view word() const noexcept { return alias != nullptr ? alias->name : std::string_view(name); }
 };
-// Returns the meaning of `word`. Aliases and workflows may be in upper or lower case. Any other word means
-// itself.
+// Returns the meaning of `word`. Aliases and workflows ignore case. Other words mean themselves.
 ModelName model_named(const std::string& word);
 
 // These words are how messages refer to the parts of a request.
@@ -81,8 +79,7 @@ struct ConversionChoice {
   bool has_source(Parameter parameter) const;
 };
 
-// Resolves a request. Throws kUsage for an unknown name, and for a workflow or an F0 that contradicts the
-// named model.
+// Resolves a request. Throws kUsage for an unknown name, and for a workflow or F0 that contradicts the model.
 ConversionChoice choose_conversion(const ConversionRequest& request, const ConverterGraph& graph);
 
 // A BuiltConversion holds the converter of a choice and its parts.

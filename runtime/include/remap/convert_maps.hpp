@@ -51,8 +51,7 @@ struct IssueStatistics {
 // are 0 if they were not requested or if the converter cannot diagnose (Converter::has_diagnostics).
 struct MetallicStatistics {
   std::size_t texel_count = 0;
-  // This is the sum of squared residuals in units of 2^-40. It is an integer, so that the order does not
-  // matter.
+  // This is the sum of squared residuals in units of 2^-40. As an integer it does not depend on order.
   std::uint64_t residual_squares = 0;
   float largest_residual = 0.0f;
   IssueStatistics undetermined, dark, ambiguous, clamped;
@@ -101,8 +100,7 @@ struct SourceParameter : ParameterValues {
   std::vector<std::string> channel_names;  // one per channel, for messages
 };
 
-// A TargetParameter holds the channels that receive a target parameter. Without channels the parameter is not
-// stored.
+// A TargetParameter holds the channels that receive a target parameter. Without any it is not stored.
 struct TargetParameter {
   std::vector<ChannelView> channels;
   Transfer transfer = Transfer::kLinear;
@@ -139,8 +137,7 @@ struct MapConversion : MapTreatment {
   // The targets to store. They may share the memory of the sources. Colors have as many channels as the
   // converter makes, or three for grey. Every channel of another parameter receives its value.
   std::map<Parameter, TargetParameter> targets;
-  // Holds the opacity. Texels with coverage 0 or less are converted like all others, but do not count in the
-  // statistics.
+  // Holds the opacity. Texels with coverage 0 or less are converted, too, but do not count in statistics.
   std::optional<ConstChannelView> coverage;
   std::optional<RoughnessEncoding> source_convention;  // of the roughness; by default the model's own
   std::optional<ChannelView> mask;                     // 1 for texels outside the domain, 0 for others

@@ -57,8 +57,7 @@ enum class Parameter {
 };
 inline constexpr std::size_t kParameterCount = 9;
 
-// These are reasons why the metallic material of a texel may differ from the intended one. They are powers of
-// two.
+// These powers of two are reasons why a texel's metallic material may differ from the intended one.
 enum class MetallicIssue {
   kClamped = 1,       // a parameter is outside [0, 1], or the base color would be
   kAmbiguous = 2,     // two separate metallic values look alike
@@ -157,9 +156,8 @@ class Converter {
 
   // Returns the models, width parameters and ranges of both ends.
   const ConverterInfo& info() const noexcept { return info_; }
-  // Return the parameters that it needs and makes, each in the order of Parameter. These are width and
-  // specular of a BRDF, or the parameters of a workflow. A converter that can diagnose may read kMetalMask as
-  // well.
+  // Return the parameters that it needs and makes, each in the order of Parameter. They are width and
+  // specular of a BRDF, or a workflow's parameters. A converter with diagnostics may read kMetalMask.
   const std::vector<Parameter>& sources() const noexcept { return sources_; }
   const std::vector<Parameter>& targets() const noexcept { return targets_; }
   bool has_source(Parameter parameter) const noexcept;
@@ -168,8 +166,7 @@ class Converter {
   bool converts_brdf_only() const noexcept { return sources_.size() == 2; }
   // Returns true if it can make kResidual, kMetallicUncertainty and kMetallicIssues.
   bool has_diagnostics() const noexcept { return has_target(Parameter::kResidual); }
-  // Returns the number of rows that it writes for a parameter if the source has `specular_channels` of
-  // specular.
+  // Returns the number of rows that it writes for a parameter, for `specular_channels` of the source.
   std::size_t target_channels(Parameter parameter, std::size_t specular_channels) const noexcept;
 
   // Converts `count` texels. `in` has rows of all sources(), colors in one or three rows. Only targets with

@@ -1,5 +1,4 @@
-// This file describes BRDF models as ends of a conversion: their names, the meaning of their parameters, and
-// ranges.
+// This file describes BRDF models as ends of a conversion: names, the meaning of parameters, and ranges.
 #pragma once
 
 #include <array>
@@ -117,8 +116,7 @@ bool is_valid_id(const std::string& id);
 // letters, digits and `_ - . /`, at most kLongestName of them.
 bool is_valid_model(const std::string& name);
 
-// Returns true if `name` can be a specular parameter: an identifier that is not the name of a width
-// parameter.
+// Returns true if `name` can be a specular parameter: an identifier other than a width parameter's.
 bool is_valid_specular(const std::string& name);
 
 }  // namespace remap

@@ -39,8 +39,7 @@ struct ConverterPath {
   double expected_error = 0.0;
 };
 
-// A PathDifference states how far pictures of a path's results differ from the source's pictures. People see
-// this figure.
+// A PathDifference is how much pictures of a path's results differ from the source's. People see it.
 struct PathDifference {
   double converted = 0.0;        // RMSE of display values, percent
   std::optional<double> copied;  // for copied numbers; known only for a single, measured step
@@ -55,7 +54,6 @@ inline constexpr double kPercentOfImageError = 23.0;
 // steps, and nothing if a step has neither pictures nor an image error.
 std::optional<PathDifference> picture_difference(const ConverterPath& path);
 
-// Returns the models of the path, from the source to the target.
 std::vector<std::string> path_models(const ConverterPath& path);
 // Returns the last model of the path.
 const std::string& target_model(const ConverterPath& path);
@@ -82,8 +80,7 @@ enum class Detours {
 
 class ConverterGraph {
  public:
-  // Keeps pointers: `converters` must outlive the graph and its paths. Several converters may join the same
-  // two models.
+  // `converters` must outlive the graph and its paths. Several converters may join the same two models.
   explicit ConverterGraph(std::vector<const Converter*> converters, Detours detours = Detours::kAllowed);
 
   // Return sorted names: of all models, of the models that `model` can reach, and of the models that reach
@@ -181,8 +178,7 @@ bool is_measured(const ConverterPath& path);
 const ConverterPath& closest_path(const std::vector<ConverterPath>& paths);
 
 // Returns the closest of the `others` that lead to another model of the renderer of `path`, if it is closer.
-// Returns nothing if no such path exists, or if one of the two paths is not measured. All start at one
-// source.
+// Returns nothing if none is, or if one of the two paths is not measured. All start at one source.
 std::optional<ConverterPath> closer_path(const ConverterPath& path, const std::vector<ConverterPath>& others);
 
 }  // namespace remap

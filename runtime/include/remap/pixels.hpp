@@ -96,7 +96,7 @@ inline std::size_t store(const ChannelView& view, const Segment& segment, const 
                       static_cast<std::size_t>(view.texel_stride));
 }
 
-// The rest of the file decodes the numbers of a map for a converter: transfer curve of a color, encoding of a
+// The rest of the file decodes the numbers of a map for a converter: curves of colors, encodings of
 // roughness.
 
 // A Transfer is a curve from linear to stored values.
@@ -119,7 +119,6 @@ struct ParameterValues {
   std::vector<float> factors;             // for the linear values: none, one, or one per channel
   Transfer transfer = Transfer::kLinear;  // of the stored values
 
-  // Returns the factor of a channel.
   float factor(std::size_t channel) const {
     return factors.empty() ? 1.0f : factors[factors.size() == 1 ? 0 : channel];
   }

@@ -51,8 +51,7 @@ struct QuadraticTerms {
 inline constexpr std::size_t kQuadraticTerms = 36;
 
 // An AppearanceCoordinates gives the position of a reflectance in the appearance space of its material.
-// Reflectances are clamped to [0, 1], alpha to its range. The unit is the RMS distance of texels from their
-// mean.
+// Reflectances are clamped to [0, 1], alpha to its range. Unit: RMS distance of texels from the mean.
 struct AppearanceCoordinates {
   std::size_t dimension = 0;   // 1 to 3
   float least_alpha = 0.0f;    // above 0
@@ -79,8 +78,7 @@ struct BlendedNodes {
   bool operator==(const BlendedNodes&) const = default;
 };
 
-// A CopiedNodes copies the closest node, so that results are reflectances of the template (An et al. 2011,
-// principle 5).
+// A CopiedNodes copies the closest node, so results are template reflectances (An et al. 2011, principle 5).
 struct CopiedNodes {
   std::vector<WarpTexel> palette;      // texels of the template, 1 to 65536
   std::vector<std::uint16_t> indices;  // into the palette; nodes^dimension, the first dimension fastest

@@ -27,8 +27,7 @@
 
 namespace remap {
 
-// Lists all members for another process (packed_values.hpp). Both processes share the constants with rule
-// names.
+// Lists all members for another process (packed_values.hpp). Both share the constants with rule names.
 template <typename Archive>
 void fields(Archive& archive, Fix& fix) {
   archive(fix.words, fix.command, fix.asset, fix.output, fix.options);

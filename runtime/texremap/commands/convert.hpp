@@ -5,8 +5,7 @@
 
 namespace remap {
 
-// Converts what the options name, and prints the results. Throws after a conversion in which a set or an
-// asset failed.
+// Converts what the options name, and prints the results. Throws afterwards if a set or an asset failed.
 void convert(ConvertOptions options);
 
 }  // namespace remap

@@ -26,8 +26,7 @@ struct PlannedFarm {
   int minutes = 0;           // limit for a part
 };
 
-// Throws kUsage for words that the files of a plan cannot hold. A line break would begin a new line of a
-// script.
+// Throws kUsage for words that the files of a plan cannot hold. A line break would begin a script line.
 void require_writable(PlanKind kind, const PlannedFarm& farm);
 
 // A PlanFiles holds the files of a plan, by their names, and the shell command that submits them.

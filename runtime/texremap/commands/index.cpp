@@ -30,8 +30,7 @@ Listing listing_of_sets(const IndexOptions& options) {
   discovery.naming = &naming;
   Listing listing;
   listing.found = find_sets(options.folder, discovery);
-  // Refuses the second of two sets whose names differ only in case, because parts would write the same result
-  // file.
+  // Refuses the second of two sets whose names differ only in case, because parts would write the same file.
   WrittenNames names;
   std::erase_if(listing.found.sets, [&](const FoundSet& set) {
     const std::filesystem::path place = options.folder / set.folder / set.name;

@@ -1,5 +1,4 @@
-// This is texremap. It converts texture maps from the parameters of one BRDF model to the parameters of
-// another.
+// This is texremap. It converts texture maps from one BRDF model's parameters to another's.
 #include "command_line/interruption.hpp"
 #include "core/system.hpp"
 #include "texremap/commands/commands.hpp"

@@ -1,5 +1,4 @@
-// This file is `texremap merge-reports`. It makes one report of the parts of a conversion, and reports
-// missing parts.
+// `texremap merge-reports` makes one report of the parts of a conversion, and reports missing parts.
 #include <iostream>
 #include <optional>
 

@@ -33,8 +33,7 @@ struct PlanOptions {
   bool force = false, json = false, quiet = false;
 };
 
-// A part takes a quarter of an hour. That is long compared with its start, and short enough to lose after a
-// kill.
+// A part takes a quarter of an hour: long compared with its start, and short enough to lose after a kill.
 constexpr double kUsualSeconds = 900.0;
 // A cluster with the default of Slurm's MaxArraySize refuses more parts.
 constexpr std::size_t kMostParts = 1000;
@@ -97,8 +96,7 @@ std::filesystem::path whole(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal();
 }
 
-// Reads the options of convert from the words for a plan. Throws kUsage for options that the plan writes
-// itself.
+// Reads the options of convert from the words for a plan. Throws kUsage for options of the plan itself.
 ConvertOptions options_of(const std::vector<std::string>& words) {
   Command command("The options of texremap convert", "texremap convert");
   ConvertOptions options;
@@ -114,8 +112,7 @@ ConvertOptions options_of(const std::vector<std::string>& words) {
   return options;
 }
 
-// Returns the same options without the output folder, and with absolute paths, because jobs run in other
-// folders.
+// Returns the options without the output folder, with absolute paths, because jobs run in other folders.
 std::vector<std::string> words_of_jobs(const ConvertOptions& options) {
   std::vector<std::string> words;
   for (const GivenOption& option : options.given) {

@@ -87,8 +87,7 @@ std::optional<std::size_t> ArrayJob::own_count(std::size_t first) const {
 
 GivenPart ArrayJob::part(std::optional<std::size_t> count) const {
   const std::size_t index = *number(scheduler_.index);
-  // With a given number of parts the array may be a piece of the whole array, for example the tasks to
-  // repeat.
+  // With a given number of parts the array may be a piece of a whole, such as the tasks to repeat.
   const std::size_t first =
       count ? scheduler_.usual_first : number(scheduler_.first).value_or(scheduler_.usual_first);
   const bool is_given = count.has_value();

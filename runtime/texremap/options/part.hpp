@@ -1,5 +1,4 @@
-// This file describes a part of a conversion that many processes share, and the paths of its journal and
-// report.
+// This file describes a part of a shared conversion, and the paths of its journal and report.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +15,7 @@ inline constexpr const char* kPartsFolder = ".texremap-parts";
 inline constexpr const char* kPartJournal = ".journal";
 inline constexpr const char* kPartReport = ".jsonl";
 
-// A Part is part `index` of `count`, from 1. The parts of a manifest are runs of neighbouring sets of about
-// equal cost.
+// A Part is part `index` of `count`, from 1. A manifest's parts are runs of sets of about equal cost.
 struct Part {
   std::size_t index = 1, count = 1;
   bool operator==(const Part&) const = default;

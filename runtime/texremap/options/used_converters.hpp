@@ -15,8 +15,7 @@ class UsedConverters {
  public:
   // Adds the option, which every command has. The object must live until the command has run.
   Option* add_option(Command& command);
-  // Returns the graph of the converters, which must not outlive this object. Throws kInput if they cannot be
-  // read.
+  // Returns the graph of the converters, which must not outlive this object. Throws kInput if unreadable.
   ConverterGraph graph(InstructionSet set = best_instruction_set()) const;
 
  private:

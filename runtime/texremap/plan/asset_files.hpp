@@ -15,8 +15,7 @@
 
 namespace remap {
 
-// A FileSource gives the bytes of a file that stays open. It is read to its end even if another file gets its
-// name.
+// A FileSource gives the bytes of a file that stays open. It is read to its end even if its name changes.
 class FileSource final : public ByteSource {
  public:
   // Throws kInput unless `path` leads to a regular file that can be read.
@@ -61,8 +60,7 @@ struct ResourcePlan {
 
 // Plans the copies that the result needs to find the files that the asset names. In one folder it needs none.
 // Throws kInput for a name that leads out of the root or to the asset itself, or that is one of texremap's
-// own files. It calls `require_free` for each file that a copy would replace; this throws if the file must
-// stay.
+// own files. It calls `require_free` for each file that a copy would replace; which throws if it must stay.
 ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResource>& resources,
                             const std::function<void(const std::filesystem::path&)>& require_free);
 

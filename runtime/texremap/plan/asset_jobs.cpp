@@ -115,8 +115,7 @@ std::vector<fs::path> files_of(const AssetWork& asset) {
 }
 
 // A NamePlan gives each asset the names that it will write: its result, copies, and the prefix of its new
-// images. If two assets would write the same file, it refuses the second, or gives it another prefix for
-// images.
+// images. If two assets would write the same file, it refuses the second, or changes its prefix.
 class NamePlan {
  public:
   explicit NamePlan(JobList& list) : list_(list) {}

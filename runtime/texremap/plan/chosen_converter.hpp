@@ -15,8 +15,7 @@ struct ChosenConverter : BuiltConversion {
 // Returns a text such as `diffuse plain, dielectric F0 0.04`.
 std::string conventions_text(const WorkflowEnd& end);
 
-// Returns the text that results store as `remap:converter`: the ids of the steps, and the formula of a
-// workflow.
+// Returns the text that results store as `remap:converter`: the ids of steps, and a workflow's formula.
 std::string converter_ids(const ChosenConverter& chosen);
 
 }  // namespace remap

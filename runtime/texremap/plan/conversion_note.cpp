@@ -22,8 +22,8 @@ double spread(std::size_t index, std::size_t row) {
   return value - std::floor(value);
 }
 
-// Adds the converter's results for texels all over its domain and slightly beyond. They depend on its numbers
-// and its code.
+// Adds the converter's results for texels all over its domain and slightly beyond. They depend on numbers and
+// code.
 void add_behaviour(const Converter& converter, ContentHash& hash) {
   const ConverterInfo& info = converter.info();
   std::array<std::vector<float>, 3 * kParameterCount> in, out;

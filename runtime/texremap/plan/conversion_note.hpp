@@ -1,5 +1,4 @@
-// This file records everything that the results of a conversion depend on, except the inputs. A later run
-// compares it.
+// This file records what results of a conversion depend on, except the inputs. A later run compares it.
 #pragma once
 
 #include <string>

@@ -122,8 +122,7 @@ std::string one_channel(const std::string& option, const std::filesystem::path& 
 
 namespace {
 
-// Returns the encoding of the roughness maps. `--roughness` means roughness even if the model uses
-// glossiness.
+// Returns the encoding of the roughness maps. `--roughness` never means glossiness.
 std::optional<RoughnessEncoding> given_convention(const ConvertOptions& options,
                                                   const WorkflowChoice& workflow) {
   if (options.reads_glossiness()) return RoughnessEncoding::kGlossiness;

@@ -74,8 +74,7 @@ void require_outside(const std::filesystem::path& output, const std::filesystem:
                       ", the tree of the manifest (choose a folder outside of it)");
 }
 
-// Returns a warning if roughness maps of a folder are read in another encoding than most tools write, or an
-// empty text.
+// Returns a warning if roughness maps of a folder are read in an encoding that few tools write, or "".
 std::string encoding_warning(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
   if (options.folder.empty() || options.roughness_encoding ||
       source.roughness == RoughnessEncoding::kRoughness)
@@ -201,8 +200,7 @@ void refuse_engine(const ConvertOptions& options) {
                     std::string(engine->name) + ")");
 }
 
-// Fills in missing options: without --to, assets become gltf. Of two paths without --output, the second is
-// the result.
+// Fills in missing options: without --to, assets become gltf. Without --output the second path is the result.
 void complete_asset_options(ConvertOptions& options) {
   const bool is_gltf = options.to.empty() || options.to.name == "metallic";
   if (engine_layout_of(options.to.word()) == nullptr && is_gltf)

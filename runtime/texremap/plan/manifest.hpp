@@ -30,8 +30,7 @@
 
 namespace remap {
 
-// This is the cost of opening, writing and renaming a small file, in bytes of a large one (measured:
-// docs/farm.md).
+// This is the cost of opening, writing and renaming a small file, in bytes of a large one (docs/farm.md).
 inline constexpr std::uint64_t kCostOfFile = 200'000;
 
 enum class ListedKind { kSets, kAssets };
@@ -58,7 +57,7 @@ struct ListedAsset {
   std::vector<std::filesystem::path> files;  // existing files that it names, relative to the root
 };
 
-// A Listing holds the entries of a manifest: the texture sets of a tree, or its assets. Both keep problems in
+// A Listing holds the entries of a manifest: the texture sets of a tree, or its assets. Problems are in
 // `found`.
 struct Listing {
   ListedKind kind = ListedKind::kSets;

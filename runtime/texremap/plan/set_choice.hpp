@@ -1,5 +1,4 @@
-// This file chooses the maps of a found set that a conversion reads, and infers the source from the names of
-// maps.
+// This file chooses the maps of a found set that a conversion reads, and infers the source from map names.
 #pragma once
 
 #include <optional>

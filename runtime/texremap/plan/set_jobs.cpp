@@ -20,8 +20,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// Returns the file of `map` for a tile, or nothing if the tile is missing. A map without tiles serves every
-// tile.
+// Returns the file of `map` for a tile, or nothing if it is missing. A map without tiles serves every tile.
 std::optional<fs::path> file_of(const FoundMap& map, int tile) {
   if (map.tiles.empty()) return map.path;
   for (const Tile& candidate : map.tiles)
@@ -103,8 +102,7 @@ class SetJobs {
   bool takes_names(const FoundSet& set);
   void note_sizes(Job& job) const;
   void require_encoding_used() const;
-  // Returns the map that an option gives for a parameter: one for all sets, or a pattern. Returns null if
-  // there is none.
+  // Returns an option's map for a parameter: one for all sets, or a pattern. Otherwise returns null.
   const MapName* given_map(Parameter parameter) const {
     const MapSource* source = options_.map_of(parameter);
     return source != nullptr ? std::get_if<MapName>(source) : nullptr;
@@ -116,8 +114,7 @@ class SetJobs {
     if (workflow_.is_material()) return width_of(*workflow_.source);
     return std::nullopt;
   }
-  // Returns true if a set without a roughness map gets one from an option, and has other maps of the
-  // material.
+  // Returns true if a set gets its missing roughness map from an option, and has other maps of the material.
   bool has_given_width(const FoundSet& set) const;
   void fail(const std::string& message) { jobs_.skipped.push_back({message, true}); }
   std::string context(const FoundSet& set) const { return display_path(root_ / set.folder / set.name); }
@@ -349,8 +346,7 @@ void SetJobs::note_normals() {
   }
 }
 
-// Copies or reports the files that the conversion does not read. A map without tiles goes with the first tile
-// of the set.
+// Copies or reports files that the conversion does not read. A map without tiles goes with the first tile.
 void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
   const std::vector<fs::path*> read = files_of(work);
   const bool is_first = tile == tiles_of(set).front();
@@ -387,7 +383,7 @@ bool SetJobs::comes_along(const FoundMap& map) const {
   });
 }
 
-// Returns the files that the conversion of a set writes, each with one of its source maps. Tiles count as one
+// Returns the files that the conversion of a set writes, each with one of its source maps. Tiles are one
 // file.
 std::map<fs::path, fs::path> SetJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? set.maps[set.width->map] : set.maps.front();

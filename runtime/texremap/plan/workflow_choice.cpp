@@ -63,8 +63,7 @@ void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::
   refuse(options, tag, " cannot be used with the warp " + warp + " (remove this option)");
 }
 
-// Handles a warp whose source is only a diffuse map. The conversion then has neither specular nor roughness
-// maps.
+// Handles a warp whose source is only a diffuse map. It has neither specular nor roughness maps.
 void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
   refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts only a diffuse map");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessEncoding::kAlpha;

@@ -1,4 +1,4 @@
-// This file interprets `--from`, `--to` and the workflow options: the material at each end, and the assumed
+// This file interprets `--from`, `--to` and the workflow options: both materials, and the assumed
 // conventions.
 #pragma once
 
@@ -26,8 +26,7 @@ struct WorkflowChoice : ConversionChoice {
 WorkflowChoice workflow_choice(const ConvertOptions& options);
 
 // Returns the choice for a warp: both ends have diffuse, specular and roughness, in the encoding that the
-// options name. Throws kUsage for options that cannot be used with a warp, and for models other than the
-// warp's.
+// options name. Throws kUsage for options that cannot be used with a warp, and for other models.
 WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit);
 
 struct ModelPair {

@@ -16,8 +16,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A SharedCopies lets the first asset copy a file that several assets of a run name. The others wait for the
-// whole file.
+// A SharedCopies lets the first of several assets copy a shared file. The others wait for the whole file.
 class SharedCopies {
  public:
   void copy(const ResourceCopy& copy) {

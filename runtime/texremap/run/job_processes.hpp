@@ -1,5 +1,4 @@
-// This file runs jobs in separate processes. If a hostile image crashes a decoder or makes it loop, only one
-// job is lost.
+// This file runs jobs in separate processes. If a hostile image crashes a decoder, only one job is lost.
 #pragma once
 
 #include <cstddef>

@@ -116,8 +116,7 @@ void Content::add(std::string_view line) {
       field["files"].list(0, read);
     }
   } catch (const Error&) {
-    // Skip the line, because its meaning is unknown. A killed run left half a line, or the journal is
-    // damaged.
+    // Skip the line, because its meaning is unknown. A killed run left it, or the journal is damaged.
   }
 }
 

@@ -59,8 +59,7 @@ class Journal {
 
   // Throws kOutput, with the difference, if the folder belongs to another conversion.
   void require_own() const;
-  // Records that the folder belongs to this conversion, and creates it. Throws like require_own() unless
-  // `force`.
+  // Records that the folder belongs to this conversion, and creates it. Unless `force`, calls require_own().
   void claim(bool force);
 
   // Returns true if this conversion wrote, or began to write, the file.
@@ -83,8 +82,7 @@ class Journal {
   std::unique_ptr<State> state_;
 };
 
-// A JournalLookup finds input files in journals. A journal lies in the folder of the file or in one above.
-// Thread-safe.
+// A JournalLookup finds input files in journals. A journal lies in the file's folder or above. Thread-safe.
 class JournalLookup {
  public:
   JournalLookup();

@@ -12,12 +12,10 @@
 
 namespace remap {
 
-// An OutputFolder has no journal for named assets, because the user chose their place and other files may be
-// there.
+// An OutputFolder has no journal for named assets, because the user's folder may have other files.
 class OutputFolder {
  public:
-  // Throws kOutput if the folder belongs to another conversion, unless --force is given. `plan` must outlive
-  // this object.
+  // Throws kOutput if the folder belongs to another conversion, except with --force. `plan` must outlive it.
   explicit OutputFolder(const ConvertPlan& plan);
 
   // Throws kOutput, with what to do, unless a file may be written. It may be written if it does not exist, if

@@ -20,8 +20,7 @@ struct PlannedRole {
   bool operator==(const PlannedRole&) const = default;
 };
 
-// `own_width` is the encoding of the source if the set does not state one. `width` is the encoding of the
-// results.
+// `own_width` is the source's encoding if the set does not state one, `width` the encoding of the results.
 std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& plan,
                                        const TargetChoice& choice, const SetWork& work,
                                        RoughnessEncoding own_width, RoughnessEncoding width);

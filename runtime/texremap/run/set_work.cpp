@@ -19,7 +19,6 @@
 namespace remap {
 namespace {
 
-// OpenFiles holds open files, each once.
 using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
 
 // Returns each file once, because a file of several parts is several maps.
@@ -36,8 +35,7 @@ std::shared_ptr<const InputFile> file_among(const OpenFiles& files, const std::f
   return found != files.end() ? *found : std::make_shared<const InputFile>(path);
 }
 
-// Returns a hash of the files of a set, of the use of their channels, and of the files that are copied beside
-// it.
+// Returns a hash of the files of a set, the use of their channels, and the files that are copied with it.
 std::string inputs_hash(const OpenFiles& files, const SetWork& set, const OpenFiles& copied) {
   ContentHash hash;
   for (const auto& file : files) hash.add_file(*file);

@@ -130,8 +130,7 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
                                 std::to_string(height) + " needs (the file may be truncated)");
 }
 
-// Checks the ends of texts, because OpenImageIO reads texts of the extension area up to the next zero
-// anywhere.
+// Checks the ends of texts, because OpenImageIO reads texts of the extension area up to any zero.
 void look_at_targa(const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kFooter = 26, kArea = 495;
   std::string footer(kFooter, '\0'), area(kArea, '\0');

@@ -112,8 +112,7 @@ class OpenedNewImage : public NewImage {
   bool plane_is_open_ = false;
 };
 
-// Prepares everything without opening the encoder, because libpng prints errors if it is opened and gets no
-// texels.
+// Prepares everything without opening the encoder, because libpng prints errors if it gets no texels.
 void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
   output_ = OIIO::ImageOutput::create(path_.string());
   if (!output_) {
@@ -128,8 +127,7 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
     std::vector<OIIO::ImageSpec>& levels = specs_.emplace_back();
     for (const OIIO::ImageSpec& model : followed_levels(*part.model)) {
       levels.push_back(output_spec(model, model_format, *output_, part.changes, path_));
-      // TIFF has no mip levels. Textures store them as parts, and programs that read textures treat the parts
-      // as levels.
+      // TIFF has no mip levels. Textures store them as parts, which programs treat as levels.
       const bool has_levels =
           output_->supports("mipmap") ||
           (model_format == output_->format_name() && output_->supports("multiimage") && parts.size() == 1);

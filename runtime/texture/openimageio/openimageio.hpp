@@ -53,8 +53,7 @@ std::string png_picture_bytes(const Picture& picture);
 const ImageCodec& asset_codec();
 
 // Returns the description of a new file that follows `model` in everything except `changes`, if the format of
-// `output` can hold it. Throws kOutput, with `path`, if the format cannot hold the channels or the requested
-// type.
+// `output` can hold it. Throws kOutput, with `path`, if the format cannot hold channels or type.
 OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& model_format,
                             const OIIO::ImageOutput& output, const ImageChanges& changes,
                             const std::filesystem::path& path);

@@ -66,8 +66,7 @@ void leave_coding_behind(OIIO::ImageSpec& spec, const OIIO::ImageOutput& output)
   if (!output.supports("tiles") || !sides_fit) spec.tile_width = spec.tile_height = spec.tile_depth = 0;
 }
 
-// Removes the creator, because IPTC writers add the artist again, and programs would then report two
-// creators.
+// Removes the creator, because IPTC writers add the artist again; there would be two creators.
 void leave_creator_to_writer(OIIO::ImageSpec& spec) {
   if (spec.get_string_attribute("IPTC:Creator") == spec.get_string_attribute("Artist"))
     spec.erase_attribute("IPTC:Creator");

@@ -10,7 +10,6 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// Returns the description of a file of `type` with the picture.
 OIIO::ImageSpec spec_of(const Picture& picture, OIIO::TypeDesc type) {
   OIIO::ImageSpec spec(picture.width, picture.height, static_cast<int>(picture.channels.size()), type);
   spec.channelnames = picture.channels;

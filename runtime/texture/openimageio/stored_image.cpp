@@ -102,8 +102,7 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
 
 namespace {
 
-// A FileStream is an open file as a stream with its own position. Several images may read one file in several
-// threads.
+// A FileStream is an open file as a stream with its own position. Several threads may read one file.
 struct FileStream {
   explicit FileStream(const InputFile& source) : file(source), stream(opened(this), std::fclose) {}
   static std::FILE* opened(FileStream* cookie);
@@ -266,7 +265,7 @@ void OpenedImage::refuse_spoiled_webp() {
 }
 
 void OpenedImage::count_parts() {
-  // The WebP importer reads nothing after a request for a missing frame. Of an animation only the first frame
+  // The WebP importer reads nothing after a request for a missing frame. Only an animation's first frame
   // counts.
   const int most_parts = std::string_view(input_->format_name()) == "webp" ? 1 : kMostParts;
   while (part_count_ < most_parts && input_->seek_subimage(part_count_, 0)) ++part_count_;
