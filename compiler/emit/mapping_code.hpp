@@ -14,7 +14,7 @@ std::string form_code(const ConverterData& converter);
 
 struct MaterialCode {
   std::string formula;
-  std::string constants;  // definitions beside those of the ends
+  std::string constants;  // definitions beside the ones of the ends
   std::string functions;  // for namespace detail
   std::string block;      // the number of texels that are converted together
   std::string call;       // converts a block: rows `from` to rows `to`

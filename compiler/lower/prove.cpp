@@ -56,7 +56,7 @@ std::vector<Box> first_boxes(const Domain& domain) {
   constexpr int kAlphaBoxes = 16, kSpecularBoxes = 4;
   const Range alpha{domain.alpha.min - room(domain.alpha.min), domain.alpha.max + room(domain.alpha.max)};
   const Range specular{domain.specular.min * (1.0 - 2e-6), domain.specular.max * (1.0 + 2e-6)};
-  // Quadratic spacing, because curves bend most near 0.
+  // Spacing is quadratic, because curves bend most near 0.
   const auto part = [](const Range& range, int k, int count) {
     return k == count ? range.max : range.min + (range.max - range.min) * k * k / (count * count);
   };

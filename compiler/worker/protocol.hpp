@@ -27,7 +27,7 @@ struct PictureRequest {
   std::string shown;  // `mitsuba3/ggx alpha 0.2, specular 0.5, light 60, 256 x 256`
   int resolution = 0;
   Shape shape = Shape::kSphere;
-  int channels = 1;  // 1 if every parameter is grey, else 3
+  int channels = 1;  // 1 if every parameter is grey, otherwise 3
 };
 PictureRequest picture_request(const Material& material, const Scene& scene);
 

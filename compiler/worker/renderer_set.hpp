@@ -22,7 +22,7 @@ class RendererSet final : public Renderer {
   // Names the built-in renderer and the workers that have been started.
   std::string version() const override;
   std::string version_of(const std::string& model) const override;
-  // Returns the built-in models and those of workers that have been started; starts none.
+  // Returns the built-in models and the models of started workers; starts none.
   std::vector<ModelDescription> models() const override;
   ModelDescription model(const std::string& name) const override;
   Image render(const Material& material, const Scene& scene) const override;

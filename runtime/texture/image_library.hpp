@@ -121,7 +121,7 @@ class ImageLibrary {
 
 // Loads the library for image_library(); each host defines it. The programs load a module from a folder
 // beside theirs, because its 260 shared libraries take longer to load than most commands run. Throws kInput,
-// with the reason and a remedy, if the module is missing or cannot be loaded.
+// with the reason and the fix, if the module is missing or cannot be loaded.
 const ImageLibrary& load_image_library();
 
 // Returns the library of images, which the first call loads. After a failure a later call tries again. Many

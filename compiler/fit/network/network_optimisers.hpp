@@ -33,7 +33,8 @@ struct OptimisedNetwork {
   int best_iteration = 0;
 };
 
-// Is called after each iteration with the finished fraction, 0 to 1. It must not throw; false stops.
+// A StepReport is called after each iteration with the finished fraction, 0 to 1. It must not throw; false
+// stops.
 using StepReport = std::function<bool(double share)>;
 
 // Runs Levenberg-Marquardt with a dense analytic Jacobian, for networks of up to some hundred parameters. The

@@ -21,8 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kFewestAlphas = 6;
-// The search starts at these rates, straight lines over the domain to the narrowest bump that a table
-// resolves.
+// The search starts at these rates, from straight lines to the narrowest bump that a table resolves.
 constexpr std::array<double, 12> kStartRates = {0.0, 0.25, 0.5,  1.0,  2.0,   4.0,
                                                 8.0, 16.0, 32.0, 64.0, 256.0, 1024.0};
 // Limits the rates: at the second smallest alpha of a table, an exponential is at least exp(-kLargestDecay).

@@ -20,7 +20,7 @@ constexpr std::size_t kFewestSamples = 8;
 constexpr std::size_t kFolds = 5;
 constexpr std::size_t kFirstFolds = 2;  // after which hopeless candidates are dropped
 constexpr double kHopeless = 1.5;       // error relative to the best on the same folds
-constexpr double kProgress = 0.99;      // relative error that counts as an improvement
+constexpr double kProgress = 0.99;      // a relative error up to this is an improvement
 constexpr double kWorthTime = 0.9;  // the same for a tube a third as wide, which takes three times as long
 constexpr std::size_t kNeverJudges = kFolds;
 
