@@ -1,4 +1,4 @@
-// The program texremap for a page: files are in memory, and JavaScript may run it more than once.
+// This is the program texremap for a page. Files are in memory, and JavaScript may run it more than once.
 #include <cstdio>
 #include <emscripten.h>
 #include <iostream>
@@ -17,7 +17,7 @@ namespace {
 Json names() {
   Json engines = Json::list(), materials = Json::list(), models = Json::list();
   for (const NamedLayout& engine : engine_layouts())
-    if (!engine.words.empty()) engines.push_back(engine.name);  // `--to gltf` is the material alone
+    if (!engine.words.empty()) engines.push_back(engine.name);  // `--to gltf` is only the material
   for (const WorkflowModel& model : workflow_models())
     materials.push_back(
         {{"name", model_of(model.end)}, {"workflow", kind_name(model.end)}, {"brdf", model.brdf}});
@@ -33,7 +33,7 @@ Json names() {
 }  // namespace
 }  // namespace remap
 
-// What --from and --to take, as JSON.
+// Returns the names for --from and --to, as JSON.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* texremap_names() {
   static const std::string text = remap::names().dump();
   return text.c_str();

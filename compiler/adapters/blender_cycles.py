@@ -57,7 +57,7 @@ def make_scene(threads):
     cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
     render = scene.render
     render.use_persistent_data, render.resolution_percentage = True, 100
-    # With one thread and persistent data, TBB of Blender 5.0 keeps a core busy between pictures.
+    # Uses two threads at least: with one and persistent data, TBB of Blender 5.0 keeps a core busy between pictures.
     render.threads_mode, render.threads = "FIXED", max(threads, 2)
     image = render.image_settings
     image.file_format, image.color_depth, image.exr_codec = "OPEN_EXR", "32", "NONE"

@@ -20,9 +20,9 @@ import tempfile
 FOLDER = pathlib.Path(__file__).resolve().parent
 CAMERA = 3.0  # its distance; the sphere touches the edges of the picture
 HEADLIGHT, ASIDE, FAR = (0, 3), (60, 3), (0, 6)  # lights: angle, distance
-SAME = 2e-3  # pictures that differ by more are different; half floats are exact to 5e-4
+SAME = 2e-3  # larger differences are real; half floats are exact to 5e-4
 WIDE = 0.5  # the alpha of checks that need no peak
-# Constants that renderers put between their unit of light and radiant intensity.
+# Renderers put these constants between their unit of light and radiant intensity.
 FACTORS = {"pi": math.pi, "1 / pi": 1 / math.pi, "4 pi": 4 * math.pi, "1 / (4 pi)": 0.25 / math.pi, "4": 4, "1 / 4": 0.25}
 OWN_WIDTH = {"alpha": lambda a: a, "roughness": math.sqrt, "exponent": lambda a: 2 / a**2 - 2,
              "glossiness": lambda a: 1 - math.sqrt(a), "squared": lambda a: a**2}
@@ -75,7 +75,7 @@ class Worker:
             self.process.stdin.write(json.dumps({"id": self.number, **request}).encode() + b"\n")
             self.process.stdin.flush()
         except BrokenPipeError:
-            pass  # its end is found where the answer is read
+            pass  # line() detects the end
         line = self.line()
         while self.number == 1 and not line.startswith("{"):  # a banner
             line = self.line()

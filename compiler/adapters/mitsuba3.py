@@ -19,7 +19,7 @@ MODELS = [
                                             parameter("diffuse", "diffuse", 0, 1)]},
     {"name": "mitsuba3/beckmann", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                  parameter("diffuse", "diffuse", 0, 1)]},
-    # Exact Fresnel of a dielectric; its diffuse lobe is below the interface and loses the reflected light.
+    # This has the exact Fresnel of a dielectric. Its diffuse lobe is below the interface and loses the reflected light.
     {"name": "mitsuba3/plastic", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                 parameter("diffuse", "diffuse", 0, 1),
                                                 parameter("ior", "other", 1.01, 4, default=1.5, grey=True)]},

@@ -19,11 +19,12 @@ from worker_loop import grey_or_rgb, parameter, serve  # noqa: E402
 
 EXPONENTS = (1.28, 128)  # shininess 0.01 to 1
 LOBE = [parameter("exponent", "roughness", *EXPONENTS, convention="exponent"), parameter("specular", "specular", 0, 1)]
-# A step of 8 bits under the brightest light. Seen through a display, its diffuse is not Lambertian, and adds to no highlight.
+# The precision is a step of 8 bits under the brightest light. Seen through a display, its diffuse is not Lambertian, and
+# adds to no highlight.
 MODELS = [{"name": "mujoco/material", "precision": 2e-3, "parameters": [*LOBE, parameter("diffuse", "diffuse", 0, 1)]},
           {"name": "mujoco/material-linear", "precision": 2e-3, "parameters": [*LOBE, parameter("diffuse", "other", 0, 1, default=0)]}]
 
-STEP, STEPS = 4, 7  # of light from one exposure to the next; at the first, white is a quarter
+STEP, STEPS = 4, 7  # ratio of light between exposures; at the first, white is a quarter
 CLAMPED = 250  # of 255
 GRID = 512  # slices and stacks of the sphere
 GAMMA = 2.2
@@ -118,7 +119,7 @@ def render(request, values):
     if is_linear:
         specular, rgb = specular ** (1 / GAMMA), rgb ** (1 / GAMMA)
     shininess = values["exponent"][0] / 128
-    # Its specular is one number: colors are a picture a channel.
+    # Its specular is one number, so a color needs one picture per channel.
     if len(set(specular)) == 1:
         picture = place.values(light["position"], specular[0], shininess, rgb)
     else:

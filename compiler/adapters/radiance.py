@@ -67,7 +67,7 @@ def material_of(model, values):
         red, green, blue = grey_or_rgb(values["reflectance"])
         return f"void metal skin 0 0 5 {red!r} {green!r} {blue!r} 1 {width!r}"
     specular = values["specularity"][0]
-    # Avoids a division by 0: at specularity 1 `plastic` has no diffuse.
+    # Avoid a division by 0, because at specularity 1 `plastic` has no diffuse.
     left = max(1 - specular, 1e-9)
     red, green, blue = (value / left for value in grey_or_rgb(values["diffuse"]))
     return f"void plastic skin 0 0 5 {red!r} {green!r} {blue!r} {specular!r} {width!r}"

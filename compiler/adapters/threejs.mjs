@@ -1,4 +1,4 @@
-// three.js in headless Chromium (SwiftShader): its standard, physical and Phong materials.
+// This file renders by three.js in headless Chromium (SwiftShader): its standard, physical and Phong materials.
 //
 // Each pixel centre is one vertex on the exact sphere, with its normal, drawn as a point. This avoids tessellation, and the
 // roughness that three.js adds on meshes for the change of the normal between pixels. The render target holds linear

@@ -55,7 +55,7 @@ class Builder {
     std::vector<const ManifestItem*> waiting;
     for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
     while (!waiting.empty()) {
-      // Items whose inputs are built come first; the order of a manifest guarantees that there are some.
+      // Start with the items whose inputs are built. The order of a manifest guarantees that there are some.
       std::vector<const ManifestItem*> ready, later;
       for (const ManifestItem* item : waiting) {
         const std::vector<std::string> inputs = inputs_of(*item);
@@ -85,8 +85,7 @@ class Builder {
   }
 
  private:
-  // Removes vanished items from the lock. Those whose fits still exist are kept, so that a later build can
-  // prune them.
+  // Removes vanished items from the lock. If its fit still exists, an item stays, so a later build prunes it.
   void forget_vanished() {
     std::set<std::string> kept;
     for (const ManifestItem& item : manifest_.items) kept.insert(item.id);
@@ -99,8 +98,7 @@ class Builder {
     std::erase_if(lock_.items, [&](const auto& entry) { return !kept.contains(entry.first); });
   }
 
-  // Deletes the files of a vanished item and returns true; does nothing if one was changed after the last
-  // build.
+  // Deletes the files of a vanished item and returns true. Does nothing if a file changed since the build.
   bool prune(const std::string& id) const {
     const LockedItem& known = last_lock_.items.at(id);
     const ItemPaths paths = paths_of(folders_, id);
@@ -148,7 +146,7 @@ class Builder {
     if (execution_.progress) execution_.progress(done_, manifest_.items.size());
   }
 
-  // Whether the table of the last build can be reused because a renderer that would make it is not installed.
+  // Returns true if the table of the last build can be reused because its renderer is not installed.
   bool keeps_table(const ManifestItem& item, LockedItem* record, std::string* reason) const {
     const auto* swept = std::get_if<SweptItem>(&item.kind);
     const auto last = last_lock_.items.find(item.id);
@@ -190,7 +188,7 @@ class Builder {
     record->header = sha256(text);
   }
 
-  // `made`, which needs pictures, by a renderer that counts them.
+  // Calls `made` with a renderer that counts the pictures.
   template <class Make>
   auto with_pictures(BuiltItem* built, const Make& made) const {
     const TimedRenderer renderer(renderer_);
@@ -257,8 +255,9 @@ class Builder {
     });
   }
 
-  // The item defines the workflows of both ends; the F0 of its dielectrics must be that of the samples. These
-  // are megabytes that `remapc sample` makes again, so they become no file; the fit holds their hash.
+  // Trains a network. The item defines the workflows of both ends, and the samples must have the same F0 of
+  // dielectrics. The samples are megabytes that `remapc sample` can remake, so the build only stores their
+  // hash in the fit.
   WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item, BuiltItem* built) const {
     const std::string bytes = material_table_text(samples_of(network, item.seed, built));
     const Stopwatch stopwatch;
@@ -295,7 +294,7 @@ class Builder {
   }
 
   void write_converters(const FitFolder& folder) {
-    // Warps are made from textures and strokes, so no item of a manifest is one.
+    // Warps are made from textures and strokes, so a manifest never lists one.
     for (const WarpMapFit& fit : folder.warps)
       write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
     for (const EmittedFile& file : emit_shared_files(folder.fits))

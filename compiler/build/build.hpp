@@ -1,5 +1,5 @@
-// Builds what a manifest describes: tables, fits, headers, the data of all converters and the report. Only
-// what is missing or out of date is made.
+// This file builds what a manifest describes: tables, fits, headers, the data of all converters and the
+// report. It makes only what is missing or out of date.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace remap {
 
-// How a build runs. None of this changes its results.
+// A BuildExecution decides how a build runs. None of this changes its results.
 struct BuildExecution {
   unsigned jobs = 0;                                                // items at once; 0: one for each core
   bool force = false;                                               // remakes everything
@@ -24,21 +24,21 @@ struct BuildExecution {
   const std::atomic<bool>* cancelled = nullptr;  // throws kInterrupted; finished items stay
 };
 
-// The time of an item, in seconds of its one thread; 0 if it was up to date.
+// A BuildSeconds is the time of an item, in seconds of its only thread, or 0 if it was up to date.
 struct BuildSeconds {
-  double sweep = 0.0;     // the table, or the samples of a network, with the waiting for pictures
-  double pictures = 0.0;  // of it, the waiting for the renderer
+  double sweep = 0.0;     // the table, or the samples of a network, including waiting for pictures
+  double pictures = 0.0;  // the part of it that waits for the renderer
   double fit = 0.0;
   double lowering = 0.0;  // with its proofs
   double all = 0.0;
 };
 
-// The files and times of one item.
+// A BuiltItem holds the files and times of one item.
 struct BuiltItem {
   std::string id;
   bool table = false, fit = false, header = false;
   BuildSeconds seconds;
-  std::size_t pictures = 0;  // that were rendered or read from the cache
+  std::size_t pictures = 0;  // rendered or read from the cache
   std::string kept_table;  // why the table of an earlier build was reused; empty if it was up to date or made
 };
 
@@ -53,11 +53,11 @@ struct BuildResult {
   std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
 };
 
-// Makes every item of `manifest` whose recipe, inputs or files changed since the last build, then the
-// data of all converters of the folder and the report. Each item is swept and fitted by one thread. An item
-// that fails does not stop the others; then neither the data of converters nor the report is made. Finished
-// items stay. If a renderer is not installed, even `force` reuses a table made by the same recipe; without
-// one, the item fails. Pruning deletes only files that have not been changed after their build.
+// Makes every item of `manifest` whose recipe, inputs or files changed since the last build, then the data of
+// all converters of the folder and the report. Each item is swept and fitted by one thread. An item that
+// fails does not stop the others, but then the data of converters and the report are not made. Finished items
+// stay. If a renderer is not installed, even `force` reuses a table made by the same recipe. Without such a
+// table, the item fails. Pruning deletes only files that have not been changed after their build.
 BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
                   const BuildExecution& execution);
 
@@ -67,8 +67,8 @@ Fit composed_fit(const std::vector<Fit>& steps, const std::string& id);
 // Returns the items of earlier builds that are no longer in the manifest and whose fits still exist, by id.
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders);
 
-// Returns what build() would make and why, one line each; also vanished items, and fits whose table was
-// changed after the fit. Empty if everything is up to date.
+// Returns what build() would make and why, one line each. It also lists vanished items, and fits whose table
+// was changed after the fit. It is empty if everything is up to date.
 std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders);
 
 }  // namespace remap

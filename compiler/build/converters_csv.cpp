@@ -1,4 +1,4 @@
-// The table of all figures of all converters.
+// This file writes the table of all figures of all converters.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// One row, by column; missing columns stay empty.
+// A Row is one row, keyed by column. Missing columns stay empty.
 using Row = std::map<std::string, std::string>;
 
 const std::vector<std::string> kColumns = {"converter",
@@ -44,7 +44,7 @@ const std::vector<std::string> kColumns = {"converter",
                                            "excess_at_specular",
                                            "remarks"};
 
-// Measured fits by source and target.
+// Pairs holds measured fits by source and target.
 using Pairs = std::map<std::pair<std::string, std::string>, const Fit*>;
 
 std::string figure(double value) { return number_text(rounded(value, 3)); }
@@ -55,7 +55,7 @@ std::string joined(const std::vector<std::string>& remarks) {
   return text;
 }
 
-// numpy's genfromtxt knows no quotes, and takes what follows # for a comment.
+// Changes a text for numpy's genfromtxt, which knows no quotes and reads everything after # as a comment.
 std::string cell(std::string text) {
   for (char& c : text)
     if (c == ',')
@@ -90,8 +90,8 @@ void add_pictures(const Fit& fit, Row* row) {
   (*row)["ssim_least_at_alpha"] = figure(least->alpha);
 }
 
-// The larger of the relative changes of alpha and specular, there and back by the converter of the other
-// direction.
+// Adds the larger of the relative changes of alpha and specular after a round trip through the converter of
+// the other direction.
 void add_round_trip(const Fit& fit, const Pairs& pairs, Row* row) {
   const auto back = pairs.find({fit.target.model, fit.source.model});
   if (!is_measured(fit) || back == pairs.end()) return;

@@ -1,4 +1,4 @@
-// Loads the fits of a folder.
+// This file loads the fits of a folder.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,6 @@
 
 namespace remap {
 
-// All fits of a folder, by id.
 struct FitFolder {
   std::vector<Fit> fits;  // converters of width and specular
   std::vector<WorkflowFit> workflows;
@@ -19,21 +18,21 @@ struct FitFolder {
   void add(AnyFit fit);
 };
 
-// The default folder of fits: `fits` in the working directory if it holds any, otherwise the installed
-// folder. If neither exists, `fits`.
+// Returns the default folder of fits: `fits` in the working directory if it holds any, otherwise the
+// installed folder. If neither exists, it returns `fits`.
 std::filesystem::path default_fit_folder();
 
 // Loads every `*.json` of `folder` except its manifest and what is beside tables. Throws kInput for a folder
-// that cannot be read, a file that does not hold a fit, and a file whose name is not the id of its fit.
+// that cannot be read, a file without a fit, and a file whose name is not the id of its fit.
 FitFolder load_fit_folder(const std::filesystem::path& folder);
 
 // Loads the converters of width and specular only.
 std::vector<Fit> load_fits(const std::filesystem::path& folder);
 
-// Loads the fit that `name` means: a file, or an id in `folder`. Throws kUsage with the nearest known id.
+// Loads the fit that `name` means: a file, or an id in `folder`. Throws kUsage with the closest known id.
 AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder);
 
-// The same for commands that need a converter of width and specular. Throws kUsage for other kinds.
+// Does the same for commands that need a converter of width and specular. Throws kUsage for other kinds.
 Fit find_fit(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace remap

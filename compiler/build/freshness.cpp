@@ -24,8 +24,7 @@ bool has_table(const ManifestItem& item) {
 
 namespace {
 
-// To be raised where every table must be swept anew. The format of fits is another matter: they are made anew
-// from their tables.
+// Raise this if every table must be swept again. The format of fits is separate.
 constexpr int kTableVersion = 3;
 
 bool has_current_format(const fs::path& fit) {

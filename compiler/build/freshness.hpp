@@ -1,4 +1,4 @@
-// Decides which files of a build are up to date.
+// This file decides which files of a build are up to date.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,6 @@
 
 namespace remap {
 
-// The folders of a build.
 struct BuildFolders {
   std::filesystem::path fits = "fits";  // fits, with tables/ in it; the report is its README.md
   std::filesystem::path generated = "generated";
@@ -21,23 +20,23 @@ struct ItemPaths {
 };
 ItemPaths paths_of(const BuildFolders& folders, const std::string& id);
 
-// Whether items of this kind keep a table: of a network, only the fit is kept.
+// Returns true if items of this kind keep a table. A network keeps only its fit.
 bool has_table(const ManifestItem& item);
 
 // Hashes what an item is made from. `lock` holds the current state of its inputs.
 std::string recipe_hash(const ManifestItem& item, const Lock& lock);
 
-// The files of an item that are recorded in the lock and still match their inputs.
+// A Freshness lists the files of an item that are recorded in the lock and still match their inputs.
 struct Freshness {
   bool table = false, fit = false, header = false;
-  std::string reason;  // why the first of them is not fresh
+  std::string reason;  // why the first stale file is not fresh
 };
 Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock);
 
-// Hashes what the report of a folder is made from: its fits.
+// Hashes the input of a folder's report: its fits.
 std::string report_hash(const BuildFolders& folders);
 
-// Whether the files of the report exist and belong to the fits of the folder.
+// Returns true if the files of the report exist and belong to the fits of the folder.
 bool has_report(const BuildFolders& folders, const Lock& lock);
 
 // Returns the items of `lock` that are no longer in the manifest and whose fits still exist, by id.

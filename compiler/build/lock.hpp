@@ -1,4 +1,4 @@
-// The hashes that a build leaves behind, by which the next build decides what is up to date.
+// This file stores the hashes of a build, by which the next build decides what is up to date.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@ namespace remap {
 
 inline constexpr const char* kLockName = "manifest.lock";
 
-// The SHA-256 of an item's inputs and results; empty if there are none.
+// A LockedItem holds the SHA-256 of an item's inputs and results. They are empty if there are none.
 struct LockedItem {
   std::string recipe;  // of its recipe, the tool's version and the fits that it is made from
   std::string table;

@@ -21,8 +21,8 @@ std::size_t read_count(const Field& field) {
 }
 
 constexpr std::int64_t kLargestResolution = 8192;   // pictures of 268 MB
-constexpr std::int64_t kMostMaterials = 1'000'000;  // as remapc sample takes
-// Of a group, in every order, and of all sections: a build makes a file for each item.
+constexpr std::int64_t kMostMaterials = 1'000'000;  // the limit of remapc sample
+// These limit the models of a group, which form pairs, and all items, which become files.
 constexpr std::size_t kMostModels = 100, kMostItems = 10'000;
 
 int read_resolution(const Field& field) {
@@ -73,7 +73,7 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   }
 }
 
-// Coefficients as printed in the paper (Sztrajman et al. 2019, section 7 and appendix A):
+// Reads coefficients as printed in the paper (Sztrajman et al. 2019, section 7 and appendix A):
 // c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) + c5 / alpha.
 AlphaCurve read_slope(const Field& field) {
   const double c1 = field["c1"].number(), c2 = field["c2"].number();
@@ -136,7 +136,7 @@ std::string read_id(const Field& field, const std::vector<ManifestItem>& items) 
   return id;
 }
 
-// The items whose diffuse lobes differ from those of the hub by design.
+// Reads the items whose diffuse lobes differ from the hub's by design.
 void read_accepted(const Field& list, std::vector<ManifestItem>* items) {
   list.list(0, [&](const Field& entry) {
     const std::string id = read_id(entry["id"], *items);

@@ -1,4 +1,4 @@
-// Reads the manifest of a folder of fits: what `remapc build` makes, and how.
+// This file reads the manifest of a folder of fits, which describes what `remapc build` makes.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ namespace remap {
 inline constexpr const char* kManifestName = "manifest.json";
 inline constexpr int kManifestVersion = 1;
 
-// How a group of pairs is swept and fitted.
+// A SweepRecipe decides how a group of pairs is swept and fitted.
 struct SweepRecipe {
   Objective objective;
   int resolution = 512;
   Range alphas{0.01, 1.0};
   std::size_t roughness_samples = 30;
   std::size_t specular_samples = 30;
-  std::map<std::string, Range> speculars;  // canonical, by source model; missing: the whole range
+  std::map<std::string, Range> speculars;  // canonical, by source model; if missing, the whole range
 };
 
-// One converter. SweptItem and NetworkItem need a renderer.
+// A ManifestItem is one converter. SweptItem and NetworkItem need a renderer.
 struct SweptItem {  // a pair of models, built-in or of real renderers
   std::string source, target;
   SweepRecipe recipe;
@@ -42,8 +42,8 @@ struct ChainItem {  // other items, one after another
   std::vector<std::string> steps;
 };
 
-// A network from the specular to the metallic workflow, trained on random metallic materials that were
-// matched by a specular model.
+// A NetworkItem is a network from the specular to the metallic workflow. It is trained on random metallic
+// materials that were matched by a specular model.
 struct NetworkItem {
   WorkflowFit fit;                      // without the trained part
   std::string metallic, specular;       // the sampled model and the matched model
@@ -60,22 +60,22 @@ struct ManifestItem {
   std::variant<SweptItem, InverseItem, FinishedItem, ChainItem, NetworkItem> kind;
   std::string recipe;      // the text that defines the item; equal recipes give equal items
   std::uint64_t seed = 1;  // of its fit and of random materials
-  // Whether its light is accepted as it is (table/light.hpp): the list `accepted_light` of the manifest names
-  // it, with a reason. Not part of the recipe: it decides whether a table is made, not what it holds.
+  // Is true if its light is accepted unchanged (table/light.hpp). The list `accepted_light` of the manifest
+  // names it, with a reason. It is not part of the recipe, because it does not change the content of a table.
   bool accept_light = false;
 };
 
-// The items, each after those that it is made from.
+// A Manifest holds the items, each after its inputs.
 struct Manifest {
   std::vector<ManifestItem> items;
 };
 
-// Reads the text of a manifest. Throws kInput, opened by `context`, for text that is not a manifest of
-// version kManifestVersion, an id that is defined twice or is not an identifier, and an inverse or chain of
-// an unknown item.
+// Reads the text of a manifest. Throws kInput, beginning with `context`, for text that is not a manifest of
+// version kManifestVersion. Also throws it for an id that is defined twice or is not an identifier, and for
+// an inverse or chain of an unknown item.
 Manifest manifest_from_json(std::string_view text, const std::string& context);
 
-// Loads the manifest of a folder, whose path is the place. Throws kInput if it has none, too.
+// Loads the manifest of a folder. Messages begin with its path. Throws kInput also if the folder has none.
 Manifest load_manifest(const std::filesystem::path& fit_folder);
 
 // Returns the ids of the items that an item is made from.

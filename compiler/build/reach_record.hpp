@@ -1,4 +1,4 @@
-// How near the converters of a folder come to the best match, as `remap-study reach` measured it.
+// This file reads how close a folder's converters come to the best match, as `remap-study reach` measured it.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@ namespace remap {
 
 inline constexpr const char* kReachName = "reach.csv";
 
-// The record of one fit. Excesses are fractions of the source's picture (study/reach.hpp).
+// A ReachRecord is the record of one fit. Excesses are fractions of the source's picture (study/reach.hpp).
 struct ReachRecord {
   std::string fit;            // SHA-256 of its file
-  std::size_t materials = 0;  // that were compared
+  std::size_t materials = 0;  // number of compared materials
   double mean_excess = 0.0, largest_excess = 0.0;
   double alpha = 0.0, specular = 0.0;  // of the material with the largest excess
 };
 using ReachRecords = std::map<std::string, ReachRecord>;  // by id
 
-// The records in `folder`; empty without a file. Throws kInput for a file of another form.
+// Reads the records in `folder`; there are none without a file. Throws kInput for a file of another form.
 ReachRecords read_reach(const std::filesystem::path& folder);
 // Returns the records of fits that have not changed since.
 ReachRecords current_reach(const std::filesystem::path& folder);

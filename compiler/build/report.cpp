@@ -48,7 +48,7 @@ std::string percent_text(double value) {
 
 std::string link(const std::string& text, const std::string& id) { return "[" + text + "](" + id + ".json)"; }
 
-// The compared converters between two models, both ways.
+// A ModelPair holds the compared converters between two models, both ways.
 struct ModelPair {
   std::string first, second;  // by name
   std::vector<const Fit*> there, back;
@@ -60,7 +60,7 @@ bool is_small(const ModelPair& pair) {
          std::all_of(pair.back.begin(), pair.back.end(), small);
 }
 
-// By the image error of the better direction, the best pair first.
+// Returns pairs by the image error of the better direction, the best pair first.
 std::vector<ModelPair> compared_pairs(const std::vector<Fit>& fits) {
   std::vector<ModelPair> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
@@ -130,7 +130,7 @@ std::string mark_text(const FitFolder& folder) {
          "pictures before you use one of them.\n";
 }
 
-// The errors that the table of pairs leaves out.
+// Returns the errors that the table of pairs leaves out.
 std::string small_errors_text(const std::vector<Fit>& fits) {
   double fit_error = 0.0, bound = 0.0;
   for (const Fit& fit : fits) {
@@ -143,7 +143,7 @@ std::string small_errors_text(const std::vector<Fit>& fits) {
          error_text(bound) + " in alpha (proven) or better.\n";
 }
 
-// The measured fits that end before the whole range, by what they cover.
+// Returns the measured fits that end before the whole range, with the ranges that they cover.
 std::string ranges_text(const std::vector<Fit>& fits) {
   constexpr double kWhole = 0.985;  // some exponents end at alpha 0.99
   std::map<std::string, std::string> short_ones;

@@ -1,4 +1,4 @@
-// Writes the page that says how far each converter of a folder can be trusted.
+// This file writes the page that states how reliable each converter of a folder is.
 #pragma once
 
 #include <string>
@@ -21,9 +21,8 @@ struct ReportFile {
 std::vector<ReportFile> report(const FitFolder& folder);
 
 // Returns all figures for spreadsheets and scripts, as CSV (RFC 4180): a header row, then one row for each
-// converter. Converters of width and specular come first, by rising image error, then those between
-// workflows, then warps. Errors are shares, lengths of the domain are alpha and specular; unknown figures are
-// empty.
+// converter. Converters of width and specular come first, by rising image error, then converters between
+// workflows, then warps. Errors are fractions. Domains are alpha and specular. Unknown figures are empty.
 std::string converters_csv(const FitFolder& folder);
 
 }  // namespace remap

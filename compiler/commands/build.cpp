@@ -1,4 +1,4 @@
-// `remapc build`: makes the items of a manifest that are out of date.
+// This file is `remapc build`, which makes the items of a manifest that are out of date.
 #include "build/build.hpp"
 
 #include <iostream>
@@ -36,7 +36,7 @@ void run_check(const BuildCommand& command, const Manifest& manifest) {
 
 std::string seconds_text(double seconds) { return number_text(rounded_up(seconds, 2)) + " s"; }
 
-// What took the time of an item, where it took some: ` (sweep 12 s, of it 9 s for 1409 pictures; fit 4 s)`.
+// Returns where the time of an item went, or nothing: ` (sweep 12 s, of it 9 s for 1409 pictures; fit 4 s)`.
 std::string stages_text(const BuiltItem& item) {
   std::string text;
   const auto add = [&](const char* stage, double seconds) {

@@ -28,7 +28,7 @@ Line line_of(const CandidateRecord& candidate) {
           candidate.verdict};
 }
 
-// Whether any line after the headings has a figure in `column`.
+// Returns true if any line after the headings has a figure in `column`.
 bool has_figures(const std::vector<Line>& lines, std::size_t column) {
   return std::any_of(lines.begin() + 1, lines.end(),
                      [column](const Line& line) { return line[column] != kNone; });

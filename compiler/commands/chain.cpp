@@ -1,4 +1,4 @@
-// `remapc chain` and `remapc invert` make a fit from other fits.
+// These commands, `remapc chain` and `remapc invert`, make a fit from other fits.
 #include <iostream>
 
 #include "build/build.hpp"
@@ -26,7 +26,7 @@ struct ChainCommand {
   bool force = false, json = false;
 };
 
-// The path of the new fit, which must not exist.
+// Returns the path of the new fit, which must not exist.
 std::filesystem::path new_path(const ChainCommand& command, const std::string& source,
                                const std::string& target) {
   const std::string id = command.id.empty() ? converter_id(source, target) : command.id;

@@ -1,4 +1,4 @@
-// `remapc check` reports what is wrong with a table.
+// This file is `remapc check`, which reports what is wrong with a table.
 #include "table/check.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct CheckOptions {
   bool json = false, accept_light = false;
 };
 
-// The findings on a table of either form.
+// A Checked holds the findings on a table of either form.
 struct Checked {
   std::string name;
   std::size_t rows = 0;

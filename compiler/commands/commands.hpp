@@ -1,12 +1,12 @@
-// The commands of remapc. Each function adds one command to the command line; the command's callback does the
-// work and throws remap::Error.
+// This file declares the commands of remapc. Each function adds one command to the command line. The
+// command's callback does the work and throws remap::Error.
 #pragma once
 
 #include "command_line/command.hpp"
 
 namespace remap {
 
-// The headings under which `remapc --help` lists the commands, in the order of work.
+// `remapc --help` lists the commands under these headings, in the order of work.
 inline constexpr const char* kMeasureStage = "Measure";
 inline constexpr const char* kFitStage = "Fit";
 inline constexpr const char* kCompileStage = "Compile";

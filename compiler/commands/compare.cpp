@@ -1,4 +1,4 @@
-// `remapc compare` prints the errors of fits and of formulas in common use on one table.
+// This file is `remapc compare`, which prints the errors of fits and of common formulas on one table.
 #include <algorithm>
 #include <iostream>
 #include <optional>
@@ -31,11 +31,11 @@ struct NamedFit {
   std::string file;
 };
 
-// The errors of a fit or a formula on the rows of the table.
+// An Entry holds the errors of a fit or a formula on the rows of the table.
 struct Entry {
   CandidateRecord candidate;
-  Json origin;          // where it comes from, for JSON
-  std::string why_not;  // why a formula does not apply; empty if it does
+  Json origin;          // its source, for JSON
+  std::string why_not;  // why a formula does not apply, or empty
 };
 
 bool converts(const Fit& fit, const Table& table) {
@@ -59,7 +59,7 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
   return fits;
 }
 
-// The fit's id, or its file where another fit has the same id.
+// Returns the fit's id, or its file if another fit has the same id.
 std::string shown_name(const NamedFit& one, const std::vector<NamedFit>& all) {
   const auto same = std::count_if(all.begin(), all.end(),
                                   [&](const NamedFit& other) { return other.fit.id == one.fit.id; });
@@ -112,7 +112,7 @@ void print_json(const Table& table, std::size_t row_count, const std::vector<Ent
   std::cout << json.dump(2) << "\n";
 }
 
-// `A, B (why); C (why)`: equal reasons of neighbors are given once.
+// Returns `A, B (why); C (why)`. Equal reasons of neighbors appear once.
 std::string why_not_text(const std::vector<Entry>& entries) {
   std::string text, reason;
   for (const Entry& entry : entries) {

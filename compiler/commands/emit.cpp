@@ -1,4 +1,4 @@
-// `remapc emit` writes the headers of fits, or checks that committed headers are current.
+// This file is `remapc emit`, which writes the headers of fits, or checks that committed headers are current.
 #include "emit/emit.hpp"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ FitFolder chosen_fits(const EmitCommand& options) {
   return chosen;
 }
 
-// A file for each fit that is named.
+// Returns a file for each named fit.
 std::vector<GeneratedFile> generate_functions(const EmitCommand& options, const FitFolder& chosen) {
   if (!chosen.workflows.empty() || !chosen.warps.empty())
     throw usage_error("--language: converters of whole materials are C++ headers only");
@@ -66,7 +66,7 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   return files;
 }
 
-// Whether a file is by its beginning what this command writes, and may be replaced.
+// Returns true if a file begins like the output of this command, so that it may be replaced.
 bool is_generated(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
@@ -78,8 +78,7 @@ bool is_generated(const std::filesystem::path& path) {
                              [&](std::string_view beginning) { return text.starts_with(beginning); });
 }
 
-// A line for every file that is missing or differs from what its fit gives, and for every header without a
-// fit.
+// Returns a line for every file that is missing or differs from its fit, and for every header without a fit.
 std::vector<std::string> differences(const EmitCommand& options, const std::vector<GeneratedFile>& files) {
   std::vector<std::string> found;
   for (const GeneratedFile& file : files) {

@@ -1,4 +1,4 @@
-// `remapc eval` prints how well a fit follows a table, or what it gives on a grid.
+// This file is `remapc eval`, which prints the errors of a fit on a table, or its results on a grid.
 #include <array>
 #include <iostream>
 
@@ -27,7 +27,7 @@ struct EvalOptions {
   bool force = false, json = false;
 };
 
-// The converted values of a grid over the domain, in the models' own parameters.
+// Returns the converted values of a grid over the domain, in the models' own parameters.
 std::string grid_text(const Fit& fit, std::size_t steps) {
   const auto at = [steps](const Range& range, std::size_t step) {
     const double share = static_cast<double>(step) / static_cast<double>(steps - 1);

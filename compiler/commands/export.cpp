@@ -1,5 +1,5 @@
-// `remapc export` writes a table of any form as plain CSV, and beside it a file that says how the table was
-// made.
+// This file is `remapc export`, which writes a table of any form as plain CSV. A file beside it records its
+// making.
 #include <algorithm>
 
 #include "commands/commands.hpp"

@@ -1,4 +1,4 @@
-// `remapc fit` fits a table.
+// This file is `remapc fit`, which fits a table.
 #include <cstdint>
 #include <functional>
 #include <iostream>
@@ -31,7 +31,7 @@ namespace {
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
-// The kinds of fits, and first the choice by pictures.
+// These are the kinds of fits, after the choice by pictures.
 const auto kModels = [] {
   NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
   for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};
@@ -47,7 +47,7 @@ struct FitCommand {
   bool swap = false, force = false, json = false;
 };
 
-// Options of one regression are errors together with another one.
+// Throws if options of one regression are given together with another regression.
 void require_consistent(const FitCommand& command, const Command& app) {
   const std::string given(command.options.kind);
   const auto require_model = [&](const std::string& option, const std::string& model) {
@@ -78,7 +78,7 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
             << errors_text(fit, "held out") << "\n";
 }
 
-// A network that could not be written is not trained.
+// Refuses a network that is too large to write before it is trained.
 void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, std::size_t outputs) {
   std::size_t width = inputs, numbers = 2 * (inputs + outputs);
   for (const std::size_t units : hidden) {
@@ -92,7 +92,7 @@ void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, 
                     std::to_string(kMostLayers) + " and " + std::to_string(kMostNetworkNumbers) + ")");
 }
 
-// A table of metallic materials can only be fitted from specular to metallic, by a network.
+// Refuses other options for a table of metallic materials. Only a network from specular to metallic fits it.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
     throw usage_error(
@@ -133,8 +133,8 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
             << "\n";
 }
 
-// Throws kOutput if the fit's folder cannot be written or created, before the work starts. Creates nothing: a
-// table that cannot be fitted leaves no empty folder.
+// Throws kOutput if the fit's folder cannot be written or created, before the work starts. Creates nothing,
+// so that a table that cannot be fitted leaves no empty folder.
 void require_output_folder(const std::filesystem::path& folder) {
   std::filesystem::path existing = folder;
   while (existing.has_parent_path() && existing != existing.parent_path() &&
@@ -148,7 +148,7 @@ void require_output_folder(const std::filesystem::path& folder) {
     throw output_error(folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
 }
 
-// The path of the fit. Neither it nor its plot may exist.
+// Returns the path of the fit. Neither the fit nor its plot may exist.
 std::filesystem::path new_path(const FitCommand& command, const std::string& id) {
   const std::filesystem::path path = command.folder / (id + ".json");
   require_new(path, command.force);
@@ -174,7 +174,7 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
   report(command, path, fit);
 }
 
-// A fit that cannot be lowered is kept for remapc: only texremap and headers need its converter.
+// Keeps a fit for remapc even if it cannot be lowered. Only texremap and headers need its converter.
 void lower_if_possible(const FitCommand& command, Fit* fit) {
   try {
     add_converter(fit, {command.tolerance, command.tolerance});

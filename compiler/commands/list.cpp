@@ -1,4 +1,4 @@
-// `remapc list` prints the fits of a folder or the built-in models.
+// This file is `remapc list`, which prints the fits of a folder or the built-in models.
 #include <iomanip>
 #include <iostream>
 

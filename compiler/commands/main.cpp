@@ -1,5 +1,5 @@
-// remapc compiles two BRDF models into a C++ header that converts the parameters of one into those of the
-// other.
+// This is remapc. It compiles two BRDF models into a C++ header that converts the parameters of one model
+// into the parameters of the other.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "command_line/version_text.hpp"

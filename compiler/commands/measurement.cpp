@@ -18,7 +18,7 @@ namespace {
 
 std::string one_decimal(double value) { return number_text(std::round(10.0 * value) / 10.0); }
 
-// `, 12 pictures rendered and 30 from the cache, 1 worker lost`; empty if no worker was used.
+// Returns `, 12 pictures rendered and 30 from the cache, 1 worker lost`, or nothing without workers.
 std::string pictures_text(const PictureCount& pictures) {
   if (pictures.rendered + pictures.cached == 0) return "";
   const std::size_t lost = pictures.lost_workers;
@@ -27,7 +27,7 @@ std::string pictures_text(const PictureCount& pictures) {
          (lost == 0 ? "" : ", " + counted(lost, "worker") + " lost");
 }
 
-// `about 12:30 in all`; empty until some rows and ten pictures of workers are done, and after the last row.
+// Returns `about 12:30 in all`, or nothing until some rows and ten pictures are done, and after the end.
 std::string estimate_text(double seconds, const PictureCount& pictures, std::size_t done, std::size_t rows) {
   constexpr std::size_t kEnoughPictures = 10;
   if (pictures.rendered + pictures.cached < kEnoughPictures || done == 0 || done == rows) return "";

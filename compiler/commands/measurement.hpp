@@ -1,4 +1,4 @@
-// What `remapc sweep` and `remapc sample` share: two models, their pictures, and the table that is written.
+// This file is shared by `remapc sweep` and `remapc sample`: two models, their pictures, and the table.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ namespace remap {
 struct MeasurementOptions {
   PairOptions pair;  // without the objective, which the next fields choose
   std::string objective = "natural";
-  std::optional<std::vector<double>> lights;  // angles; these two as the objective has them where not given
+  std::optional<std::vector<double>> lights;  // angles; if missing, the objective sets both
   std::optional<Weighting> weighting;
   double distance = 3.0;
   bool keep_irradiance = false;
@@ -30,26 +30,25 @@ struct MeasurementOptions {
   unsigned jobs = 0;
   RendererOptions renderers;
 
-  // Add options to `app`: the models and the table; how pictures are made and compared; threads and
-  // renderers.
+  // These functions add options to `app`: the models and the table, how pictures are made and compared,
+  // threads and renderers.
   void add_table_options(Command& app, const std::string& table);
   void add_picture_options(Command& app);
   void add_execution_options(Command& app);
   PairOptions chosen_pair() const;
 };
 
-// One run of a command: its clock, its renderers and its progress.
+// A Measurement is one run of a command: its clock, its renderers and its progress.
 class Measurement {
  public:
-  // `options` must outlive it.
+  // Keeps a reference to `options`, which must outlive this object.
   explicit Measurement(const MeasurementOptions& options);
 
   const RendererSet& renderer() const { return *renderer_; }
   // Throws kOutput if the table exists or its folder cannot be made. Shows the progress of `rows` rows until
   // write(), under `label`.
   SweepExecution start(const std::string& label, std::size_t rows);
-  // Writes the table, whose comments are given, and prints what there is to say of its light, and the remarks
-  // of the renderers.
+  // Writes the table with its comments, and prints remarks about its light and the renderers.
   void write(const std::string& table, const Comments& comments);
   // Prints the summary of the rows as a line, or as JSON after the table's name and the fields of `json`.
   template <typename Row>

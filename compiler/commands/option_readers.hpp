@@ -1,4 +1,4 @@
-// Readers of options: lights, ranges, and numbers by the names of parameters.
+// This file reads options: lights, ranges, and numbers by the names of parameters.
 #pragma once
 
 #include <functional>
@@ -17,13 +17,13 @@ void add_fits_option(Command& app, std::filesystem::path& folder, const std::str
 // Adds --force, without which require_new() (core/files.hpp) refuses to replace a result.
 void add_force_flag(Command& app, bool& force);
 
-// The angle of a light: `headlight`, or degrees from the camera.
+// Reads the angle of a light: `headlight`, or degrees from the camera.
 Reader<double> light_angle();
 
-// `MIN,MAX`.
+// Reads `MIN,MAX`.
 Reader<Range> number_range();
 
-// `NAME=VALUE` or `NAME=VALUE,...`. Throws kUsage, opened by the option and the word.
+// A ParameterSetting is `NAME=VALUE` or `NAME=VALUE,...`. Throws kUsage, beginning with option and word.
 struct ParameterSetting {
   ParameterSetting(const std::string& option, const std::string& word);
   [[noreturn]] void fail(const std::string& reason) const;  // throws kUsage
@@ -33,7 +33,7 @@ struct ParameterSetting {
   std::vector<double> values;
 };
 
-// Adds an option that is given once for each parameter. `value_of` makes the value of its name.
+// Adds an option that is given once for each parameter. `value_of` makes the value for its name.
 template <typename Value>
 void add_settings(Command& app, const std::string& names, std::map<std::string, Value>& values,
                   const std::function<Value(const ParameterSetting&)>& value_of,

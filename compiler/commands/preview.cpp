@@ -1,4 +1,4 @@
-// `remapc preview` compares a source with its conversion, as pictures and figures.
+// This file is `remapc preview`, which compares a source with its conversion, as pictures and figures.
 #include "report/preview.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 struct PreviewCommand {
   std::string fit;
   std::filesystem::path fit_folder, output;
-  std::vector<std::string> lights;  // empty: default_light()
+  std::vector<std::string> lights;  // if empty, default_light()
   double distance = 3.0, exposure = 1.0;
   PreviewOptions options;  // without lights
   bool bare = false, force = false, json = false;

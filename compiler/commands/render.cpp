@@ -1,4 +1,4 @@
-// `remapc render` renders one picture of the sweep scene.
+// This file is `remapc render`, which renders one picture of the sweep scene.
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "core/errors.hpp"

@@ -1,4 +1,4 @@
-// `remapc renderers` lists the external renderers that work on this machine, and their models.
+// This file is `remapc renderers`, which lists the external renderers that work here, and their models.
 #include <iomanip>
 #include <iostream>
 

@@ -1,4 +1,4 @@
-// Progress of work that reports its share, and its interruption by a signal.
+// This file shows the progress of work that reports its fraction, and lets a signal interrupt it.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// Shows a progress line `<command> <subject>` while it exists, and makes signals (interruption.hpp) stop the
-// work. Pass it by std::ref where a FitProgress is expected.
+// A ShareProgress shows a progress line `<command> <subject>` while it exists, and makes signals
+// (interruption.hpp) stop the work. Pass it by std::ref where a FitProgress is expected.
 class ShareProgress {
  public:
   ShareProgress(const std::string& command, const std::string& subject)
@@ -18,7 +18,7 @@ class ShareProgress {
     watch_interruptions();
   }
 
-  // `share` of the work is finished, 0 to 1. Throws kInterrupted after a signal.
+  // Shows that `share` of the work is finished, 0 to 1. Throws kInterrupted after a signal.
   void operator()(double share) {
     if (interruption()) throw Error(ErrorKind::kInterrupted, command_ + ": interrupted; nothing was written");
     progress_.advance_to(static_cast<std::size_t>(static_cast<double>(kUnits) * share));

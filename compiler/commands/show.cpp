@@ -1,4 +1,4 @@
-// `remapc show` prints one fit.
+// This file is `remapc show`, which prints one fit.
 #include <array>
 #include <cmath>
 #include <iomanip>
@@ -44,7 +44,7 @@ void print_remarks(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) std::cout << "  " << remark << "\n";
 }
 
-// ` + c` or ` - c`; the number itself at the start of a sum.
+// Returns ` + c` or ` - c`, or the number itself at the start of a sum.
 std::string summand(double coefficient, bool first) {
   if (first) return number_text(coefficient);
   return (coefficient < 0.0 ? " - " : " + ") + number_text(std::fabs(coefficient));
@@ -68,7 +68,7 @@ std::string curve_text(const AlphaCurve& curve) {
 
 std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
 
-// Prints a mapping as formulas of a = alpha1 and s = specular1.
+// A PrintMapping prints a mapping as formulas of a = alpha1 and s = specular1.
 struct PrintMapping {
   void operator()(const Parametric& form) const {
     for (std::size_t j = 0; j < form.alpha.size(); ++j) {
@@ -136,8 +136,8 @@ struct PrintMapping {
 
 std::string percent_text(double share) { return number_text(rounded_up(100.0 * share, 2)) + " %"; }
 
-// The shares of the domain in which the target is at no limit, at that of alpha, at that of specular, and at
-// both.
+// Returns the fractions of the domain in which the target is at no limit, at the limit of alpha, at the limit
+// of specular, and at both.
 std::array<double, 4> limit_shares(const Fit& fit) {
   constexpr int kSteps = 100;
   constexpr double kAtLimit = 1.0 - 1e-9;
@@ -213,7 +213,7 @@ void print_round_trip(const Fit& fit, const std::filesystem::path& folder) {
                  "match\n";
 }
 
-// Prints the three sources of error: difference of the models, of fit and table, of header and fit.
+// Prints the three sources of error: between the models, between fit and table, and between header and fit.
 void print_trust(const Fit& fit) {
   if (fit.image_similarity) {
     std::cout << "Difference of the models at the best match\n  picture "

@@ -1,4 +1,4 @@
-// `remapc sweep` matches a grid of materials of two models and writes a table.
+// This file is `remapc sweep`, which matches a grid of materials of two models and writes a table.
 #include "measure/sweep.hpp"
 
 #include <iostream>
@@ -18,7 +18,7 @@ struct SweepCommand : MeasurementOptions {
   SweepOptions sweep;  // without the pair and the samples
   std::size_t roughness_samples = 30, specular_samples = 30;
   Range roughness_range{0.01, 1.0};
-  std::optional<Range> specular_range;  // none: the model's
+  std::optional<Range> specular_range;  // if missing, the model's range
   TableInput samples_of;                // without a path: a grid
 };
 

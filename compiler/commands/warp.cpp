@@ -1,5 +1,5 @@
-// `remapc warp` gives one texture set the reflectance of another, guided by strokes. Pairs of texture sets
-// get a converter; where a table (measured BRDFs or profiles) takes part, texels are copied.
+// This file is `remapc warp`. It gives one texture set the reflectance of another, guided by strokes. Pairs
+// of texture sets get a converter. If one side is a table (measured BRDFs or profiles), texels are copied.
 #include "warp/warp.hpp"
 
 #include <iostream>
@@ -28,13 +28,13 @@ struct WarpCommand {
   std::string source, target;
   std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
   std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
-  std::string distance;                              // empty: relative, plain where both are profiles
+  std::string distance;                              // if empty: relative, or plain if both are profiles
   bool exact = false;
   std::filesystem::path output, copy, report;
   bool force = false, json = false;
 };
 
-// The stroke pairs of all options, at least one.
+// Returns the stroke pairs of all options, at least one.
 std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& source,
                                    const MapFrame& target) {
   std::vector<StrokePair> strokes;
@@ -111,7 +111,7 @@ Json report_of(const WarpDiagnostics& found) {
           {"template_texels_left_out", found.target_left_out}};
 }
 
-// Prints the diagnostics and warnings in words. `name`: the main file that was written.
+// Prints the diagnostics and warnings in words. `name` is the main file that was written.
 void print_words(const std::filesystem::path& name, const WarpDiagnostics& found,
                  const std::string& more = "") {
   std::cerr << name.string() << ": warp in " << found.dimensions << " dimensions from "
@@ -177,7 +177,6 @@ void warp_textures(const WarpCommand& command) {
   print_words(command.output.empty() ? command.copy : command.output, fit.diagnostics, more);
 }
 
-// A texture set or a table.
 using MaterialSet = std::variant<TextureMaterial, TabulatedSet>;
 
 MaterialSet read_material_set(const std::string& folder, const std::string& model) {
@@ -201,7 +200,7 @@ void require_copy_alone(const WarpCommand& command) {
     throw usage_error("--report: not available for tables such as " + table + " (remove this option)");
 }
 
-// Tables have no parameters to fit, so texels are copied.
+// Copies texels, because tables have no parameters to fit.
 void warp_tables(const WarpCommand& command) {
   require_copy_alone(command);
   const MaterialSet source = read_material_set(command.source, command.source_model),

@@ -1,4 +1,4 @@
-// The names of the encodings of widths in generated headers.
+// This file gives the names of the encodings of widths in generated headers.
 #pragma once
 
 #include "remap/converter.hpp"
@@ -7,7 +7,7 @@ namespace remap {
 
 struct ConventionText {
   const char* meaning;  // for a comment
-  const char* formula;  // of alpha, for people; empty where the parameter is alpha
+  const char* formula;  // of alpha, for people; empty if the parameter is alpha
 };
 
 inline ConventionText convention_text(RoughnessEncoding convention) {

@@ -11,12 +11,12 @@ bool is_number(const Expression& expression, float value) {
   return expression.op == Op::kNumber && expression.number == value;
 }
 
-// The first factor of a product, another expression itself.
+// Returns the first factor of a product, or another expression itself.
 Expression& first_factor(Expression& expression) {
   return expression.op == Op::kMultiply ? first_factor(expression.terms[0]) : expression;
 }
 
-// a + -b is written as a - b.
+// Adds two expressions. a + -b is written as a - b.
 Expression operator+(Expression a, Expression b) {
   if (is_number(b, 0.0f)) return a;
   if (Expression& factor = first_factor(b); factor.op == Op::kNumber && std::signbit(factor.number)) {
@@ -46,7 +46,7 @@ bool uses(const Expression& expression, const std::string& wanted) {
          std::ranges::any_of(expression.terms, [&](const Expression& term) { return uses(term, wanted); });
 }
 
-// Without what nobody uses.
+// Removes statements that no other statement uses.
 std::vector<Statement> used(std::vector<Statement> statements) {
   for (std::size_t i = statements.size(); i-- > 0;) {
     const std::string wanted = statements[i].name;
@@ -58,6 +58,25 @@ std::vector<Statement> used(std::vector<Statement> statements) {
   return statements;
 }
 
+<<<<<<< HEAD:compiler/emit/converter_formula.cpp
+=======
+// Returns how strongly an operation binds.
+int rank_of(const Expression& expression) {
+  switch (expression.op) {
+    case Op::kAdd:
+    case Op::kSubtract:
+      return 1;
+    case Op::kMultiply:
+    case Op::kDivide:
+      return 2;
+    case Op::kNumber:
+      return std::signbit(expression.number) ? 2 : 3;
+    default:
+      return 3;
+  }
+}
+
+>>>>>>> 84c1bb0be9d34f059dd8a7fed2a49f7f75afdd4e:compiler/emit/formula.cpp
 }  // namespace
 
 Expression alpha_of(RoughnessEncoding convention, const std::string& parameter) {
@@ -116,7 +135,7 @@ std::vector<Statement> formula_of(const ConverterData& converter) {
   const auto add_color = [&](const char* id, Expression value) {
     all.push_back({id, ValueType::kColor, std::move(value)});
   };
-  // A factor of what is cut off: value / limit - 1, from 0.
+  // Returns how far a value exceeds its limit: value / limit - 1, at least 0.
   const auto excess = [](const Expression& value, float limit) {
     return most(value * number(1.0f / limit) - number(1.0f), number(0.0f));
   };

@@ -1,4 +1,4 @@
-// The description of a converter of width and specular.
+// This file describes a converter of width and specular.
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "emit/convention_text.hpp"
@@ -18,7 +18,7 @@ std::string range_text(const std::string& name, const Range& range) {
   return name + " " + number_text(range.min) + " to " + number_text(range.max);
 }
 
-// How far pictures are off, and what the numbers come from, in words that need no knowledge of the method.
+// Returns how much pictures differ, and where the numbers come from, in words for everybody.
 std::string provenance(const Fit& fit) {
   const auto comment = [&](const std::string& key) {
     const auto found = fit.table.comments.find(key);

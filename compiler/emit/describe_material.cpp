@@ -1,4 +1,4 @@
-// The descriptions of converters of whole materials: workflows and warps.
+// This file describes converters of whole materials: workflows and warps.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ std::string title_of(const HeaderEnd& source, const HeaderEnd& target) {
          target.model + " (" + target.workflow + " workflow).";
 }
 
-// Metallic materials over the range: dielectrics, metals, blends, dark and bright.
+// Returns metallic materials over the range: dielectrics, metals, blends, dark and bright.
 std::vector<MetallicMaterial> golden_materials() {
   return {{{0.5f, 0.25f, 0.125f}, 0.0f, 0.5f},           {{1.0f, 0.75f, 0.375f}, 1.0f, 0.25f},
           {{0.75f, 0.5f, 0.25f}, 0.5f, 0.75f},           {{0.25f, 0.5f, 0.875f}, 0.25f, 0.375f},
@@ -45,7 +45,7 @@ GoldenValues golden_values(const WorkflowConversion& conversion, const MetallicM
   forward.formula = Equation2{};
   SpecularMaterial specular = to_specular(forward, metallic);
   if (!conversion.is_to_metallic()) return {values_of(metallic), values_of(specular), {}};
-  // A metallic material cannot represent this one: its last channel is darker.
+  // Make the last channel of this material darker, so that no metallic material can express it.
   if (metallic.metallic == 0.5f) specular.specular[2] *= 0.5f;
   return {values_of(specular), values_of(to_metallic(conversion, specular)), {}};
 }
@@ -67,7 +67,7 @@ std::string provenance(const WorkflowFit& fit) {
   return text;
 }
 
-// Texels over the whole range, the same on every machine: fractions of multiples of irrational numbers.
+// Returns texels over the whole range, the same everywhere: fractions of multiples of irrational numbers.
 WarpTexel candidate(std::size_t number) {
   constexpr std::array<double, kWarpParameters> kSteps = {0.7548777, 0.5698403, 0.4301597, 0.8191725,
                                                           0.6710436, 0.5497005, 0.4503046};
@@ -79,8 +79,8 @@ WarpTexel candidate(std::size_t number) {
   return texel;
 }
 
-// The distance of a texel, in nodes, to where the nearest node changes. Blended tables have no such
-// places: 1.
+// Returns the distance of a texel, in nodes, from the place where the closest node changes. Blended tables
+// have no such places, so the distance is 1.
 double distance_to_tie(const CompiledWarp& warp, const WarpTexel& texel) {
   double distance = 1.0;
   if (!std::holds_alternative<CopiedNodes>(warp.table.entries)) return distance;

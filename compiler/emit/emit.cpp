@@ -1,5 +1,5 @@
-// The two steps from a fit to its header: describe() gives the data of the header (header_data.hpp), fill()
-// its text.
+// This file runs the two steps from a fit to its header. describe() gives the data of the header
+// (header_data.hpp), and fill() its text.
 #include "emit/emit.hpp"
 
 #include <algorithm>

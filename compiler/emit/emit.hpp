@@ -1,4 +1,4 @@
-// From a fit to C++: its generated header, and the data of all for texremap. Pure: the same fit
+// This file turns fits into C++: a generated header for each, and the data of all for texremap. The same fit
 // gives the same bytes on every machine.
 #pragma once
 
@@ -11,18 +11,18 @@
 
 namespace remap {
 
-// The generated header `<id>.hpp`. Throws kNumeric for a fit without a converter and where a number is not
-// finite as a float.
+// Returns the generated header `<id>.hpp`. Throws kNumeric for a fit without a converter and if a number is
+// not finite as a float.
 std::string emit_header(const Fit& fit);
 
-// The generated headers of converters of whole materials; a warp has the specular workflow on both sides.
-// Throw kInput for what require_valid() refuses.
+// Return the generated headers of converters of whole materials. A warp has the specular workflow on both
+// sides. Throw kInput if require_valid() does.
 std::string emit_header(const WorkflowFit& fit);
 std::string emit_header(const WarpMapFit& fit);
 
-// What is made of all fits together, in the order of their ids: `converters.json`, the data of texremap; and
-// the converters between models of the hub, and of exponents, in each language (`languages/converters.h`,
-// ...). Throws kNumeric for a fit without a converter.
+// An EmittedFile is made from all fits together, in the order of their ids. `converters.json` is the data of
+// texremap. The converters between models of the hub, and of exponents, are written in each language
+// (`languages/converters.h`, ...). Throws kNumeric for a fit without a converter.
 struct EmittedFile {
   std::string name;  // within the folder of headers
   std::string text;

@@ -1,5 +1,5 @@
-// The text of a header: templates/frame.in around what its kind has of its own, templates/converter*.in for
-// width and specular, templates/material*.in for whole materials.
+// This file writes the text of a header: templates/frame.in around the part for its kind.
+// templates/converter*.in is for width and specular, templates/material*.in for whole materials.
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "emit/convention_text.hpp"
@@ -39,7 +39,7 @@ std::string strides(const Parameters& parameters) {
                 [](const MaterialParameter& parameter) { return parameter.name + "_stride = 1"; });
 }
 
-// The stride of each channel: in.diffuse_stride three times, ...
+// Returns the stride of each channel: in.diffuse_stride three times, ...
 std::string channel_strides(const Parameters& parameters, const std::string& prefix) {
   return joined(parameters, ", ", [&](const MaterialParameter& parameter) {
     const std::string text = prefix + parameter.name + "_stride";
@@ -47,7 +47,7 @@ std::string channel_strides(const Parameters& parameters, const std::string& pre
   });
 }
 
-// `prefix` and the member of each channel: &in.diffuse[0], &in.diffuse[1], ...
+// Returns `prefix` and the member of each channel: &in.diffuse[0], &in.diffuse[1], ...
 std::string channels(const Parameters& parameters, const std::string& prefix) {
   return joined(parameters, ", ", [&](const MaterialParameter& parameter) {
     const std::string text = prefix + parameter.name;
@@ -61,7 +61,7 @@ std::string channel_count(const Parameters& parameters) {
   return std::to_string(count);
 }
 
-// One row for each channel, with the values of all texels.
+// Returns one row for each channel, with the values of all texels.
 std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<float> GoldenValues::*part) {
   std::string text;
   for (std::size_t channel = 0; channel < (golden[0].*part).size(); ++channel) {
@@ -72,7 +72,7 @@ std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<flo
   return text;
 }
 
-// The part of a header that differs from others.
+// A Body is the part of a header that differs between kinds.
 struct Body {
   std::vector<std::string> includes;
   std::string detail, constants, text;
@@ -80,7 +80,7 @@ struct Body {
 
 Body body_of(const HeaderData& data, const ConverterData& converter) {
   const ConverterInfo& info = converter.info;
-  // Two texels a line.
+  // Returns the golden texels, two on each line.
   std::string golden;
   for (std::size_t i = 0; i < data.golden.size(); ++i) {
     std::vector<float> values = data.golden[i].in;
@@ -90,7 +90,7 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
   }
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"};
-  // The names of specular in the models. The names of the widths are in every header.
+  // Adds the names of specular in the models. The names of the widths are in every header.
   body.constants = "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
                    "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular + "\";";
   const auto meaning = [](const HeaderEnd& end) {
@@ -146,8 +146,8 @@ Body body_of(const HeaderData& data, const Material& material) {
                                             {"golden_out", golden_rows(data.golden, &GoldenValues::out)}})};
 }
 
-// A line of text as the rest of a comment. A backslash at its end, or its trigraph, would take the next line
-// of code into the comment, even before blanks.
+// Returns a line of text that is safe in a comment. A backslash at its end, even before blanks, or its
+// trigraph would pull the next line of code into the comment.
 std::string commented(std::string_view line) {
   const std::size_t end = line.find_last_not_of(" \t");
   const std::string_view text = line.substr(0, end == std::string_view::npos ? 0 : end + 1);
@@ -155,7 +155,7 @@ std::string commented(std::string_view line) {
   return safe + (safe.ends_with('\\') || safe.ends_with("?\?/") ? "." : "");
 }
 
-// Text from fits enters a header here only, apart from names of their own rules (is_valid_id and the like).
+// Text from fits enters a header only here, except names with their own rules (is_valid_id and the like).
 std::string comment_lines(std::string_view text) {
   std::string lines;
   for (;;) {

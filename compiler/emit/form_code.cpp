@@ -1,4 +1,4 @@
-// A compact form as C++: its numbers, and functions of one texel.
+// This file writes a compact form as C++: its numbers, and functions for one texel.
 #include <algorithm>
 
 #include "core/number_text.hpp"

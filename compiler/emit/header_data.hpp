@@ -1,5 +1,5 @@
-// What a generated header says, as plain data without C++ text: made once for a fit of any kind, then
-// written out by fill().
+// This file holds the content of a generated header as plain data without C++ text. It is made once for a fit
+// of any kind, then written out by fill().
 #pragma once
 
 #include <string>
@@ -18,20 +18,19 @@ struct WarpHeader {
   double copy_rms_error = -1.0;
 };
 
-// Source or target.
+// A HeaderEnd is source or target.
 struct HeaderEnd {
   std::string model;  // `mitsuba/ggx`
   std::string width;  // the name of its convention
-  // The members of the header's Input or Output. `width` is the first of two, and the last of whole
-  // materials.
+  // These are the members of the header's Input or Output. `width` is first of two, and last for materials.
   std::vector<MaterialParameter> parameters;
   std::string workflow = {}, diffuse = {};  // of whole materials: `specular`, `plain`
 };
 
-// A texel and what the fit gives for it: one number for each channel of each parameter.
+// A GoldenValues holds a texel and the fit's result for it: one number for each channel of each parameter.
 struct GoldenValues {
   std::vector<float> in, out;
-  std::vector<float> within;  // error of each output that is allowed; empty: the template has one for all
+  std::vector<float> within;  // permitted error of each output; if empty, the template has one for all
 };
 
 struct HeaderData {
@@ -43,22 +42,22 @@ struct HeaderData {
   std::variant<ConverterData, WorkflowConversion, WarpHeader> code;  // a network is folded()
 };
 
-// Throws kNumeric for a fit without a converter.
+// Describes a fit. Throws kNumeric for a fit without a converter.
 HeaderData describe(const Fit& fit);
-// Throw kInput for what require_valid() refuses.
+// Describe other fits. Throw kInput if require_valid() does.
 HeaderData describe(const WorkflowFit& fit);
 HeaderData describe(const WarpMapFit& fit);
 
-// The text. Throws kNumeric where a number is not finite as a float.
+// Returns the text. Throws kNumeric if a number is not finite as a float.
 std::string fill(const HeaderData& data);
 
-// The converter of `fit`. Throws kNumeric where it has none.
+// Returns the converter of `fit`. Throws kNumeric if there is none.
 const ConverterData& require_converter(const Fit& fit);
 
-// Parts of describe(). Errors are rounded up to two digits.
+// The following are parts of describe(). Errors are rounded up to two digits.
 std::string two_digits(double error);
-// The network with its scalings in the weights: the first layer takes raw inputs, after the poles of their
-// scalings, and the last gives raw outputs.
+// Returns the network with its scalings in the weights. The first layer reads raw inputs, after the poles of
+// their scalings, and the last gives raw outputs.
 Network folded(const Network& network);
 
 }  // namespace remap

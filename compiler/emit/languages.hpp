@@ -1,4 +1,4 @@
-// Converters in languages beside C++: a function each, of one texel, of the same formula as the header.
+// This file writes converters in other languages: a function for one texel, with the header's formula.
 #pragma once
 
 #include <string>
@@ -17,10 +17,10 @@ inline constexpr NamedValues<Language, 6> kLanguages = {{{Language::kC, "c"},
                                                          {Language::kHlsl, "hlsl"},
                                                          {Language::kMaterialX, "materialx"}}};
 
-// How files of the language end: `.h`.
+// Returns the extension of the language's files: `.h`.
 std::string extension_of(Language language);
 
-// A file with a function for each fit, in order. `name` is that of the file, without extension. Throws
+// Returns a file with a function for each fit, in order. `name` is the file's name without extension. Throws
 // kNumeric for a fit without a converter.
 std::string emit_functions(const std::vector<Fit>& fits, Language language, const std::string& name);
 

@@ -1,4 +1,4 @@
-// Networks as headers compute them.
+// This file prepares networks for the computation in headers.
 #include "core/number_text.hpp"
 #include "emit/header_data.hpp"
 

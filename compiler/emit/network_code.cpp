@@ -1,4 +1,4 @@
-// Networks: a loop over the units of each layer, rows of texels innermost.
+// This file writes networks as code: a loop over the units of each layer, with rows of texels innermost.
 #include "emit/mapping_code.hpp"
 #include "formula/text_template.hpp"
 
@@ -18,8 +18,8 @@ std::string layer_table(const std::string& name, const Layer& layer) {
   return table_code(name, layer.input_count + 1, numbers);
 }
 
-// The calls that compute each layer from the rows of the one before. `last` receives the name of the last
-// rows.
+// Returns the calls that compute each layer from the rows of the previous layer. `last` receives the last
+// rows' name.
 std::string layer_calls(const std::string& name, const std::vector<Layer>& layers, std::string* last) {
   const auto table = [&](std::size_t l) { return "k_" + name + "_" + std::to_string(l); };
   const auto units = [&](std::size_t l) { return std::to_string(layers[l].output_count()); };

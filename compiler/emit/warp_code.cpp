@@ -1,4 +1,4 @@
-// Appearance warps as C++: the pass of runtime/stages/code with the numbers of the warp.
+// This file writes appearance warps as C++: the code of runtime/stages/code with the numbers of the warp.
 #include <array>
 #include <span>
 #include <type_traits>
@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// `a,b,c`, `a_line` numbers on each line; without spaces, since tables have a quarter of a million numbers.
+// Returns `a,b,c` with `a_line` numbers on each line. It has no spaces, because tables are large.
 template <typename Numbers>
 std::string list_text(const Numbers& numbers, std::size_t a_line) {
   std::string text;
@@ -30,7 +30,7 @@ std::string array_text(const std::string& type, const std::string& name, const s
   return "inline constexpr " + type + " " + name + "[] = {\n" + list_text(numbers, a_line) + "};\n";
 }
 
-// The file of code and the numbers of one kind of coordinates or of table.
+// A Part is the file of code and the numbers of one kind of coordinates or of table.
 struct Part {
   std::string_view file;
   std::string numbers;

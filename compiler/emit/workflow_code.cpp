@@ -1,4 +1,4 @@
-// Conversions between workflows as C++: the text of runtime/stages/code with the conventions of both ends.
+// This file writes conversions between workflows as C++: runtime/stages/code with both ends' conventions.
 #include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "formula/text_template.hpp"
@@ -7,10 +7,10 @@
 namespace remap {
 namespace {
 
-// The code of each formula.
+// A CodeOf returns the code of each formula.
 struct CodeOf {
   MaterialCode operator()(const Equation2&) const {
-    // Compilers may fuse products; towards metallic the difference grows.
+    // Compilers may fuse products, so results may differ slightly. Towards metallic the difference grows.
     return code(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "", "4e-6f");
   }
   MaterialCode operator()(const Projection& projection) const {

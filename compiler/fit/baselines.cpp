@@ -15,7 +15,7 @@ std::string width_text(const ModelSide& side) {
          std::string(encoding_name(side.roughness));
 }
 
-// A formula from a Phong exponent and a grey specular to perceptual roughness, which is sqrt(alpha).
+// An ExponentFormula converts a Phong exponent and a grey specular to roughness, which is sqrt(alpha).
 struct ExponentFormula {
   const char* name;
   const char* formula;
@@ -23,29 +23,29 @@ struct ExponentFormula {
 };
 
 const ExponentFormula kExponentFormulas[] = {
-    // facebookincubator/FBX2glTF, getRoughness() for Phong and Blinn materials.
+    // The formula comes from facebookincubator/FBX2glTF, getRoughness() for Phong and Blinn materials.
     {"FBX2glTF", "roughness = sqrt(2 / (2 + n))",
      [](double n, double) { return std::sqrt(2.0 / (2.0 + n)); }},
-    // xelatihy/yocto-gl, exponent_to_roughness().
+    // The formula comes from xelatihy/yocto-gl, exponent_to_roughness().
     {"Yocto", "roughness = (2 / (n + 2))^(1/4)",
      [](double n, double) { return std::pow(2.0 / (n + 2.0), 0.25); }},
-    // Blender, OBJ importer: Ns is clamped to 0 to 1000.
+    // Blender's OBJ importer clamps Ns to 0 to 1000.
     {"Blender OBJ", "roughness = 1 - sqrt(min(n, 1000) / 1000)",
      [](double n, double) { return 1.0 - std::sqrt(std::clamp(n, 0.0, 1000.0) / 1000.0); }},
-    // assimp, glTF2 exporter: the luma of Ks is its specular intensity, which for a grey is its value.
+    // The formula comes from assimp's glTF2 exporter. Its specular intensity is the luma of Ks.
     {"assimp", "roughness = 1 - sqrt(n / 1000) luma(Ks)",
      [](double n, double specular) { return 1.0 - clamp01(std::sqrt(n / 1000.0)) * specular; }},
-    // CesiumGS/obj2gltf, materials from Ns.
+    // The formula comes from CesiumGS/obj2gltf, materials from Ns.
     {"obj2gltf", "roughness = 1 - n / 1000", [](double n, double) { return clamp01(1.0 - n / 1000.0); }},
 };
 
-// Pharr, Jakob and Humphreys: pbrt-v3, TrowbridgeReitzDistribution::RoughnessToAlpha().
+// Pharr, Jakob and Humphreys use this in pbrt-v3, TrowbridgeReitzDistribution::RoughnessToAlpha().
 double pbrt_alpha(double roughness) {
   const double x = std::log(std::max(roughness, 1e-3));
   return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
 }
 
-// Why the number of one model's parameter is not copied to the other's; empty if it is.
+// Returns why a parameter's number is not copied from one model to the other, or an empty text.
 std::string why_number_is_not_copied(const ModelSide& source, const ModelSide& target) {
   const auto is_width = [](const ModelSide& side) {
     return side.roughness == Convention::kAlpha || side.roughness == Convention::kRoughness;
@@ -67,14 +67,14 @@ std::vector<Baseline> baselines(const ModelSide& source, const ModelSide& target
   const bool from_exponent = source.roughness == Convention::kExponent,
              to_exponent = target.roughness == Convention::kExponent;
   add("copy", "alpha and specular unchanged (MDL distiller, MaterialX)", "", copied);
-  // The formula of Walter et al. (2007), section 5.2, which Mitsuba and Cycles use. Canonical coordinates use
-  // the same formula, so it copies alpha.
+  // Mitsuba and Cycles use this formula of Walter et al. (2007), section 5.2. Canonical coordinates use the
+  // same formula, so it copies alpha.
   add("exponent", "n = 2 / alpha^2 - 2 (Walter et al. 2007)",
       from_exponent != to_exponent ? ""
       : from_exponent              ? "both models have an exponent"
                                    : "neither model has an exponent",
       copied);
-  // Confuses alpha and sqrt(alpha): the parameter value is copied although the conventions differ.
+  // This confuses alpha and sqrt(alpha): it copies the parameter value although the conventions differ.
   add("copy number", "the parameter value unchanged, although one is alpha and one sqrt(alpha)",
       why_number_is_not_copied(source, target),
       [from = source.roughness, to = target.roughness](double alpha, double specular) {

@@ -1,4 +1,4 @@
-// The conversion formulas in common use, as mappings that can be evaluated on a table.
+// This file holds the conversion formulas in common use, as mappings that can be evaluated on a table.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace remap {
 struct Baseline {
   std::string name;
   std::string formula;  // shown to users
-  // In canonical coordinates, like evaluate_mapping(). Empty if the formula does not apply.
+  // Maps in canonical coordinates, like evaluate_mapping(). It is empty if the formula does not apply.
   std::function<MappedTexel(double alpha, double specular)> map;
   std::string why_not;  // why the formula does not apply
 };

@@ -13,20 +13,19 @@ namespace remap {
 namespace {
 
 constexpr int kIterations = 12;
-// Of a factor that is fitted to pictures. More terms would overfit the lights that choose the form.
+// This limits the terms of a fitted factor. More would overfit the lights that choose the form.
 constexpr std::size_t kMostTerms = 5;
 constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
 constexpr double kNear = 1.01;         // of the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range
 constexpr double kNearRow = 0.01;      // relative
-// Relative, of numbers that are copied: the least difference of brightness that an eye sees (Weber's
-// fraction).
+// This is relative, for copied numbers: the least visible difference (Weber's fraction).
 constexpr double kNearCopy = 0.02;
-// Rows take part in the refinement: little where pictures show the difference, so that a form does not wander
-// where they hardly do; much where highlights are narrower than a pixel. Weights of squared relative errors.
+// Rows take part in the refinement with these weights of squared relative errors. The weight is low where
+// pictures show the difference, to stop drifting. It is high where highlights are narrower than a pixel.
 constexpr double kNarrowWidth = 0.05;
 constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
-constexpr std::size_t kMostRows = 60;  // of either
+constexpr std::size_t kMostRows = 60;  // of either kind
 
 FormSample sample_of(const TableRow& row) {
   const bool is_corner = row.status == RowStatus::kCorner;
@@ -47,7 +46,7 @@ struct WeightedSample {
   double weight = 0.0;
 };
 
-// Some of the rows below the limits. `pictures`: their number, by which weights are measured.
+// Returns some of the rows below the limits. `pictures` is the number of pictures, on which weights depend.
 std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samples, std::size_t pictures) {
   std::vector<WeightedSample> all;
   for (const bool is_narrow : {true, false}) {
@@ -64,7 +63,7 @@ std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samp
   return all;
 }
 
-// The best of the `starts`, refined by the pictures and by rows. `unit`: what the rows leave of both errors.
+// Returns the best of the `starts`, refined by pictures and rows. `unit` holds both errors of rows.
 CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain,
                     const PairPictures& pictures, const PictureErrors& unit,
                     const std::vector<FormSample>& samples) {
@@ -83,7 +82,7 @@ CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain
   return refined_form(starts, domain, sources, errors, kIterations);
 }
 
-// Five digits are far below what pictures show, and make headers that a person can read.
+// Rounds to five digits, which are far more precise than pictures show, so that people can read the headers.
 CompactForm rounded_form(CompactForm form) {
   const auto round = [](float& number) {
     number = static_cast<float>(rounded(static_cast<double>(number), 5));
@@ -105,7 +104,7 @@ double relative_rms(const std::vector<double>& errors, const std::vector<double>
   return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-// If no rows were held out, the trained rows are used.
+// Returns the held-out rows, or the training rows if none were held out.
 const std::vector<TableRow>& judging_rows(const RowSplit& split) {
   return split.held_out.empty() ? split.training : split.held_out;
 }
@@ -132,7 +131,7 @@ CandidateRecord record_of(const std::string& name, const RowSplit& split, const 
 
 bool may_be_chosen(const Candidate& candidate) { return candidate.record.verdict.empty(); }
 
-// Runs `work`. Returns `what: why` if it throws, else an empty text. Passes an interruption on.
+// Runs `work`. Returns `what: why` if it throws, otherwise an empty text. Passes an interruption on.
 template <typename Work>
 std::string failure_of(const std::string& what, const Work& work) {
   try {
@@ -156,7 +155,7 @@ void choose(Comparison* comparison) {
     alpha = std::min(alpha, record.relative_alpha);
     specular = std::min(specular, record.relative_specular);
   }
-  // How far a candidate is from what pictures show; at most 1 is near enough.
+  // Returns a candidate's distance to the best, in units of what pictures show. At most 1 is close enough.
   const auto distance = [&](const CandidateRecord& record) {
     if (record.pictures)
       return std::max(record.pictures->rmse / std::max(kNear * best.rmse, best.rmse + kNearRmse),

@@ -1,5 +1,4 @@
-// Compares fits of one table, and chooses the one with the fewest numbers that pictures cannot tell from
-// more.
+// This file compares fits of one table. It chooses the fit with the fewest numbers that looks like the best.
 #pragma once
 
 #include <vector>
@@ -20,18 +19,18 @@ struct Comparison {
   std::size_t chosen = 0;
 };
 
-// Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base`: the fit but
-// for its mapping. Forms of pairs that `pictures` knows are then refined by pictures; null: rows are all
-// there is.
+// Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base` is the fit
+// without its mapping. If `pictures` is not null and knows the pair, pictures then refine the forms.
+// Otherwise only rows count.
 //
-// Of the candidates that are sound, the one with the fewest numbers is chosen whose judged errors are near
-// the best: with pictures both within 1 % (of the RMSE also within .05 points, an eighth of an 8-bit step),
-// else both relative errors on the held-out rows within .01, which pictures do not show, or within 1 %.
-// Throws kNumeric with the reasons if none is sound.
+// Of the sound candidates, it chooses the one with the fewest numbers whose judged errors are close to the
+// best. With pictures both errors must be within 1 % (the RMSE also within .05 points, an eighth of an 8-bit
+// step). Without pictures both relative errors on the held-out rows must be within .01, which pictures do not
+// show, or within 1 %. Throws kNumeric with the reasons if no candidate is sound.
 Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
                          const FitProgress& progress);
 
-// Sets the errors on the held-out rows and, where there are pictures, those.
+// Sets the errors on the held-out rows and, if there are pictures, the errors of pictures.
 void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit);
 
 }  // namespace remap

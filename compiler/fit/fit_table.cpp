@@ -33,7 +33,7 @@ void require_models(const Table& table) {
   }
 }
 
-// Below this share of the largest specular, which pictures do not show, learned fits go on in proportion.
+// Below this fraction of the largest specular, which is invisible, learned fits continue in proportion.
 constexpr double kLeastShare = 0.02;
 
 // Parses the pairs of numbers of kSpheresComment and skips invalid ones.
@@ -52,7 +52,7 @@ std::vector<SphereSimilarity> spheres_of(const Table& table) {
   return spheres;
 }
 
-// The similarity of the pictures at the best parameters over `rows`, if the table states it.
+// Returns the similarity of the pictures at the best parameters over `rows`, if the table states it.
 std::optional<ImageSimilarity> image_similarity(const Table& table, const std::vector<TableRow>& rows) {
   std::vector<double> errors;
   for (const TableRow& row : rows)
@@ -87,7 +87,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
   fit.limits = table.limits;
-  // An inverse has to lead back, not to look alike.
+  // An inverse must lead back to the source, so similar pictures do not matter.
   const bool is_inverse = fit.table.comments.contains("inverse_of");
   const std::unique_ptr<PairPictures> pictures =
       is_inverse ? nullptr

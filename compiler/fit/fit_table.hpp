@@ -1,4 +1,4 @@
-// Fits a table: split of the rows, regression, errors on the held-out rows, provenance.
+// This file fits a table: split of the rows, regression, errors on the held-out rows, provenance.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,26 @@
 namespace remap {
 
 struct FitOptions {
-  std::string id;                // empty: `<source>_to_<target>` from the table
-  std::string_view kind;         // of kFitKinds; empty: compare_forms() (comparison.hpp) chooses
+  std::string id;                // if empty, `<source>_to_<target>` from the table
+  std::string_view kind;         // of kFitKinds; if empty, compare_forms() (comparison.hpp) chooses
   RegressionOptions regression;  // its seed is also the seed of the split
   double held_out_fraction = 0.2;
   bool accept_light = false;  // light_remark() (table/light.hpp)
 };
 
-// A fit and the fits of the same table that it was compared with, for plots.
+// A FittedTable is a fit and the fits of the same table that it was compared with, for plots.
 struct FittedTable {
   Fit fit;
   std::vector<Fit> compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
 };
 
-// Fits `table`. `bytes`: its file, whose SHA-256 the fit records. Throws kInput if the table does not name
+// Fits `table`. `bytes` is its file, whose SHA-256 the fit records. Throws kInput if the table does not name
 // its models or cannot be fitted (require_fittable), kUsage for an invalid id, and the errors of the
 // regression. The result does not depend on the number of jobs.
 FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
                       const FitProgress& progress = {});
 
-// Absolute errors of `fit` in target alpha and target specular over rows.
+// A RowErrors holds absolute errors of `fit` in target alpha and target specular over rows.
 struct RowErrors {
   ErrorFigures alpha;
   ErrorFigures specular;

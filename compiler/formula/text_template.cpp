@@ -11,8 +11,8 @@ namespace remap {
 namespace {
 
 constexpr std::string_view kLoopMark = "REMAP_INDEPENDENT_LOOP";
-// Stands before a loop whose output rows are its input rows, or overlap no other row. Compilers then check no
-// overlap.
+// This comes before a loop whose output rows are its input rows, or overlap no other row. Compilers then omit
+// the check for overlap.
 constexpr std::string_view kIndependentLoop = R"(#if defined(__clang__)
 #pragma clang loop vectorize(assume_safety)
 #elif defined(__GNUC__)
@@ -21,7 +21,7 @@ constexpr std::string_view kIndependentLoop = R"(#if defined(__clang__)
 #pragma loop(ivdep)
 #endif)";
 
-// `text` where each further line begins with `indentation`; empty lines stay empty.
+// Returns `text` with `indentation` at the start of each further line. Empty lines stay empty.
 std::string indented(std::string_view text, const std::string& indentation) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,4 +1,4 @@
-// How every piece of generated code is written down: templates, literals, lists and tables.
+// This file writes every piece of generated code: templates, literals, lists and tables.
 #pragma once
 
 #include <initializer_list>
@@ -10,20 +10,19 @@
 namespace remap {
 
 // Returns `text` with every `@name@` replaced by its value, and REMAP_INDEPENDENT_LOOP by the pragmas of a
-// loop whose iterations do not wait for each other. A hole that stands alone on its line takes the
-// indentation of the line for each line of its value, and vanishes with its line where the value is empty.
-// Throws std::logic_error for a hole without value and for a value without hole: a template that does not fit
-// its handler is a bug.
+// loop with independent iterations. If a hole is the only text on its line, each line of its value gets the
+// indentation of the line. Such a hole vanishes with its line if the value is empty. Throws std::logic_error
+// for a hole without value and for a value without hole: a template that does not fit its caller is a bug.
 std::string fill_template(std::string_view text, const std::map<std::string, std::string>& values);
 
-// The file NAME.in of compiler/emit/templates or NAME.inc of a folder `code`, as it is. Throws
+// Returns the file NAME.in of compiler/emit/templates or NAME.inc of a folder `code`, unchanged. Throws
 // std::logic_error for an unknown name.
 std::string_view code_file(std::string_view name);
 
-// Files without holes one after another, each opened by an empty line.
+// Returns files without holes one after another, each after an empty line.
 std::string code_files(std::initializer_list<std::string_view> names);
 
-// The texts of the elements of `list`, `between` them.
+// Returns the texts of the elements of `list`, with `between` between two of them.
 template <typename List, typename Text>
 std::string joined(const List& list, std::string_view between, const Text& text_of) {
   std::string text;
@@ -31,15 +30,15 @@ std::string joined(const List& list, std::string_view between, const Text& text_
   return text;
 }
 
-// ASCII letters as capitals, for include guards.
+// Returns ASCII letters as capitals, for include guards.
 std::string upper_case(std::string text);
 
-// The shortest literals that read back: of the float nearest to `value`, and of the double. Throws kNumeric
-// where they would not be finite.
+// Return the shortest literals that read back: for the float closest to `value`, and for the double. Throw
+// kNumeric if they would not be finite.
 std::string literal(double value);
 std::string double_literal(double value);
 
-// `inline constexpr float NAME[rows][width] = {...};`, with one row on each line.
+// Returns `inline constexpr float NAME[rows][width] = {...};`, with one row on each line.
 std::string table_code(const std::string& name, std::size_t width, const std::vector<std::string>& numbers);
 
 }  // namespace remap

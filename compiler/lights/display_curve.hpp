@@ -1,4 +1,4 @@
-// The display transfer function as a table, for searches that evaluate it billions of times.
+// This file holds the display transfer function as a table, for searches that evaluate it billions of times.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace remap {
 
-// By linear interpolation in a table of 2^16 values. The error is below 1e-7.
+// A DisplayCurve interpolates linearly in a table of 2^16 values. The error is below 1e-7.
 class DisplayCurve {
  public:
   DisplayCurve() {
     for (std::size_t i = 0; i <= kCells; ++i)
       values_[i] = display_value(static_cast<double>(i) / static_cast<double>(kCells));
   }
-  // Value and slope.
+  // Returns value and slope.
   std::pair<float, float> operator()(float linear) const {
     if (linear <= 0.0f) return {0.0f, 0.0f};
     if (linear >= 1.0f) return {1.0f, 0.0f};

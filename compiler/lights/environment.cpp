@@ -22,7 +22,7 @@ double angle_between(const Direction& a, const Direction& b) {
   return std::acos(std::clamp(product(a, b), -1.0, 1.0));
 }
 
-// `elevation`: above the horizon; `azimuth`: from -z towards +x; both in degrees.
+// Returns a direction. `elevation` is above the horizon, and `azimuth` from -z towards +x, both in degrees.
 Direction direction_at(double elevation, double azimuth) {
   return map_direction({0.5 + azimuth / 360.0, 0.5 - elevation / 180.0});
 }
@@ -38,7 +38,7 @@ Environment computed(const std::string& name, int height,
   return environment;
 }
 
-// The relative luminance of a CIE sky (ISO 15469:2004) at a zenith angle and an angle from the sun.
+// A CieSky is the relative luminance of a CIE sky (ISO 15469:2004) by zenith angle and sun angle.
 struct CieSky {
   double a, b, c, d, e;
   double luminance(double cos_zenith, double from_sun) const {
@@ -50,15 +50,15 @@ struct CieSky {
 constexpr CieSky kOvercast{4.0, -0.7, 0.0, -1.0, 0.0};   // type 1
 constexpr CieSky kClear{-1.0, -0.32, 10.0, -3.0, 0.45};  // type 12
 
-// A smooth step from 1 to 0 over `softness` around `edge`.
+// Returns a smooth step from 1 to 0 over `softness` around `edge`.
 double soft_step(double value, double edge, double softness) {
   const double t = std::clamp(0.5 + (edge - value) / softness, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
-// The sun is at 40 degrees, to the right behind the camera. Its disc is widened to 1.5 degrees, so that a map
-// of 256 rows resolves it. It gives a horizontal surface five times the irradiance of the sky, as on a clear
-// day. Below the horizon is grey ground.
+// Returns a clear sky. The sun is at 40 degrees, to the right behind the camera. Its disc is widened to 1.5
+// degrees, so that a map of 256 rows resolves it. It gives a horizontal surface five times the irradiance of
+// the sky, as on a clear day. Below the horizon is grey ground.
 Environment clear_sky(int height) {
   const Direction sun = direction_at(40.0, 120.0);
   const double radius = 1.5 * pi / 180.0;
@@ -82,7 +82,7 @@ Environment overcast_sky(int height) {
   });
 }
 
-// A rectangular light that faces the sphere: its center and half its extent in degrees, and its radiance.
+// An AreaLight is a rectangle that faces the sphere: center and half extent in degrees, and radiance.
 struct AreaLight {
   double elevation, azimuth, half_height, half_width;
   Rgb radiance;

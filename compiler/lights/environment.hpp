@@ -1,4 +1,4 @@
-// Environment maps in latitude and longitude, read from files or computed.
+// This file reads or computes environment maps in latitude and longitude.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +9,20 @@
 
 namespace remap {
 
-// A unit vector in the space of the sweep scene: y points up, the camera is on +z.
+// A Direction is a unit vector in the space of the sweep scene: y points up, the camera is on +z.
 struct Direction {
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
-// Linear RGB radiance. The map is twice as wide as high. Its top row is +y and its middle column -z, the
-// viewing direction of the camera; columns to the right turn towards +x.
+// An Environment is linear RGB radiance. The map is twice as wide as high. Its top row is +y and its middle
+// column -z, the viewing direction of the camera. Columns to the right turn towards +x.
 struct Environment {
   std::string name;
   Image map;
 };
 
-// Converts between a direction and its position in a map, 0 to 1 in width and height from the top left
-// corner.
+// A MapPosition is the position of a direction in a map, 0 to 1 in width and height from the top left corner.
+// The functions convert between both.
 struct MapPosition {
   double u = 0.0, v = 0.0;
 };
@@ -30,12 +30,12 @@ MapPosition map_position(const Direction& direction);
 Direction map_direction(const MapPosition& position);
 
 // Reads an HDR or EXR file; the environment has the name of the file. A single channel is grey; values below
-// 0 become 0. Throws kInput for a file that cannot be read, is not twice as wide as high, is black, or has a
-// value that is not finite.
+// 0 become 0. Throws kInput for a file that cannot be read or is not twice as wide as high. Also throws it
+// for a black file and for values that are not finite.
 Environment load_environment(const std::filesystem::path& path);
 
-// Computes three environments with `height` rows: `sky`, a clear sky with sun; `overcast`, an overcast sky;
-// `studio`, a dim room with three area lights.
+// Computes three environments with `height` rows. `sky` is a clear sky with sun, `overcast` an overcast sky,
+// and `studio` a dim room with three area lights.
 std::vector<Environment> builtin_environments(int height = 256);
 
 // Multiplies the radiance by `exposure`.
@@ -44,10 +44,10 @@ Environment exposed(Environment environment, double exposure);
 // Throws kUsage if two environments have the same name.
 void require_names_differ(const std::vector<Environment>& environments);
 
-// For example `sky, studio`.
+// Returns for example `sky, studio`.
 std::string environment_names(const std::vector<Environment>& environments);
 
-// The mean luminance over all directions.
+// Returns the mean luminance over all directions.
 double mean_luminance(const Environment& environment);
 
 }  // namespace remap

@@ -21,7 +21,7 @@ Direction operator+(const Direction& a, const Direction& b) { return {a.x + b.x,
 double dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Direction normalised(const Direction& a) { return (1.0 / std::sqrt(dot(a, a))) * a; }
 
-// A normal with two tangents.
+// A Frame is a normal with two tangents.
 struct Frame {
   Direction tangent, bitangent, normal;
   Direction to_world(double x, double y, double z) const {
@@ -38,7 +38,7 @@ Frame frame_about(const Direction& n) {
           n};
 }
 
-// A pseudo-random number in [0, 1) for a key (finalizer of splitmix64, Steele et al. 2014).
+// Returns a pseudo-random number in [0, 1) for a key (finalizer of splitmix64, Steele et al. 2014).
 double hashed(std::uint64_t key) {
   key += 0x9e3779b97f4a7c15u;
   key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -59,13 +59,13 @@ enum Technique { kNarrowLobe, kWideLobe, kHemisphere, kTechniqueCount };
 constexpr std::array<double, kTechniqueCount> kTechniqueShare = {0.4, 0.4, 0.2};
 constexpr std::size_t kHalves = 2;
 
-// The mixture from which directions are drawn at every pixel.
+// A Mixture is the distribution from which directions are drawn at every pixel.
 struct Mixture {
   std::array<double, 2> alphas{};                       // of the GGX lobes
   std::array<std::uint32_t, kTechniqueCount> counts{};  // samples of each technique in a half
   double half_count = 0.0;                              // their sum
 
-  // The expected density of samples of one half at a direction, per steradian.
+  // Returns the expected density of samples of one half at a direction, per steradian.
   double density(const LocalGeometry& g) const {
     double sum = counts[kHemisphere] / (2.0 * pi);
     for (std::size_t lobe = 0; lobe < alphas.size(); ++lobe)
@@ -96,7 +96,7 @@ bool is_lit(const Direction& normal, const Direction& view, const Direction& lig
   return true;
 }
 
-// Draws the directions of one pixel.
+// A PixelSampler draws the directions of one pixel.
 class PixelSampler {
  public:
   PixelSampler(const Mixture& mixture, const SurfacePoint& point, std::uint64_t key)
@@ -108,8 +108,8 @@ class PixelSampler {
   const Direction& normal() const { return frame_.normal; }
   const Direction& view() const { return view_; }
 
-  // Sample `i` of a technique: a Hammersley point set with a random shift for each pixel, technique and half
-  // (Cranley and Patterson 1976).
+  // Returns sample `i` of a technique. It uses a Hammersley point set with a random shift for each pixel,
+  // technique and half (Cranley and Patterson 1976).
   Direction direction(Technique technique, std::size_t half, std::uint32_t i) const {
     const std::uint64_t key = 2 * ((key_ * kTechniqueCount + technique) * kHalves + half);
     double u = (i + 0.5) / mixture_.counts[technique] + hashed(key);
@@ -125,7 +125,7 @@ class PixelSampler {
   }
 
  private:
-  // A visible normal of the GGX distribution, from a stretched spherical cap (Dupuy and Benyoub 2023).
+  // Returns a visible normal of GGX, from a stretched spherical cap (Dupuy and Benyoub 2023).
   Direction visible_normal(double alpha, double u, double azimuth) const {
     const Direction stretched = normalised({alpha * dot(view_, frame_.tangent),
                                             alpha * dot(view_, frame_.bitangent), dot(view_, frame_.normal)});
@@ -142,14 +142,14 @@ class PixelSampler {
   std::uint64_t key_;
 };
 
-// The data that all pixels of one rendering share.
+// A Rendering holds the data that all pixels share.
 struct Rendering {
   const RadiancePyramid& environments;
   std::span<const SphereMaterial> materials;
   Mixture mixture;
 };
 
-// Radiance towards the camera for light of radiance 1 from a solid angle of 1 steradian.
+// Returns the radiance towards the camera for light of radiance 1 from a solid angle of 1 steradian.
 double reflected(const SphereMaterial& material, const LocalGeometry& geometry) {
   const Lobe lobe = evaluate_lobe(material.model.brdf, material.model.fresnel, material.alpha, geometry);
   return (lobe.base + material.specular * lobe.slope + material.diffuse / pi) * geometry.cos_light;
@@ -199,7 +199,7 @@ SpherePictures::SpherePictures(std::size_t material_count, std::size_t channel_c
   values_.resize(material_count * kHalves * pixels_.size() * channel_count_);
 }
 
-// Pixels are the outermost dimension, because a thread works on one pixel at a time.
+// Returns an offset. Pixels are the outermost dimension, because a thread works on one pixel at a time.
 std::size_t SpherePictures::offset(std::size_t material, std::size_t half, std::size_t pixel) const {
   return ((pixel * kHalves + half) * material_count_ + material) * channel_count_;
 }

@@ -1,5 +1,5 @@
-// Renders the sphere of the sweep scene under environments in place of a point light, and compares such
-// pictures in display values.
+// This file renders the sphere of the sweep scene under environments instead of a point light, and compares
+// such pictures in display values.
 #pragma once
 
 #include <atomic>
@@ -13,8 +13,8 @@
 
 namespace remap {
 
-// A model of the built-in renderer with its parameters. Specular is linear: a scale or F0. Diffuse is the
-// reflectance of an additional Lambertian lobe.
+// A SphereMaterial is a model of the built-in renderer with its parameters. Specular is linear: a scale or
+// F0. Diffuse is the reflectance of an additional Lambertian lobe.
 struct SphereMaterial {
   BrdfModel model;
   double alpha = 0.0;
@@ -29,26 +29,26 @@ struct SphereSampling {
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
   std::function<void()> progress;  // called for each of `resolution` pixel rows, from any thread
   const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
-  // All pixels share their directions: a few give a smooth picture. Its error is smooth, too, and differs
-  // from pixel to pixel otherwise.
+  // With this set, all pixels share their directions, so that a few directions give a smooth picture. Its
+  // error is then smooth, too; otherwise the error differs from pixel to pixel.
   bool shares_directions = false;
 };
 
-// Linear RGB pictures of materials under each environment, at the pixels that show the sphere. The directions
-// are in two halves with separate results, whose difference gives the sampling error.
+// A SpherePictures holds linear RGB pictures of materials under each environment, at the pixels that show the
+// sphere. The directions are in two halves with separate results, whose difference gives the sampling error.
 class SpherePictures {
  public:
   SpherePictures(std::size_t material_count, std::size_t channel_count, int resolution);
 
   int resolution() const { return resolution_; }
-  // Row-major indices of the pixels whose centers show the sphere.
+  // Returns row-major indices of the pixels whose centers show the sphere.
   const std::vector<std::uint32_t>& pixels() const { return pixels_; }
 
-  // Three values for each of pixels(): the mean of both halves, or one half (0 or 1).
+  // Returns three values for each of pixels(): the mean of both halves, or one half (0 or 1).
   std::vector<float> radiance(std::size_t material, std::size_t environment) const;
   std::vector<float> half_radiance(std::size_t material, std::size_t environment, std::size_t half) const;
 
-  // All channels of a pixel, which is an index into pixels().
+  // Returns all channels of a pixel, which is an index into pixels().
   float* values(std::size_t material, std::size_t half, std::size_t pixel);
 
  private:
@@ -71,22 +71,21 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
 // Converts linear values to display values (renderer/image_similarity.hpp).
 std::vector<float> display_values(std::span<const float> radiance);
 
-// A picture in display values. The shape may be another than the sphere.
+// A DisplayedSphere is a picture in display values. The shape may be another than the sphere.
 struct DisplayedSphere {
   std::vector<float> colors;  // RGB of the pixels that show the sphere
   std::vector<float> luma;    // of the whole picture, row-major; 0 outside the sphere
 };
 
-// `radiance`: linear RGB of `pixels`, which are row-major indices into a picture of `resolution` x
-// `resolution`.
+// Converts `radiance`, linear RGB of `pixels`. These are row-major indices into a square of `resolution`.
 DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
                                  int resolution);
 
-// The same for `colors` in display values.
+// Does the same for `colors` in display values.
 DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std::uint32_t> pixels,
                                  int resolution);
 
-// The mean structural similarity of luma over the pixels of the sphere; 1 for equal pictures.
+// Returns the mean structural similarity of luma over the pixels of the sphere; 1 means equal pictures.
 double sphere_similarity(const DisplayedSphere& a, const DisplayedSphere& b,
                          std::span<const std::uint32_t> pixels, int resolution);
 

@@ -1,5 +1,5 @@
-// Pictures of the lobe of one model under many lights, from which those of every material with that lobe
-// follow: a picture is linear in diffuse reflectance and specular, and smooth in alpha.
+// This file renders the lobe of one model under many lights. Pictures of every material with that lobe follow
+// from these, because a picture is linear in diffuse reflectance and specular, and smooth in alpha.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@
 
 namespace remap {
 
-// Environments, and after them point lights, under which the nearest point of a white diffuse sphere that
-// faces them has radiance 1. Their angles to the camera are in degrees.
+// A StudyLights holds environments, and after them point lights. Under a point light, the closest point of a
+// white diffuse sphere that faces the light has radiance 1. The angles to the camera are in degrees.
 class StudyLights {
  public:
   StudyLights(std::vector<Environment> environments, const SphereSampling& sampling,
@@ -25,11 +25,11 @@ class StudyLights {
   const std::vector<Environment>& environments() const { return environments_; }
   int resolution() const { return sampling_.resolution; }
   const SphereSampling& sampling() const { return sampling_; }
-  // Row-major indices of the pixels that show the sphere.
+  // Returns row-major indices of the pixels that show the sphere.
   const std::vector<std::uint32_t>& pixels() const { return pixels_; }
-  // A white Lambertian sphere; linear RGB of pixels().
+  // Returns the picture of a white Lambertian sphere: linear RGB of pixels().
   const std::vector<float>& diffuse(std::size_t light) const { return diffuse_[light]; }
-  // The picture of a built-in model under point light `light`, with alpha and specular.
+  // Returns the picture of a built-in model under point light `light`, with alpha and specular.
   std::vector<float> point_lit(std::size_t light, const std::string& model, double alpha, double specular,
                                double diffuse) const;
 
@@ -43,19 +43,19 @@ class StudyLights {
 
 class LobePictures {
  public:
-  // `alphas`: ascending. Throws the errors of render_spheres().
+  // Renders the lobe at `alphas`, in ascending order. Throws the errors of render_spheres().
   LobePictures(const StudyLights& lights, const std::string& model, std::vector<double> alphas);
 
   const std::vector<double>& alphas() const { return alphas_; }
   // Adds the lobe to a picture, linear RGB of pixels(). Alpha is clamped to alphas(), and interpolated
   // between them in its logarithm. With `is_constant` the reflectance of the lobe is specular in every
-  // direction, else the model's own.
+  // direction, otherwise it is the model's own.
   void add(std::size_t light, double alpha, const Rgb& specular, bool is_constant,
            std::vector<float>& radiance) const;
 
  private:
   std::vector<double> alphas_;
-  // [alpha][light]: at specular 0, and what specular 1 adds.
+  // The order is [alpha][light]. They hold the picture at specular 0, and what specular 1 adds.
   std::vector<std::vector<std::vector<float>>> dark_, slope_;
 };
 

@@ -19,12 +19,13 @@ constexpr std::size_t kWidthCount = 40;
 constexpr Range kWidths{0.01, 1.0};
 constexpr double kLeastWidth = 0.05;  // narrower highlights are smaller than a pixel
 constexpr std::array kChoosingSpeculars = {0.04, 0.2, 0.6, 1.0}, kJudgingSpeculars = {0.1, 0.3, 0.5, 0.9};
-// Of a per cent of the error under point lights, where one under environments counts 1: so that forms are no
-// worse than regressions of the rows in either, by the lights that choose (docs/decisions/079-one-form.md).
+// This is the weight of a per cent of the error under point lights, while a per cent under environments
+// counts 1. With it forms are at least as good as regressions of the rows in both, by the lights that choose
+// (docs/decisions/079-one-form.md).
 constexpr double kPointWeight = 0.5;
 constexpr double kWidthStep = 0.04;  // of differences, relative
 
-// Turned about the vertical axis by a share of a circle.
+// Turns an environment about the vertical axis by a fraction of a circle.
 Environment turned(const Environment& environment, double share) {
   Environment result = environment;
   const Image& map = environment.map;
@@ -38,7 +39,7 @@ Environment turned(const Environment& environment, double share) {
   return result;
 }
 
-// Pictures of all models that were asked for under the lights of one half.
+// A Half holds pictures of all requested models under the lights of one half.
 class Half {
  public:
   Half(std::vector<Environment> environments, const std::vector<double>& angles, unsigned jobs)
@@ -51,7 +52,7 @@ class Half {
     if (!pictures) pictures = std::make_unique<LobePictures>(lights_, model, widths_of(model));
     return *pictures;
   }
-  // Widths in equal ratios, within the range of the model.
+  // Returns widths in equal ratios, within the range of the model.
   static std::vector<double> widths_of(const std::string& model) {
     static const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
     const Range range = renderer->model(model).alpha;
@@ -87,11 +88,12 @@ Halves& halves(unsigned jobs) {
 
 using Picture = std::vector<float>;
 
-// A material of the source under each light: display values under environments, linear ones under points.
+// A MaterialPictures shows a material of the source under each light: display values under environments,
+// linear values under points.
 struct MaterialPictures {
   MappedTexel source;
   std::vector<Picture> pictures;
-  std::vector<double> power;  // of the linear ones: their sum of squares
+  std::vector<double> power;  // sums of squares of the linear ones
 };
 
 class Judge {
@@ -115,7 +117,7 @@ class Judge {
 
   const std::vector<MaterialPictures>& shown() const { return shown_; }
 
-  // The error under a light, in percent or relative, with its slopes where `error` is not null.
+  // Returns the error under a light, in percent or relative. It adds the slopes to `sum` if this is not null.
   double error_under(std::size_t light, const MaterialPictures& shown, const MappedTexel& texel, double unit,
                      TexelError* sum) const {
     const bool is_environment = light < lights_.environment_count();
@@ -142,7 +144,7 @@ class Judge {
       both += a * s;
       specular_2 += s * s;
     }
-    // The root of a mean of squares; its slope is that of the squares over twice itself.
+    // The error is the root of a mean of squares. Its slope is the slope of the squares over twice the error.
     const double count =
         is_environment ? static_cast<double>(here.size()) / 1e4 : std::max(shown.power[light], 1e-12);
     const double error = std::sqrt(square / count);
@@ -172,7 +174,7 @@ class Judge {
   std::vector<MaterialPictures> shown_;
 };
 
-// Every other width, and speculars of its own, for each half.
+// Each half takes every other width, and its own speculars.
 template <typename Speculars>
 std::vector<MappedTexel> materials(const std::string& source, const Domain& domain, bool is_choosing,
                                    const Speculars& speculars) {

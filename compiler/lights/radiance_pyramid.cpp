@@ -14,14 +14,14 @@ using std::numbers::pi;
 
 constexpr int kCoarsestHeight = 4;  // rows
 
-// The weight of a row or column of the input in a row or column of the output. The weights sum to 1.
+// A Share is the weight of an input row or column in an output row or column. The weights sum to 1.
 struct Share {
   std::size_t source;
   double weight;
 };
 using Shares = std::vector<std::vector<Share>>;
 
-// `measure(a, b)`: the weight of the interval between two positions, which are 0 to 1.
+// `measure(a, b)` returns the weight of the interval between two positions, which are 0 to 1.
 template <typename Measure>
 Shares overlaps(int from, int to, const Measure& measure) {
   Shares shares(static_cast<std::size_t>(to));
@@ -39,7 +39,7 @@ Shares overlaps(int from, int to, const Measure& measure) {
   return shares;
 }
 
-// The solid angle of a row is proportional to the difference of the cosines of its edges.
+// Returns weights of rows. A row's solid angle is proportional to its edges' difference of cosines.
 Shares row_shares(int from, int to) {
   return overlaps(from, to, [](double a, double b) { return std::cos(pi * a) - std::cos(pi * b); });
 }
@@ -71,7 +71,7 @@ constexpr double kLampThreshold = 4.0;  // relative to the mean luminance
 constexpr std::size_t kMostLamps = 128;
 constexpr int kLampTexels = 2;  // width and height of a spot
 
-// The light of a spot of a map above a luminance.
+// A Spot is a small part of a map with light above a luminance.
 struct Spot {
   int row, column;  // of its first texel
   Lamp lamp;
@@ -176,9 +176,9 @@ void RadiancePyramid::add_bilinear(const Level& level, const MapPosition& positi
 
 void RadiancePyramid::look_up(const Direction& direction, double solid_angle, float* radiance) const {
   const MapPosition position = map_position(direction);
-  // The size of a texel at the horizon of the finest level; each level has four times the solid angle of the
-  // one before. Krivanek and Colbert add a level of overlap for few samples. That is not done here, because
-  // the maps vary little without lamps, and blur makes pictures more similar than they are.
+  // This is the size of a texel at the horizon of the finest level. Each level has four times the solid angle
+  // of the previous one. Krivanek and Colbert add a level of overlap for few samples. This is not done here,
+  // because the maps vary little without lamps, and blur makes pictures too similar.
   const double texel = pi / levels_.front().height;
   const double level = std::clamp(0.5 * std::log2(solid_angle / (texel * texel)), 0.0,
                                   static_cast<double>(levels_.size() - 1));

@@ -1,5 +1,5 @@
-// Environments prepared for lookups over cones of directions: a pyramid of grids, each half as large as the
-// one before.
+// This file prepares environments for lookups over cones of directions, as a pyramid of grids. Each grid is
+// half as large as the previous one.
 #pragma once
 
 #include <cstddef>
@@ -10,26 +10,25 @@
 
 namespace remap {
 
-// A bright spot of an environment that is small enough to be treated as one direction.
+// A Lamp is a bright spot of an environment that is small enough to be treated as one direction.
 struct Lamp {
   Direction direction;
   Rgb flux{};  // radiance times solid angle
 };
 
-// Filtered importance sampling (Krivanek and Colbert 2008): a sample that represents a solid angle reads the
-// average radiance over about that solid angle. The channels of all environments are adjacent, because every
-// sample reads all of them.
+// A RadiancePyramid does filtered importance sampling (Krivanek and Colbert 2008). A sample that represents a
+// solid angle reads the average radiance over about that solid angle. The channels of all environments are
+// adjacent, because every sample reads all of them.
 class RadiancePyramid {
  public:
   // Resamples maps of any size to `height` rows and twice as many columns; each texel is the mean over its
-  // directions. `height`: a power of two, at least 8.
+  // directions. `height` is a power of two, at least 8.
   explicit RadiancePyramid(std::span<const Environment> environments, int height = 256);
 
-  // Three for each environment, in their order.
+  // Returns three for each environment, in their order.
   std::size_t channel_count() const { return channel_count_; }
 
-  // At most 128 spots of 1.4 degrees (for 256 rows), with their radiance above four times the mean of the
-  // map.
+  // Returns at most 128 spots of 1.4 degrees (for 256 rows), with their radiance above four times the mean.
   const std::vector<Lamp>& lamps(std::size_t environment) const { return lamps_[environment]; }
 
   // Writes the radiance without lamps from `direction`, averaged over about `solid_angle` (steradian, > 0),

@@ -8,10 +8,10 @@
 namespace remap {
 namespace {
 
-// Four units in the last place of a float: what conversions of parameters and the scale of a texel add.
+// Returns four units in the last place of a float, the rounding of conversions and of a texel's scale.
 double rounding_of(double value) { return 4.8e-7 * std::fabs(value) + 1e-30; }
 
-// How far the target's own parameter moves where alpha moves by `error`.
+// Returns how much the target's own parameter changes if alpha changes by `error`.
 double own_error(RoughnessEncoding convention, double own, double error) {
   const double alpha = to_alpha(convention, own);
   const double low = from_alpha(convention, std::max(alpha - error, 0.5 * alpha));
@@ -19,7 +19,7 @@ double own_error(RoughnessEncoding convention, double own, double error) {
   return std::max(std::fabs(low - own), std::fabs(high - own)) + rounding_of(std::fabs(own) + 1.0);
 }
 
-// The number as a short decimal.
+// Returns the number as a short decimal.
 float bound(double value) { return static_cast<float>(rounded_up(rounded_to_float(value), 2)); }
 
 std::optional<double> two_digits(bool is_known, double error) {
@@ -36,7 +36,7 @@ std::optional<PictureDifference> picture_difference(const Fit& fit) {
   return PictureDifference{one_decimal(fit.pictures->converted.rmse), one_decimal(fit.pictures->copied.rmse)};
 }
 
-// The errors are bounds of target alpha and, within the domain, of target specular.
+// Returns golden texels. The errors are bounds of target alpha and, within the domain, of target specular.
 std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, double specular_error) {
   const Range own = own_roughness_range(fit), specular = specular_range(fit);
   std::vector<GoldenTexel> texels;
@@ -45,7 +45,7 @@ std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, doubl
     const double in = static_cast<double>(s);
     double out = 0.0;
     const double width = evaluate_texel(fit, static_cast<double>(r), {&in, 1}, {&out, 1});
-    const double scale = std::max(1.0, in / specular.max);  // factors are those at the edge
+    const double scale = std::max(1.0, in / specular.max);  // factors beyond the edge are the edge's
     texels.push_back({r, s, static_cast<float>(width), static_cast<float>(out),
                       bound(own_error(fit.target.roughness, width, alpha_error)),
                       bound(scale * specular_error + rounding_of(out))});

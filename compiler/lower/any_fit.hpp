@@ -1,4 +1,4 @@
-// The fits that a fit file can hold.
+// This file lists the fits that a fit file can hold.
 #pragma once
 
 #include <string>

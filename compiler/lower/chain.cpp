@@ -18,7 +18,7 @@ namespace {
 constexpr int kAlphas = 401, kSpeculars = 64;  // of the grid on which the domain is found
 constexpr int kCoarse = 25;                    // alphas and speculars on which errors are propagated
 constexpr double kSameEdge = 1e-9;             // of a domain, relative
-// From its steps; pictures show no less.
+// A form is close enough to its steps within these distances, which pictures do not show.
 constexpr double kNearAlpha = 2e-3, kNearSpecular = 4e-3;
 
 double at(const Range& range, int i, int count) {
@@ -47,7 +47,7 @@ void require_links(const std::vector<Fit>& steps) {
   }
 }
 
-// The inputs of every step, then the outputs of the last.
+// Returns the inputs of every step, then the outputs of the last.
 std::vector<MappedTexel> states(const std::vector<Fit>& steps, MappedTexel texel) {
   std::vector<MappedTexel> passed = {texel};
   for (const Fit& step : steps) {
@@ -61,8 +61,8 @@ bool covers(const Range& range, double value) {
   return value >= range.min * (1.0 - kSameEdge) && value <= range.max * (1.0 + kSameEdge);
 }
 
-// The first step whose domain a texel leaves, or that follows one whose target is at its limit; steps.size()
-// if it stays inside all. Specular below 0 is left to the domain rule.
+// Returns the first step whose domain a texel leaves, or that follows a step whose target is at its limit.
+// Returns steps.size() if the texel stays inside all. The domain rule handles specular below 0.
 std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
   const std::vector<MappedTexel> passed = states(steps, texel);
   for (std::size_t i = 1; i < steps.size(); ++i)
@@ -107,7 +107,7 @@ Domain chain_domain(const std::vector<Fit>& steps) {
   return *domain;
 }
 
-// Derivatives of the outputs by the inputs of step `first`: [output][input], alpha then specular.
+// A Jacobian holds derivatives by the inputs of step `first`: [output][input], alpha then specular.
 using Jacobian = std::array<std::array<double, 2>, 2>;
 
 Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const MappedTexel& texel) {
@@ -122,8 +122,8 @@ Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const Mapped
   return {{{by_alpha[0], by_specular[0]}, {by_alpha[1], by_specular[1]}}};
 }
 
-// Error figures of all steps, propagated to the end of the chain. Squares of rms are summed and averaged over
-// the domain; the other figures are summed, and their maximum over the domain is taken.
+// A CarriedErrors propagates error figures of all steps to the end of the chain. Squares of rms are summed
+// and averaged over the domain. The other figures are summed, and their maximum over the domain is taken.
 struct CarriedErrors {
   double square = 0.0;
   ErrorFigures figures;
@@ -175,7 +175,7 @@ std::optional<ImageSimilarity> summed_similarity(const std::vector<Fit>& steps) 
   return sum;
 }
 
-// The smallest form that gives what the steps give one after another; the largest where none comes near.
+// Returns the smallest form that reproduces the steps, or the largest form if none is close enough.
 CompactForm composed_form(const std::vector<Fit>& steps, const Fit& chain) {
   std::vector<FormSample> samples;
   double largest = 0.0;
@@ -199,7 +199,7 @@ CompactForm composed_form(const std::vector<Fit>& steps, const Fit& chain) {
   return form;
 }
 
-// One texel through the steps, each with its domain rule, in the models' own parameters.
+// A SteppedTexel is one texel through the steps, each with its domain rule, in the models' own parameters.
 struct SteppedTexel {
   double alpha = 0.0;
   std::array<double, 3> specular{};

@@ -1,6 +1,6 @@
-// The formula of each kind of mapping over any scalar: doubles for the interpreter, Taylor models for proofs
-// (lower/taylor.hpp), so that proofs hold for the interpreted formula. A scalar needs +, -, * with itself and
-// with double, and the functions that are declared for double below.
+// This file holds the formula of each kind of mapping over any scalar. Doubles serve the interpreter, Taylor
+// models the proofs (lower/taylor.hpp), so that proofs hold for the interpreted formula. A scalar needs +, -,
+// * with itself and with double, and the functions that are declared for double below.
 #pragma once
 
 #include <cmath>
@@ -11,10 +11,10 @@
 
 namespace remap {
 
-// phi of AlphaCurve: (1 - exp(-rate x)) / rate, x where the rate is 0.
+// Returns phi of AlphaCurve: (1 - exp(-rate x)) / rate, or x if the rate is 0.
 inline double rise(double rate, double x) { return rate == 0.0 ? x : -std::expm1(-rate * x) / rate; }
 
-// Sum of weights[i] exp(-gamma |x - vector i|^2) for normalised inputs x.
+// Returns the sum of weights[i] exp(-gamma |x - vector i|^2) for normalised inputs x.
 inline double gaussian_sum(const KernelExpansion& expansion, const std::vector<double>& inputs) {
   double sum = 0.0;
   const double* vector = expansion.vectors.data();
@@ -37,7 +37,7 @@ Scalar curve_value(const AlphaCurve& curve, const Scalar& alpha) {
   return value;
 }
 
-// The inputs of a regressor with `count` inputs: alpha alone, or both.
+// Returns the inputs of a regressor with `count` inputs: only alpha, or both.
 template <typename Scalar>
 std::vector<Scalar> inputs_of(std::size_t count, const Scalar& alpha, const Scalar& specular) {
   if (count == 1) return {alpha};
@@ -51,7 +51,7 @@ Scalar expansion_value(const KernelExpansion& expansion, const Scalar& alpha, co
   return scaled_back(expansion.output, gaussian_sum(expansion, inputs) + expansion.bias);
 }
 
-// t of the form.
+// Returns t of the form.
 template <typename Scalar>
 Scalar share_of_pole(double pole, const Scalar& specular) {
   return reciprocal(specular + pole) * -pole + 1.0;
@@ -87,7 +87,7 @@ Scalar target_alpha(const Mlp& mlp, const Scalar& alpha, const Scalar& specular)
   return network_value(mlp.alpha, alpha, specular);
 }
 
-// A network of one output over one texel.
+// Evaluates a network with one output for one texel.
 template <typename Scalar>
 Scalar network_value(const Network& network, const Scalar& alpha, const Scalar& specular) {
   return network_outputs(network, inputs_of(network.inputs.size(), alpha, specular))[0];

@@ -1,5 +1,5 @@
-// A fit: the mapping from the parameters of one BRDF model to those of another, as it was found, and the
-// converter that it was lowered to. remapc writes it as JSON (fit_file.hpp).
+// This file holds a fit: the mapping from the parameters of one BRDF model to the parameters of another, as
+// it was found, and the converter that it was lowered to. remapc writes it as JSON (fit_file.hpp).
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,24 @@
 
 namespace remap {
 
-// The range of the table's data. The factors between source and target parameters hold beyond its edges as
-// they are there; only widths above it are clamped.
+// A Domain is the range of the table's data. Beyond its edges, the factors between source and target
+// parameters keep their values at the edge. Only widths above it are clamped.
 struct Domain {
   Range alpha;     // of the source
   Range specular;  // of the source, linear, any channel
   bool operator==(const Domain&) const = default;
 };
 
-// The largest alpha and specular that a target model takes.
+// A Limits holds the largest alpha and specular that a target model accepts.
 struct Limits {
   double alpha = 1.0;
-  std::optional<double> specular;  // none: not known
+  std::optional<double> specular;  // none: unknown
   bool operator==(const Limits&) const = default;
 };
 
-// How far pictures of converted materials are from those of the source, and pictures of copied numbers.
-// Materials and lights had no part in the choice of the numbers (compiler/lights/pair_pictures.hpp).
+// A PictureErrors states how much pictures of converted materials, and of copied numbers, differ from the
+// source's pictures. Materials and lights had no part in the choice of the numbers
+// (compiler/lights/pair_pictures.hpp).
 struct PictureErrors {
   double rmse = 0.0;      // of display values under environments, percent of the display's range
   double relative = 0.0;  // of linear radiance under a point light, relative to the source's rms
@@ -41,7 +42,7 @@ struct JudgedPictures {
   bool operator==(const JudgedPictures&) const = default;
 };
 
-// Absolute errors of one output over the held-out rows.
+// An ErrorFigures holds absolute errors of one output over the held-out rows.
 struct ErrorFigures {
   double rms = 0.0;
   double p99 = 0.0;  // 99th percentile
@@ -49,7 +50,7 @@ struct ErrorFigures {
   bool operator==(const ErrorFigures&) const = default;
 };
 
-// The rows of the table that trained, that were held out for the figures, and that were not used.
+// A Split counts the table's rows that trained, that were held out, and that were not used.
 struct Split {
   std::uint64_t seed = 0;
   double held_out_fraction = 0.0;
@@ -59,7 +60,7 @@ struct Split {
   bool operator==(const Split&) const = default;
 };
 
-// The table that was fitted.
+// A TableRecord describes the table that was fitted.
 struct TableRecord {
   std::string name;                             // of the file, without folder
   std::string sha256;                           // of its bytes
@@ -67,30 +68,31 @@ struct TableRecord {
   bool operator==(const TableRecord&) const = default;
 };
 
-// One row of the comparison by which `--model auto` decided (compiler/fit/comparison.hpp).
+// A CandidateRecord is one row of the comparison by which `--model auto` decided
+// (compiler/fit/comparison.hpp).
 struct CandidateRecord {
   std::string name;              // kind, and its shape
   std::size_t number_count = 0;  // of its coefficients: its complexity
   ErrorFigures alpha, specular;  // on the held-out rows
-  // Root mean square on them relative to the value, or to a fiftieth of 1 where that is more.
+  // These are root mean squares on them relative to the value, or to a fiftieth of 1 if this is more.
   double relative_alpha = 0.0, relative_specular = 0.0;
-  std::optional<PictureErrors> pictures;  // none: a renderer does not take part
+  std::optional<PictureErrors> pictures;  // none if a renderer does not take part
   std::string verdict;                    // `chosen`, or the reason against it
   bool operator==(const CandidateRecord&) const = default;
 };
 
-// The structural similarity (Wang et al. 2004) of two spheres side by side, source and target at the best
-// parameters, at one source width.
+// A SphereSimilarity is the structural similarity (Wang et al. 2004) of two spheres, source and target at the
+// best parameters, at one source width.
 struct SphereSimilarity {
   double alpha = 0.0;
   double ssim = 0.0;
   bool operator==(const SphereSimilarity&) const = default;
 };
 
-// How well the two models can match, independent of the fit: over the rows of the table in the domain.
+// An ImageSimilarity states how well the two models can match, by the table's rows in the domain.
 struct ImageSimilarity {
   ErrorFigures image_error;  // difference of the pictures relative to the source's, as the match weighs them
-  std::vector<SphereSimilarity> ssim;  // by rising alpha; empty where no spheres were compared
+  std::vector<SphereSimilarity> ssim;  // by rising alpha; empty if no spheres were compared
   bool operator==(const ImageSimilarity&) const = default;
 };
 
@@ -102,26 +104,26 @@ struct Fit {
   MappingKind mapping;
   Limits limits;                                    // of the target
   std::map<std::string, std::string> method;        // of the regression: hyper-parameters, search, starts
-  std::vector<CandidateRecord> candidates;          // of `auto`; else empty
+  std::vector<CandidateRecord> candidates;          // of `auto`; otherwise empty
   ErrorFigures alpha_error;                         // of the target's alpha
   ErrorFigures specular_error;                      // of the target's specular
   std::optional<ImageSimilarity> image_similarity;  // none for published formulas, without pictures
-  std::optional<JudgedPictures> pictures;           // none where the built-in renderer lacks a model
+  std::optional<JudgedPictures> pictures;           // none if the built-in renderer lacks a model
   std::vector<std::string> remarks;                 // lines of the card: sources, errata, limits of the pair
   Split split;
   TableRecord table;
   std::string tool_version;
-  // The converter that add_converter() (lower/lower.hpp) makes; none before that, and if it cannot be made.
+  // This is the converter that add_converter() (lower/lower.hpp) makes. It may be missing.
   std::optional<ConverterData> converter;
-  // Whether the errors are known. Formulas from publications were not compared with rows.
+  // Returns true if the errors are known. Formulas from publications were not compared with rows.
   bool has_errors() const { return alpha_error != ErrorFigures{} || specular_error != ErrorFigures{}; }
-  // Whether these are errors: rows are matched under one light, and a form that pictures under many lights
-  // chose is not meant to follow them.
+  // Returns true if the distances to rows are errors. Rows are matched under one light, so a form that
+  // pictures under many lights chose need not follow them.
   bool follows_rows() const { return has_errors() && !pictures; }
   bool operator==(const Fit&) const = default;
 };
 
-// The mean of the compared spheres' structural similarities; none where no spheres were compared.
+// Returns the mean of the compared spheres' structural similarities, or nothing if no spheres were compared.
 std::optional<double> mean_ssim(const Fit& fit);
 
 }  // namespace remap

@@ -1,5 +1,5 @@
-// Parts of fit files as JSON that several kinds of fits hold, and manifests too. Writers throw kNumeric where
-// a number is not finite, readers kInput.
+// This file reads and writes parts of fit files as JSON. Several kinds of fits share them, and manifests,
+// too. Writers throw kNumeric if a number is not finite, readers throw kInput.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ Scaling read_scaling(const Field& field);
 Scaling read_output_scaling(const Field& field);
 
 Json network_json(const Network& network);
-// Refuses another number of outputs, and layers that do not fit each other.
+// Reads a network. Refuses another number of outputs, and layers that do not fit each other.
 Network read_network(const Field& field, std::size_t output_count);
 
 Json figures_json(const ErrorFigures& figures);
@@ -33,15 +33,15 @@ Split read_split(const Field& field);
 Json table_record_json(const TableRecord& table);
 TableRecord read_table_record(const Field& field);
 
-// One end of a fit between workflows.
+// Reads one end of a fit between workflows.
 SpecularWorkflow read_specular_workflow(const Field& side);
 MetallicWorkflow read_metallic_workflow(const Field& side);
 
-// The fields `source`, `target` and `mapping` of a fit between workflows. Refuses conversions that
+// Reads the fields `source`, `target` and `mapping` of a fit between workflows. Refuses conversions that
 // require_valid() refuses.
 WorkflowConversion read_conversion(const Field& fit);
 
-// The fit of each kind whose file has this root.
+// These functions read the fit of each kind whose file has this root.
 Fit read_fit(const Field& root);
 WorkflowFit read_workflow_fit(const Field& root);
 

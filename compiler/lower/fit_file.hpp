@@ -1,5 +1,5 @@
-// Reads and writes fit files (JSON). Numbers round-trip exactly, and equal fits give equal bytes on every
-// machine.
+// This file reads and writes fit files (JSON). Numbers round-trip exactly, and equal fits give equal bytes
+// everywhere.
 #pragma once
 
 #include <filesystem>
@@ -13,25 +13,25 @@
 
 namespace remap {
 
-// The JSON text of a fit, ending with a newline. Throws kNumeric if a number is not finite, and the errors of
-// require_valid().
+// Returns the JSON text of a fit, which ends with a newline. Throws kNumeric if a number is not finite, and
+// the errors of require_valid().
 std::string fit_to_json(const Fit& fit);
 std::string fit_to_json(const WorkflowFit& fit);
 
-// The fit of alpha and specular in `json`. Messages begin with `context`, a file name. Throws kInput for
-// invalid JSON, another format version, a missing or mistyped field, an unknown kind, an invalid id, an empty
-// domain, a coefficient that is not finite, and for a fit of whole materials.
+// Reads the fit of alpha and specular in `json`. Messages begin with `context`, a file name. Throws kInput
+// for invalid JSON, another format version, a missing or mistyped field, an unknown kind, or an invalid id.
+// Also throws it for an empty domain, a coefficient that is not finite, and a fit of whole materials.
 Fit fit_from_json(std::string_view json, const std::string& context);
 
-// The same for a file. Throws kInput if it cannot be read.
+// Reads the same from a file. Throws kInput if it cannot be read.
 Fit load_fit(const std::filesystem::path& path);
 
-// The same for fits of all types.
+// These functions do the same for fits of all types.
 AnyFit any_fit_from_json(std::string_view json, const std::string& context);
 AnyFit load_any_fit(const std::filesystem::path& path);
 
-// The fit if it is one of alpha and specular. Throws an error of `kind`, which begins with `context`, for a
-// fit of whole materials.
+// Returns the fit if it is one of alpha and specular. Throws an error of `kind`, which begins with `context`,
+// for a fit of whole materials.
 const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& context);
 
 }  // namespace remap

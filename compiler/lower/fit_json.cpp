@@ -125,7 +125,7 @@ Parametric read_parametric(const Field& field) {
   return form;
 }
 
-// Inputs of a regressor over one texel: alpha, or alpha and specular.
+// Reads the inputs of a regressor for one texel: alpha, or alpha and specular.
 std::vector<Scaling> read_inputs(const Field& field) {
   const auto inputs = field.list(1, read_scaling);
   field.require(inputs.size() <= 2, "one input (alpha) or two (alpha, specular)");
@@ -233,7 +233,7 @@ std::optional<ImageSimilarity> read_similarity(const Field& field) {
                          })};
 }
 
-// Refuses a converter of another fit: it has other ends, or its golden texels are not what the mapping gives.
+// Refuses a converter of another fit. Its ends differ, or its golden texels contradict the mapping.
 void require_own_converter(const Fit& fit, const Field& root) {
   const ConverterInfo& info = fit.converter->info;
   const auto is_near = [](double value, float golden, float within) {

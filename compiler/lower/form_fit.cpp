@@ -15,7 +15,7 @@ namespace remap {
 namespace {
 
 constexpr std::array kPoles = {0.02, 0.035, 0.06, 0.1, 0.17, 0.3, 0.5, 1.0};
-constexpr float kMostBend = 4.0f;  // above, a hinge is a step
+constexpr float kMostBend = 4.0f;  // above it, a hinge is a step
 constexpr double kLeastRelative = 2e-4;
 constexpr int kRowIterations = 30;
 constexpr int kGrid = 80;               // steps over the domain, in each direction
@@ -24,7 +24,7 @@ constexpr double kSmallestGain = 2e-5;  // of a sum of errors, relative
 constexpr double kStep = 1e-5;          // of difference quotients: the smallest change of a number
 constexpr double kRidge = 1e-9;         // of normal equations, relative
 
-// Pictures show errors relative to a value, and below `least` nothing.
+// Pictures show errors relative to a value, and nothing below `least`.
 constexpr double kLeastShown = 0.02;
 double weight_of(double value, double least = kLeastShown) { return 1.0 / std::max(value, least); }
 
@@ -44,7 +44,7 @@ FactorTerms shaped(const FormShape& shape, const Eigen::VectorXd& numbers) {
   return factor;
 }
 
-// The factor by which `of` the targets are the sources', over the samples that `counts` keeps.
+// Fits the factor from sources to targets, over the samples that `counts` keeps.
 template <typename Counts, typename Source, typename Target>
 std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples, const FormShape& shape,
                                           double pole, double least_shown, const Counts& counts,
@@ -74,7 +74,7 @@ std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples
   return {shaped(shape, numbers), (matrix * numbers - wanted).squaredNorm()};
 }
 
-// The form of least squares on the samples below the limits; it has no hinge yet.
+// Returns the form of least squares on the samples below the limits. It has no hinge yet.
 CompactForm least_squares(const std::vector<FormSample>& samples, const Limits& limits,
                           const FormShape& shape, double least_shown) {
   CompactForm best;
@@ -117,7 +117,7 @@ std::vector<MappedTexel> targets_of(const CompactForm& form, const Domain& domai
   return targets;
 }
 
-// A texel of the grid over the domain, denser where alpha is small.
+// Returns a texel of the grid over the domain, which is denser where alpha is small.
 MappedTexel grid_texel(const Domain& domain, int i, int j) {
   const auto between = [](const Range& range, double share) {
     return range.min + (range.max - range.min) * share;
@@ -132,7 +132,7 @@ double sum_of(const std::vector<TexelError>& errors) {
   return sum;
 }
 
-// The gradient and the curvature of the sum of errors by the numbers.
+// A NormalEquations holds the gradient and the curvature of the sum of errors by the numbers.
 struct NormalEquations {
   Eigen::MatrixXd curvature;
   Eigen::VectorXd gradient;
@@ -147,7 +147,7 @@ NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
   std::vector<Eigen::MatrixXd> slopes(sources.size(), Eigen::MatrixXd(2, count));
   for (Eigen::Index k = 0; k < count; ++k) {
     std::vector<double> moved = numbers;
-    // Forms hold floats, so a step must be one of them.
+    // Forms hold floats, so a step must be large enough to change one.
     const double step = std::max(kStep, std::fabs(numbers[static_cast<std::size_t>(k)]) * 1e-3);
     moved[static_cast<std::size_t>(k)] += step;
     const std::vector<MappedTexel> beyond = targets_of(with_numbers(form, moved), domain, sources);
@@ -167,7 +167,7 @@ NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
   return equations;
 }
 
-// The form, and the sum of its errors.
+// Returns the form, and the sum of its errors.
 std::pair<CompactForm, double> refined_from(const CompactForm& start, const Domain& domain,
                                             const std::vector<MappedTexel>& sources,
                                             const TexelErrors& errors, int iterations) {
@@ -226,7 +226,7 @@ CompactForm refined_by_rows(const std::vector<CompactForm>& starts, const Domain
   return refined_form(starts, domain, sources_of(samples), errors, kRowIterations);
 }
 
-// The form within the shape that follows the samples best; null if there is none.
+// Returns the form within the shape that follows the samples best, or null if there is none.
 const CompactForm* best_within(const std::vector<CompactForm>& forms, const FormShape& shape,
                                const Domain& domain, const std::vector<FormSample>& samples) {
   const std::vector<MappedTexel> sources = sources_of(samples);
@@ -314,7 +314,7 @@ CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limit
   const CompactForm nearest = least_squares(samples, limits, shape, kLeastShown);
   const bool is_limited = nearest.alpha_limit || nearest.specular_limit;
   if (!is_limited && is_sound(nearest, domain)) return nearest;
-  // A start that weights small values as much as large ones keeps factors positive that begin near 0.
+  // A start that weights small values as much as large ones keeps factors positive if they begin near 0.
   std::vector<CompactForm> starts = {nearest, least_squares(samples, limits, shape, kLeastRelative)};
   if (const CompactForm* smaller = best_within(sound, shape, domain, samples))
     starts.push_back(padded(*smaller, shape));

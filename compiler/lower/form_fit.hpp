@@ -1,5 +1,5 @@
-// Finds the numbers of a compact form from rows of a table, or from any error function of the form's results
-// for these rows.
+// This file finds the numbers of a compact form from rows of a table, or from any error function of the
+// form's results for these rows.
 #pragma once
 
 #include <functional>
@@ -10,60 +10,61 @@
 
 namespace remap {
 
-// The target of a source texel, and whether it is at a limit there.
+// A FormSample is the target of a source texel. It states whether the target is at a limit there.
 struct FormSample {
   MappedTexel source, target;
   bool alpha_at_limit = false, specular_at_limit = false;
 };
 
-// The terms t^j alpha^i of both factors with j < powers and i < terms - j. Without powers above 1, t does not
-// count.
+// A FormShape has the terms t^j alpha^i of both factors with j < powers and i < terms - j. Without powers
+// above 1, t is not used.
 struct FormShape {
   std::size_t powers = 1, terms = 1;
   bool operator==(const FormShape&) const = default;
 };
 
-// From few numbers on. Factors of alpha alone serve lobes without Fresnel, whose scale is a power of alpha.
+// Returns the shapes, beginning with few numbers. Factors of only alpha serve lobes without Fresnel, whose
+// scale is a power of alpha.
 std::vector<FormShape> form_shapes();
 std::size_t term_count(const FormShape& shape);  // of each factor
 std::string shape_name(const FormShape& shape);
 bool is_within(const CompactForm& form, const FormShape& shape);
 CompactForm padded(CompactForm form, const FormShape& shape);  // with terms that are 0
 
-// The numbers of a form in a row, as a search changes them: the pole as its logarithm, P, Q, and the hinge
-// where there are limits.
+// Returns the numbers of a form in a row, as a search changes them: the pole as its logarithm, P, Q, and the
+// hinge if there are limits.
 std::vector<double> numbers_of(const CompactForm& form);
 CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers);
 
-// The form of least squares of relative errors (error_weight of table/regression.hpp) on the samples. Throws
-// kNumeric where the samples do not determine it. Limits are part of the form where samples are at one.
-// The best of the `sound` forms within the shape is another start, where the first is not sound or limits
-// make it depend on the start.
+// Returns the form with the least squares of relative errors (error_weight of table/regression.hpp) on the
+// samples. Throws kNumeric if the samples do not determine it. Limits are part of the form if samples reach
+// one. If the first start is not sound, or limits make the result depend on the start, the best of the
+// `sound` forms within the shape is another start.
 CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
                      const FormShape& shape, const std::vector<CompactForm>& sound = {});
 
-// The error of one texel, which a search minimises, with its gradient by target alpha and target specular.
-// The curvature is approximated so that it has no negative eigenvalue.
+// A TexelError is the error of one texel, which a search minimises, with its gradient by target alpha and
+// target specular. The curvature is approximated so that it has no negative eigenvalue.
 struct TexelError {
   double value = 0.0;
   double by_alpha = 0.0, by_specular = 0.0;
   double by_alpha_2 = 0.0, by_both = 0.0, by_specular_2 = 0.0;
 };
-// `weight` times the squared relative errors of `found` against the target of a row.
+// Returns `weight` times the squared relative errors of `found` against the target of a row.
 TexelError row_error(const MappedTexel& found, const MappedTexel& wanted, double weight);
 using TexelErrors = std::function<std::vector<TexelError>(const std::vector<MappedTexel>& targets)>;
 
-// Gauss and Newton's method over all numbers at once, damped (Levenberg 1944), from each start: the sum of
-// the errors never rises. The best result, a sound one where there is one.
+// Runs Gauss and Newton's method over all numbers at once, damped (Levenberg 1944), from each start. The sum
+// of the errors never rises. Returns the best result, a sound one if there is one.
 CompactForm refined_form(const std::vector<CompactForm>& starts, const Domain& domain,
                          const std::vector<MappedTexel>& sources, const TexelErrors& errors, int iterations);
 
-// Whether P and Q are positive and finite over the domain, the hinge leaves a width, and below the limits
-// target alpha never falls where source alpha rises, nor target specular where source specular does: on a
-// dense grid.
+// Returns true if the form is sound, by a dense grid. P and Q are positive and finite over the domain, and
+// the hinge leaves a width. Below the limits, target alpha never falls if source alpha rises, and target
+// specular never falls if source specular rises.
 bool is_sound(const CompactForm& form, const Domain& domain);
 
-// The form, held at those limits that it passes somewhere in the domain.
+// Returns the form, clamped at the limits that it exceeds somewhere in the domain.
 CompactForm within_limits(CompactForm form, const Domain& domain, const Limits& limits);
 
 }  // namespace remap

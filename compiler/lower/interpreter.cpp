@@ -12,14 +12,14 @@ namespace {
 
 Range as_floats(const Range& range) { return {rounded_to_float(range.min), rounded_to_float(range.max)}; }
 
-// The factors of a mapping, and what its target does at its limits; infinite where there is none.
+// A Rule holds a mapping's factors, and its target's behaviour at limits. A missing limit is infinite.
 struct Rule {
   const MappingKind& mapping;
   const Domain& domain;
   double alpha_limit = INFINITY, specular_limit = INFINITY;
   Hinge hinge;
 
-  // A texel in the domain. A texel with specular 0 lies just outside of it.
+  // Returns the factor for a texel in the domain. A texel with specular 0 lies just outside of it.
   double alpha_factor(double alpha, double specular) const {
     return std::visit([&](const auto& kind) { return target_alpha(kind, alpha, specular); }, mapping) / alpha;
   }
@@ -28,7 +28,7 @@ struct Rule {
     return std::visit([&](const auto& kind) { return target_specular(kind, alpha, s); }, mapping) / s;
   }
 
-  // `speculars` in place: finite, from 0.
+  // Changes `speculars` in place. They must be finite and at least 0.
   double operator()(double alpha, std::span<double> speculars) const {
     const double inside = std::max(alpha, domain.alpha.min);
     const auto factor = [&](double covered) { return std::max(specular_factor(inside, covered), 0.0); };

@@ -1,5 +1,5 @@
-// The reference interpreter: evaluates a fit in double precision. Generated headers are tested against it,
-// and fits that cannot be lowered run in it.
+// This file is the reference interpreter, which evaluates a fit in double precision. Generated headers are
+// tested against it, and fits that cannot be lowered run in it.
 #pragma once
 
 #include <span>
@@ -8,29 +8,31 @@
 
 namespace remap {
 
-// Alpha and specular inside the domain, without the domain rule and without limits.
+// Returns alpha and specular inside the domain, without the domain rule and without limits.
 MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double specular);
 
-// Whether neither target parameter reaches its limit. A texel of one channel.
+// Returns true if neither target parameter of a texel with one channel reaches its limit.
 bool is_inside(const Fit& fit, double alpha, double specular);
 
-// Both, of a texel of one channel, with the domain rule and limits.
+// Returns both parameters of a texel with one channel, with the domain rule and limits.
 MappedTexel evaluate_fit(const Fit& fit, double alpha, double specular);
-// The same of a form whose limits are its own.
+// Does the same for a form, which has its own limits.
 MappedTexel form_texel(const CompactForm& form, const Domain& domain, double alpha, double specular);
 
-// One texel with the domain rule, in the models' own parameters. `roughness`: the source's width parameter.
-// `specular`: one linear value per channel; `specular_out`: as many. Returns the target's width parameter.
+// Converts one texel with the domain rule, in the models' own parameters. `roughness` is the source's width
+// parameter. `specular` has one linear value per channel, and `specular_out` as many. Returns the target's
+// width parameter.
 //
-// The domain rule: target alpha is source alpha times a factor, and target specular source specular times
-// another. Beyond the domain the factors are those at its edge, and widths above it are clamped. Specular
-// below 0 counts as 0. The alpha factor is that of the largest channel. At a limit of the target, the hinge
-// of a compact form applies (converter/compact_form.hpp), to other kinds none. A texel with a value that is
-// not finite is NaN in every output. `in_domain`, if given, receives whether the texel was inside the domain.
+// Domain rule: target alpha is source alpha times a factor, and target specular is source specular times
+// another factor. Beyond the domain the factors keep their values at its edge, and widths above it are
+// clamped. Specular below 0 is treated as 0. The largest channel determines the alpha factor. At a limit of
+// the target, the hinge of a compact form applies (converter/compact_form.hpp); other kinds have none. A
+// texel with a value that is not finite is NaN in every output. `in_domain`, if given, receives whether the
+// texel was inside the domain.
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain = nullptr);
 
-// The covered ranges of the source's own width parameter and of its specular, rounded to float, so that
+// Return the covered ranges of the source's own width parameter and of its specular, rounded to float. So
 // generated headers and the interpreter agree on texels at the edge.
 Range own_roughness_range(const Fit& fit);
 Range specular_range(const Fit& fit);

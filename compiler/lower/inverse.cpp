@@ -13,7 +13,7 @@ namespace {
 constexpr double kSameEnd = 1e-12;  // of a range, relative to its value there
 constexpr int kHalvings = 60;
 
-// The argument within `range` at which a rising function takes `value`, if there is one.
+// Returns the argument within `range` at which a rising function takes `value`, if there is one.
 std::optional<double> root(const std::function<double(double)>& rising, const Range& range, double value) {
   const double room = kSameEnd * std::fabs(value);
   double low = range.min, high = range.max;
@@ -28,7 +28,7 @@ std::optional<double> root(const std::function<double(double)>& rising, const Ra
 constexpr int kReturnedAlphas = 60, kReturnedSpeculars = 20;
 constexpr double kMedianGoal = 0.005, kP99Goal = 0.02;
 
-// Nearest rank.
+// Returns the quantile by closest rank.
 double quantile(std::vector<double>* values, double share) {
   if (values->empty()) return 0.0;
   const double last = static_cast<double>(values->size());
@@ -42,7 +42,7 @@ double quantile(std::vector<double>* values, double share) {
 std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target) {
   const MappingKind& mapping = fit.mapping;
   const Domain& domain = fit.domain;
-  // The specular that is needed at an alpha, clamped to the domain; the last test rejects clamped ones.
+  // Returns the specular needed at an alpha, clamped to the domain. The last test rejects clamped values.
   const auto specular_at = [&](double alpha) {
     const auto rising = [&](double specular) { return evaluate_mapping(mapping, alpha, specular).specular; };
     if (rising(domain.specular.min) >= target.specular) return domain.specular.min;

@@ -13,7 +13,7 @@ struct Count {
   const char* what;
 };
 
-// The first count beyond its limit.
+// Returns the first count beyond its limit.
 template <std::size_t N>
 std::string excess(const std::array<Count, N>& counts) {
   for (const Count& count : counts)

@@ -18,7 +18,7 @@ constexpr std::size_t kMostLoweredPowers = 8, kMostLoweredTerms = 12;
 constexpr double kLoosest = 10.0;     // times the tolerances
 constexpr std::size_t kBoxes = 6000;  // the most boxes that a proof examines; takes about a second
 
-// From the fewest numbers on. A mapping in which t does not count needs one power.
+// Returns the shapes, fewest numbers first. A mapping that does not depend on t needs only one power.
 std::vector<FormShape> lowering_shapes(const MappingKind& mapping) {
   std::vector<FormShape> shapes;
   const bool has_t = alpha_depends_on_specular(mapping) || !is_proportional(mapping);
@@ -28,7 +28,7 @@ std::vector<FormShape> lowering_shapes(const MappingKind& mapping) {
   return shapes;
 }
 
-// Finer where alpha is small, where curves bend most.
+// Returns samples that are closer together where alpha is small, because curves bend most there.
 std::vector<FormSample> samples_of(const Fit& fit) {
   std::vector<FormSample> samples;
   const Domain& domain = fit.domain;

@@ -15,7 +15,7 @@ std::size_t count_of(const KernelExpansion& expansion) {
   return expansion.vectors.size() + expansion.weights.size() + 2 * expansion.inputs.size() + 4;
 }
 
-// The constants that a curve needs: a term that is absent costs nothing.
+// Counts the constants that a curve needs. A missing term costs nothing.
 std::size_t count_of(const AlphaCurve& curve) {
   std::size_t count = 1;
   if (curve.ramp != 0.0) count += 2;

@@ -1,6 +1,6 @@
-// The kinds of mapping that a fit can hold: target alpha and target specular as functions of source alpha
-// (remap/model.hpp) and source specular. Specular is mapped channel by channel. If target alpha depends on
-// specular, that of the largest channel is used, which is the visible highlight.
+// This file lists the kinds of mapping that a fit can hold: target alpha and target specular as functions of
+// source alpha (remap/model.hpp) and source specular. Specular is mapped channel by channel. If target alpha
+// depends on specular, the largest channel decides, because it is the visible highlight.
 #pragma once
 
 #include <array>
@@ -17,14 +17,14 @@
 
 namespace remap {
 
-// A curve over alpha (Sztrajman et al. 2019, section 7):
+// An AlphaCurve is a curve over alpha (Sztrajman et al. 2019, section 7):
 //   start + ramp phi(ramp_rate, alpha) + bump phi(bump_rate, alpha^2) + pole / alpha,
 //   phi(rate, x) = (1 - exp(-rate x)) / rate, which is x where the rate is 0.
 //
 // This is the paper's c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) with c1 = -ramp / ramp_rate, c2 =
 // ramp_rate, c3 = -bump / bump_rate, c4 = bump_rate, c0 = start - c1 - c3. In this form, slow exponentials
-// (c2 -> 0, where the published coefficients reach -512.13 + 512.75 exp(-0.00057 alpha)) remain sums of
-// numbers of order one. `pole` is the c5 of the authors' scripts; its term is finite because a domain starts
+// remain sums of numbers of order one. With c2 -> 0 the published coefficients reach -512.13 + 512.75
+// exp(-0.00057 alpha). `pole` is the c5 of the authors' scripts. Its term is finite because a domain starts
 // above alpha 0 and the domain rule clamps alpha to it.
 struct AlphaCurve {
   double start = 0.0;
@@ -36,14 +36,14 @@ struct AlphaCurve {
   bool operator==(const AlphaCurve&) const = default;
 };
 
-// One term of a sum over powers of specular1: factor(alpha1) specular1^power.
+// A SpecularTerm is one term of a sum over powers of specular1: factor(alpha1) specular1^power.
 struct SpecularTerm {
   int power = 1;  // 0: offset (the rim of a target with Fresnel); 1: the paper's slope; 2: curvature
   AlphaCurve factor;
   bool operator==(const SpecularTerm&) const = default;
 };
 
-// Kind `parametric`: alpha2 = sum over j, i of alpha[j][i] specular1^j alpha1^(i+1), specular2 = the sum
+// Parametric is a kind: alpha2 = sum over j, i of alpha[j][i] specular1^j alpha1^(i+1), specular2 = the sum
 // of the terms. The form of the paper has one row of four in `alpha` and one term of power 1.
 struct Parametric {
   std::vector<std::vector<double>> alpha;
@@ -51,8 +51,9 @@ struct Parametric {
   bool operator==(const Parametric&) const = default;
 };
 
-// A sum of Gaussians, the result of support vector regression (Chang and Lin 2011, equation 10): normalised
-// output = bias + sum of weights[i] exp(-gamma |x - vector i|^2), x the normalised inputs.
+// A KernelExpansion is a sum of Gaussians, the result of support vector regression (Chang and Lin 2011,
+// equation 10). Its normalised output = bias + sum of weights[i] exp(-gamma |x - vector i|^2), with x the
+// normalised inputs.
 struct KernelExpansion {
   std::vector<Scaling> inputs;  // 1: alpha; 2: alpha, specular
   Scaling output;
@@ -64,39 +65,39 @@ struct KernelExpansion {
   bool operator==(const KernelExpansion&) const = default;
 };
 
-// Kind `svr`: one expansion per output.
+// Svr is the kind `svr`, with one expansion per output.
 struct Svr {
   KernelExpansion alpha;
   KernelExpansion specular;
   bool operator==(const Svr&) const = default;
 };
 
-// Kind `mlp`: one network per output, of alpha alone or of alpha and specular.
+// Mlp is the kind `mlp`, with one network per output, of only alpha or of alpha and specular.
 struct Mlp {
   Network alpha;
   Network specular;
   bool operator==(const Mlp&) const = default;
 };
 
-// A new kind is a new alternative here; std::visit makes every consumer handle it. CompactForm: kind
-// `compact`, the form that converters have; the others are lowered to it.
+// A new kind is a new alternative here; std::visit makes every consumer handle it. CompactForm is the kind
+// `compact`, the form that converters have. The others are lowered to it.
 using MappingKind = std::variant<CompactForm, Parametric, Svr, Mlp>;
 
-// The name in JSON, on the command line and on model cards.
+// Returns the name in JSON, on the command line and on model cards.
 std::string kind_name(const MappingKind& mapping);
 
 bool alpha_depends_on_specular(const MappingKind& mapping);
 
-// Whether target specular is a function of alpha times specular, so that channels scale independently.
+// Returns true if target specular is a function of alpha times specular, so that channels are independent.
 bool is_proportional(const MappingKind& mapping);
 
-// The two parameters of a texel of one channel.
+// A MappedTexel holds the two parameters of a texel with one channel.
 struct MappedTexel {
   double alpha = 0.0;
   double specular = 0.0;
 };
 
-// The number of coefficients, a measure of complexity when kinds are compared.
+// Returns the number of coefficients, a measure of complexity when kinds are compared.
 std::size_t number_count(const MappingKind& mapping);
 
 }  // namespace remap

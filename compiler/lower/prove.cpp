@@ -12,8 +12,8 @@ namespace remap {
 namespace {
 
 constexpr double kFloatUnit = 1.0 / 16777216.0;  // unit roundoff of a float, 2^-24
-// Converters take the model's own parameter as a float, so the ends of the domain move by some units in the
-// last place of alpha or, for glossiness, of 1 - sqrt(alpha).
+// Widens the domain. Converters read the model's own parameter as a float. So the ends of the domain move by
+// a few units in the last place of alpha or, for glossiness, of 1 - sqrt(alpha).
 double room(double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); }
 
 using TexelTaylor = Taylor<2, 7>;  // of alpha (variable 0) and specular (variable 1)
@@ -27,20 +27,19 @@ struct Box {
 double centre(const Range& range) { return 0.5 * (range.min + range.max); }
 double half_width(const Range& range) { return 0.5 * (range.max - range.min); }
 
-// The result of an enclosure over a box.
+// A Verdict is the result of an enclosure over a box.
 struct Verdict {
   double bound = 0.0;           // infinite if the enclosure failed
   double at_least = -INFINITY;  // no bound can be lower
   bool halve_alpha = true;      // the direction in which to halve the box
 };
 
-// NaN would be lost in comparisons.
+// Replaces NaN by infinity, because comparisons would lose NaN.
 double claimed(double bound) { return std::isnan(bound) ? INFINITY : bound; }
 
 Verdict verdict(const TexelTaylor& error, const Box& box) {
   const double bound = claimed(error.bound()), at_least = std::fabs(error.constant()) - error.rest();
-  // If the remainder dominates the polynomial, the extents say nothing, so both directions are halved in
-  // turn.
+  // If the remainder dominates the polynomial, the extents are meaningless, so halve both in turn.
   const double alpha = error.extent(0), specular = error.extent(1);
   const bool tells = std::isfinite(bound) && std::max(alpha, specular) > 0.01 * error.rest();
   return {bound, at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};
@@ -52,12 +51,12 @@ struct JudgedBox {
   bool operator<(const JudgedBox& other) const { return verdict.bound < other.verdict.bound; }
 };
 
-// Initial boxes.
+// Returns the initial boxes.
 std::vector<Box> first_boxes(const Domain& domain) {
   constexpr int kAlphaBoxes = 16, kSpecularBoxes = 4;
   const Range alpha{domain.alpha.min - room(domain.alpha.min), domain.alpha.max + room(domain.alpha.max)};
   const Range specular{domain.specular.min * (1.0 - 2e-6), domain.specular.max * (1.0 + 2e-6)};
-  // Quadratic spacing, because curves bend most near 0.
+  // Spacing is quadratic, because curves bend most near 0.
   const auto part = [](const Range& range, int k, int count) {
     return k == count ? range.max : range.min + (range.max - range.min) * k * k / (count * count);
   };
@@ -106,7 +105,7 @@ double proven_bound(const TexelFunction& error, const Domain& domain, double tar
   return queue.top().verdict.bound * (1.0 + 1e-9);  // covers rounding in the additions of bounds
 }
 
-// The sum of magnitudes of a factor's terms, and the number of operations that it takes.
+// Returns the sum of magnitudes of a factor's terms. The second counts its operations.
 double magnitude(const FactorTerms& factor, double alpha, double t) {
   FactorTerms magnitudes = factor;
   for (std::vector<float>& row : magnitudes)
@@ -141,7 +140,8 @@ Distance proven_distance(const MappingKind& mapping, const CompactForm& form, co
 Distance rounding_of(const CompactForm& form, const Domain& domain) {
   const double alpha = domain.alpha.max, specular = domain.specular.max;
   const double t = specular / (specular + static_cast<double>(form.pole));
-  // Relative to the sum of the magnitudes: sum, quotient, conversion of the width, product; or the hinge.
+  // The error is relative to the sum of the magnitudes. It covers sum, quotient, width and product, or the
+  // hinge.
   const auto relative = [](std::size_t operations) {
     const double n = static_cast<double>(operations) * 2.0 * kFloatUnit;
     return n / (1.0 - n);

@@ -1,6 +1,6 @@
-// Taylor models (Makino and Berz 2003): a polynomial over a box and a proven bound on its remainder. The
-// functions of lower/evaluate.hpp, applied to them, enclose the function over the whole box, including
-// rounding errors. Lowering proves its error bounds with them.
+// This file implements Taylor models (Makino and Berz 2003): a polynomial over a box and a proven bound on
+// its remainder. The functions of lower/evaluate.hpp, applied to them, enclose the function over the whole
+// box, including rounding errors. Lowering proves its error bounds with them.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace remap {
 
-// A polynomial of total degree `Order` in 1 or 2 variables, each in [-1, 1] over the box. The enclosed
-// function lies within `rest` of the polynomial everywhere in the box. After an overflow, and for a function
-// that is unbounded over the box, rest is infinite or NaN, which makes no statement.
+// A Taylor is a polynomial of total degree `Order` in 1 or 2 variables, each in [-1, 1] over the box. The
+// enclosed function lies within `rest` of the polynomial everywhere in the box. After an overflow, and for a
+// function that is unbounded over the box, rest is infinite or NaN, which makes no statement.
 template <int Variables, int Order>
 class Taylor {
   static_assert(Variables == 1 || Variables == 2);
@@ -27,14 +27,14 @@ class Taylor {
 
   Taylor() = default;
   explicit Taylor(double constant) { coefficients_[0] = constant; }
-  // centre + half_width * variable.
+  // Returns centre + half_width * variable.
   static Taylor variable(int variable, double centre, double half_width) {
     Taylor result(centre);
     result.coefficients_[static_cast<std::size_t>(1 + variable)] = half_width;
     result.rest_ = kUnit * (std::fabs(centre) + half_width);
     return result;
   }
-  // Claims nothing.
+  // Returns a model that claims nothing.
   static Taylor unbounded() {
     Taylor result;
     result.rest_ = std::numeric_limits<double>::infinity();
@@ -45,14 +45,15 @@ class Taylor {
   double linear(int variable) const { return coefficients_[static_cast<std::size_t>(1 + variable)]; }
   double rest() const { return rest_; }
   void widen(double by) { rest_ += by; }
-  // Coefficient of the monomial (i, j), i + j <= Order; j is 0 with one variable.
+  // Returns the coefficient of the monomial (i, j), i + j <= Order; j is 0 with one variable.
   double& at(int i, int j) { return coefficients_[index(i, j)]; }
   double at(int i, int j) const { return coefficients_[index(i, j)]; }
 
-  // The function lies within `deviation` of the constant, and within `bound` of 0. Rounded up: they are sums.
+  // Return bounds: the function lies within `deviation` of the constant, and within `bound` of 0. They are
+  // rounded up, because they are sums.
   double deviation() const { return (norm(1) + rest_) * kRoundUp; }
   double bound() const { return (norm(0) + rest_) * kRoundUp; }
-  // Sum of the magnitudes of the pure powers of one variable: how much that direction contributes.
+  // Returns the sum of the magnitudes of one variable's pure powers: the weight of that direction.
   double extent(int variable) const {
     double sum = 0.0;
     for (int d = 1; d <= Order; ++d)
@@ -81,7 +82,7 @@ class Taylor {
   }
   friend Taylor operator*(const Taylor& a, const Taylor& b) { return product(a, b); }
 
-  // sum of series[k] (x - x's constant)^k, and `rest` on what the series leaves.
+  // Returns the sum of series[k] (x - x's constant)^k. `rest` bounds the remainder of the series.
   static Taylor compose(const Taylor& x, const std::array<double, Order + 1>& series, double rest) {
     Taylor deviation = x;
     deviation.coefficients_[0] = 0.0;
@@ -103,7 +104,7 @@ class Taylor {
   static constexpr int size_of(int degree) { return Variables == 1 ? 1 : degree + 1; }
   static constexpr std::size_t first_of(int degree) { return index(degree, 0); }
 
-  // Sum of magnitudes from a degree on, and of one degree.
+  // Return the sum of magnitudes from a degree on, and of one degree.
   double norm(int from) const {
     double sum = 0.0;
     for (std::size_t k = first_of(from); k < kCount; ++k) sum += std::fabs(coefficients_[k]);
@@ -123,7 +124,7 @@ class Taylor {
     for (int e = 0; e <= Order; ++e)
       for (int j = 0; j < size_of(e); ++j) {
         const double factor = b.coefficients_[first_of(e) + static_cast<std::size_t>(j)];
-        if (factor == 0.0) continue;  // a variable has two coefficients that are not
+        if (factor == 0.0) continue;  // most coefficients of a variable are 0
         for (int d = 0; d + e <= Order; ++d)
           for (int i = 0; i < size_of(d); ++i)
             result.coefficients_[first_of(d + e) + static_cast<std::size_t>(i + j)] +=
@@ -146,10 +147,10 @@ class Taylor {
   double rest_ = 0.0;
 };
 
-// The functions that evaluate.hpp asks of a scalar. Series around the constant x0 of the argument, y = x -
-// x0, |y| <= r; what the series leaves is bounded by Lagrange's form or Cauchy's estimate, as said at each.
+// evaluate.hpp needs the following functions. The series use the constant x0 of the argument, y = x - x0, |y|
+// <= r. Lagrange's form or Cauchy's estimate, as noted at each, bounds the remainder.
 
-// phi(x0 + y) = phi(x0) + exp(-rate x0) sum of (-rate)^(k-1) y^k / k!; Lagrange, largest at x0 - r.
+// Uses phi(x0 + y) = phi(x0) + exp(-rate x0) sum of (-rate)^(k-1) y^k / k!; Lagrange, largest at x0 - r.
 template <int V, int N>
 Taylor<V, N> rise(double rate, const Taylor<V, N>& x) {
   if (rate == 0.0) return x;
@@ -164,13 +165,13 @@ Taylor<V, N> rise(double rate, const Taylor<V, N>& x) {
     term *= -rate;
   }
   left *= x.deviation() / (N + 1);
-  // The coefficients round in proportion to what exp sees; their sum is that of a function below 1 / rate,
-  // and below x where the rate is small. z exp(-z) < 1.
+  // The coefficients round in proportion to the argument of exp. Their sum belongs to a function below 1 /
+  // rate, and below x if the rate is small. z exp(-z) < 1.
   return Taylor<V, N>::compose(x, series,
                                left * (1.0 + 1e-12) + 4e-15 * (std::fabs(series[0]) + x.deviation()));
 }
 
-// 1 / (x0 + y) = sum of (-y)^k / x0^(k+1); a geometric series.
+// Uses 1 / (x0 + y) = sum of (-y)^k / x0^(k+1), a geometric series.
 template <int V, int N>
 Taylor<V, N> reciprocal(const Taylor<V, N>& x) {
   const double x0 = x.constant(), r = x.deviation();
@@ -185,8 +186,8 @@ Taylor<V, N> reciprocal(const Taylor<V, N>& x) {
   return Taylor<V, N>::compose(x, series, left * (1.0 + 1e-6) + 2e-14 / std::fabs(x0));
 }
 
-// tanh' = 1 - tanh^2 gives the coefficients. On a disc of radius 1 around a real number |tanh| <= tan(1), so
-// that by Cauchy the k-th coefficient is at most tan(1). A wide argument is only enclosed by its ends.
+// Uses tanh' = 1 - tanh^2 for the coefficients. On a disc of radius 1 around a real number |tanh| <= tan(1).
+// So by Cauchy the k-th coefficient is at most tan(1). A wide argument is only enclosed by its ends.
 template <int V, int N>
 Taylor<V, N> hyperbolic_tangent(const Taylor<V, N>& x) {
   const double x0 = x.constant(), r = x.deviation();
@@ -208,7 +209,7 @@ Taylor<V, N> hyperbolic_tangent(const Taylor<V, N>& x) {
   return Taylor<V, N>::compose(x, series, left + 1e-15);
 }
 
-// Over [l, u] around 0, max(x, 0) lies between the chord u (x - l) / (u - l) and that less -l u / (u - l).
+// Over [l, u] around 0, max(x, 0) lies between the chord u (x - l) / (u - l) and it less -l u / (u - l).
 template <int V, int N>
 Taylor<V, N> rectified(const Taylor<V, N>& x) {
   const double low = x.constant() - x.deviation(), high = x.constant() + x.deviation();
@@ -220,21 +221,21 @@ Taylor<V, N> rectified(const Taylor<V, N>& x) {
   return result;
 }
 
-// exp(-gamma (d + h u)^2) over u in [-1, 1], d = x0 - v: height exp(p), p = a u + b u^2; coefficients by
-// (exp p)' = p' exp p. By Cauchy on a disc of radius R the rest is at most M R^-(N+1) / (1 - 1 / R), M =
-// height exp(|a| R + |b| R^2), in logarithms: height alone may underflow.
+// Encloses exp(-gamma (d + h u)^2) over u in [-1, 1], d = x0 - v, as height exp(p), p = a u + b u^2. (exp p)'
+// = p' exp p gives the coefficients. By Cauchy on a disc of radius R the rest is at most M R^-(N+1) / (1 - 1
+// / R), M = height exp(|a| R + |b| R^2). It is computed in logarithms, because height itself may underflow.
 template <int N>
 struct GaussianSeries {
   std::array<double, N + 1> coefficients{};
-  double total = 0.0;     // sum of magnitudes, and what is left out
-  double rounding = 0.0;  // how far all coefficients together are from exact real arithmetic
+  double total = 0.0;     // sum of magnitudes, and the remainder
+  double rounding = 0.0;  // distance of all coefficients together from exact real arithmetic
 
   GaussianSeries(double gamma, double distance, double half_width) {
     constexpr double kUnit = Taylor<1, N>::kUnit;
     const double a = -2.0 * gamma * distance * half_width, b = -gamma * half_width * half_width;
     const double exponent = gamma * distance * distance;
     const double height = std::exp(-exponent);
-    // Signs alternate in the recurrence, so that its roundings are in proportion to the same with no signs.
+    // Signs alternate in the recurrence. So its roundings are bounded by the same recurrence without signs.
     std::array<double, N + 1> unsigned_coefficients{};
     coefficients[0] = unsigned_coefficients[0] = height;
     for (std::size_t k = 1; k <= N; ++k) {
@@ -252,11 +253,11 @@ struct GaussianSeries {
       total += std::fabs(coefficients[k]);
       rounding += unsigned_coefficients[k];
     }
-    // Of `height` the rounding is that of the exponent; of a step of the recurrence, of eight operations.
+    // The rounding of `height` comes from the exponent. A step of the recurrence has eight operations.
     rounding *= kUnit * (8.0 * N + 4.0 + 4.0 * exponent);
-    // exp(largest) rounds as its exponents do.
+    // exp(largest) rounds like its exponents.
     total = (total + left * (1.0 + 1e-12 * (1.0 + exponent + std::fabs(largest)))) * (1.0 + 1e-14);
-    // If the series is not good, only the values: from 0 to the value at the nearest point.
+    // If the series is not good, use only the values: from 0 to the value at the closest point.
     const double nearest = std::max(0.0, std::fabs(distance) - half_width);
     const double peak = std::min(1.0, std::exp(-gamma * nearest * nearest) * (1.0 + 1e-9));
     if (total <= 2.0 * peak || !std::isfinite(distance) || !std::isfinite(half_width)) return;
@@ -266,8 +267,7 @@ struct GaussianSeries {
   }
 };
 
-// The sum as a polynomial in the inputs' deviations from their constants, into which the inputs are put at
-// the end.
+// Holds the sum as a polynomial in the inputs' deviations from their constants. Inputs are inserted last.
 template <int V, int N>
 Taylor<V, N> gaussian_sum(const KernelExpansion& expansion, const std::vector<Taylor<V, N>>& inputs) {
   std::array<std::array<double, N + 1>, N + 1> sums{};  // [power of input 0][power of input 1]
@@ -291,9 +291,9 @@ Taylor<V, N> gaussian_sum(const KernelExpansion& expansion, const std::vector<Ta
     // Not std::max, which would drop a NaN.
     const double unkept = total - kept < 0.0 ? 0.0 : total - kept;
     left += std::fabs(weight) * (unkept + summing * total + x.rounding * y.total + x.total * y.rounding +
-                                 1e-300);  // what underflow loses
+                                 1e-300);  // lost by underflow
   }
-  // Deviations over their largest values: within [-1, 1], as the series take them.
+  // Divides deviations by their largest values, because the series need them within [-1, 1].
   const auto unit = [](const Taylor<V, N>& input) {
     return (input - input.constant()) * (1.0 / std::max(input.deviation(), 1e-300));
   };

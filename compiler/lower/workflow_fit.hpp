@@ -1,5 +1,5 @@
-// A conversion of whole materials, in closed form or by a trained network. It is a separate type from a fit
-// of alpha and specular (fit.hpp), because it has other inputs and outputs, and the domain [0, 1].
+// This file holds a conversion of whole materials, in closed form or by a trained network. It is a separate
+// type from a fit of alpha and specular (fit.hpp), because it has other inputs and outputs.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// How a network was trained. Errors are those of the rows that were held out.
+// A NetworkTraining records how a network was trained. Errors are over the held-out rows.
 struct NetworkTraining {
   std::map<std::string, std::string> method;  // shape, optimisers, starts
   ErrorFigures base_color;                    // over all channels, linear
@@ -22,7 +22,7 @@ struct NetworkTraining {
   bool operator==(const NetworkTraining&) const = default;
 };
 
-// Kind `workflow`, or `mlp` if the formula is a network.
+// A WorkflowFit is of kind `workflow`, or `mlp` if the formula is a network.
 struct WorkflowFit {
   std::string id;
   WorkflowConversion conversion;

@@ -1,4 +1,4 @@
-// Fits between workflows as JSON.
+// This file reads and writes fits between workflows as JSON.
 #include "lower/fit_fields.hpp"
 #include "lower/fit_file.hpp"
 

@@ -15,7 +15,7 @@ TableRow flat_row(const SamplePoint& sample, const ProbedModel& target) {
   return {sample.alpha, sample.specular, alpha, target.linear_range().min, 0.0, RowStatus::kFlat, 0};
 }
 
-// Matches width and specular at one source width, from pictures without diffuse.
+// A WidthMatch matches width and specular at one source width, from pictures without diffuse.
 class WidthMatch {
  public:
   WidthMatch(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), alpha_(block.alpha) {
@@ -55,7 +55,7 @@ class WidthMatch {
     shared_.emplace(*setup_.target.bank, std::move(basis), setup_.picture_taker.weights(pictures.full));
   }
 
-  // Interpolates the source's pictures where that is as accurate as to render them and needs fewer renders.
+  // Interpolates the source's pictures if this is as accurate as rendering them and needs fewer renders.
   void interpolate(std::size_t sample_count) {
     family_ = setup_.source.family();
     if (family_ && family_->picture_count() >= sample_count) family_.reset();
@@ -64,14 +64,14 @@ class WidthMatch {
 
   std::vector<float> picture(double specular) const {
     if (!family_) return setup_.picture_taker.take(setup_.source, {alpha_, specular, 0.0});
-    // The exact picture is black; the combination would leave rounding errors.
+    // The exact picture is black, but the combination would leave rounding errors.
     if (specular <= family_->range.min && setup_.source.response.black_base)
       return std::vector<float>(pictures_.front().size());
     // The picture is constant beyond a knee.
     return combined(pictures_, family_->weights_at(std::min(specular, family_->range.max)));
   }
 
-  // By non-linear least squares from the best points of a grid of pictures if the target has no family.
+  // Matches a target without a family by non-linear least squares, from the best points of a grid.
   Match match_by_itself(JointChannel source) {
     if (setup_.target.bank)
       return Matcher(*setup_.target.bank, {std::move(source.picture)}, std::move(source.weights))
@@ -91,11 +91,11 @@ class WidthMatch {
   std::vector<std::size_t> minima_;           // of the sample before
 };
 
-// Halvings of the step between samples by which a joint of regimes is found.
+// This many halvings of the step between samples find a joint of regimes.
 constexpr int kJointHalvings = 6;
 
-// Adds rows on both sides of every joint between regimes (RowStatus) of neighbouring samples, where fits
-// of the regimes have to meet.
+// Adds rows on both sides of every joint between regimes (RowStatus) of neighbouring samples. Fits of the
+// regimes must meet there.
 void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow>* rows) {
   const Limits limits = setup.limits();
   for (TableRow& row : *rows) row.status = status_at(row, limits);
@@ -110,7 +110,7 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
     for (int joint = 0; joint < 2 && differ(below, sorted[i + 1]); ++joint) {
       const TableRow start = below;
       TableRow above = sorted[i + 1];
-      // The last two on each side, so that one is left where the other is held out.
+      // Keep the last two on each side, so that one stays if the other is held out.
       std::vector<TableRow> on_this_side, beyond;
       for (int k = 0; k < kJointHalvings; ++k) {
         const double middle = rounded(0.5 * (below.specular1 + above.specular1), kSampleDigits);
@@ -127,7 +127,7 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
   }
 }
 
-// Matches diffuse by itself, in proportion.
+// Matches only diffuse, in proportion.
 void match_diffuse_separately(const SweepSetup& setup, TableRow* row) {
   const Range range = setup.target.diffuse_range();
   const double wanted = setup.options.diffuse * setup.diffuse.scale;
@@ -136,8 +136,7 @@ void match_diffuse_separately(const SweepSetup& setup, TableRow* row) {
   if (row->diffuse2 != wanted && row->status == RowStatus::kOk) row->status = RowStatus::kClamped;
 }
 
-// Compares the whole picture, diffuse and specular: its error after two stages, the joint match after one or
-// three.
+// Compares the whole picture, diffuse and specular. It computes the error (two stages) or the joint match.
 void match_whole(const SweepSetup& setup, TableRow* row) {
   const RoleValues whole{row->alpha1, row->specular1, row->diffuse1};
   if (row->status == RowStatus::kFlat) return;
@@ -164,7 +163,7 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
   row->status = match.status;
 }
 
-// Rows before a one-stage match, without target values.
+// Returns rows before a one-stage match, without target values.
 std::vector<TableRow> unmatched_rows(const SweepSetup& setup, const SampleBlock& block) {
   std::vector<TableRow> rows;
   for (const std::size_t index : block.samples) {

@@ -1,4 +1,4 @@
-// Matches the samples of one source width: the unit of work of a sweep.
+// This file matches the samples of one source width, the unit of work of a sweep.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// Samples of one source width, as indices into SweepOptions::samples.
+// A SampleBlock holds samples of one source width, as indices into SweepOptions::samples.
 struct SampleBlock {
   double alpha;
   std::vector<std::size_t> samples;
@@ -21,7 +21,7 @@ struct SampleBlock {
 // Samples are rounded to numbers that a user can type.
 inline constexpr int kSampleDigits = 9;
 
-// The data that the blocks of one sweep share.
+// A SweepSetup holds the data that the blocks of one sweep share.
 struct SweepSetup {
   const SweepOptions& options;
   const PictureTaker& picture_taker;
@@ -36,10 +36,10 @@ struct SweepSetup {
   Limits limits() const { return {target_widths.effective.max, target.linear_range().max}; }
 };
 
-// Whether rows carry diffuse: if the source has some, or if the target's is matched together with the rest.
+// Returns true if rows have diffuse: the source has some, or the target's is matched together with the rest.
 bool has_diffuse(const SweepOptions& options);
 
-// Returns the rows of a block in its order, then those that mark where regimes meet.
+// Returns the rows of a block in its order, then the rows that mark where regimes meet.
 std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& block);
 
 }  // namespace remap

@@ -16,11 +16,11 @@ namespace {
 using Radiances = std::vector<float>;
 using Matrix = std::vector<std::vector<double>>;
 
-// Number of steps of the finest probing. Degrees up to half of it can be checked between their nodes.
+// This is the finest number of steps. Degrees up to half of it can be checked between their nodes.
 constexpr std::size_t kFinest = 32;
 constexpr std::size_t kLeastChecked = 8;
 
-// A Chebyshev point of the second kind in [-1, 1]; polynomials through these points do not oscillate
+// Returns a Chebyshev point of the second kind in [-1, 1]; polynomials through these points do not oscillate
 // (Trefethen 2013, chapter 2). Every second point belongs to the set of half the size. The ends and the
 // middle are exact.
 double chebyshev_point(std::size_t index) {
@@ -28,8 +28,8 @@ double chebyshev_point(std::size_t index) {
   return std::sin(std::numbers::pi * steps / (2.0 * static_cast<double>(kFinest)));
 }
 
-// One step of Gauss-Jordan elimination on normal equations. Afterwards row `pivot` holds the weights of that
-// picture in the least-squares fits of the other pictures by all pivots so far, and each diagonal entry of
+// Does one step of Gauss-Jordan elimination on normal equations. Afterwards row `pivot` holds the weights of
+// that picture in the least-squares fits of the other pictures by all pivots so far. Each diagonal entry of
 // the rest is the squared residual of that picture.
 void eliminate(std::size_t pivot, Matrix* gram) {
   Matrix& g = *gram;
@@ -41,7 +41,7 @@ void eliminate(std::size_t pivot, Matrix* gram) {
   }
 }
 
-// Renders a model at three widths, over one coordinate of specular.
+// A FamilyProbe renders a model at three widths, over one coordinate of specular.
 class FamilyProbe {
  public:
   FamilyProbe(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas,
@@ -52,7 +52,7 @@ class FamilyProbe {
         // The widest comes first: its highlight covers all angles, so it is the first to fail a check.
         widths_{{alphas.max, {}}, {std::sqrt(alphas.min * alphas.max), {}}, {alphas.min, {}}} {}
 
-  // Whether polynomials of `degree` through degree + 1 pictures reproduce the pictures between them.
+  // Returns true if polynomials of `degree` through degree + 1 pictures reproduce the pictures between them.
   bool is_polynomial(std::size_t degree) {
     Matrix identity(degree + 1, std::vector<double>(degree + 1));
     std::vector<std::size_t> points;
@@ -63,7 +63,7 @@ class FamilyProbe {
     return holds(points, family(points, identity), degree);
   }
 
-  // The fewest of those pictures whose combinations reproduce all others.
+  // Returns the fewest of those pictures whose combinations reproduce all others.
   SpecularFamily smallest(std::size_t degree) {
     Matrix gram = gram_matrix(degree);
     std::vector<std::size_t> pivots;
@@ -101,8 +101,8 @@ class FamilyProbe {
     return width.pictures.emplace(point, picture_taker_.take(model_, role_values)).first->second;
   }
 
-  // The family of the pictures at `points`. The picture at node i of the polynomial is the sum over k of
-  // shares[k][i] times the picture at points[k].
+  // Returns the family of the pictures at `points`. The picture at node i of the polynomial is the sum over k
+  // of shares[k][i] times the picture at points[k].
   SpecularFamily family(const std::vector<std::size_t>& points, const Matrix& shares) const {
     const std::size_t degree = shares.front().size() - 1;
     std::vector<double> nodes;
@@ -120,7 +120,7 @@ class FamilyProbe {
     return found;
   }
 
-  // Whether the family reproduces the pictures at every width, at twice as many points as `degree` has nodes.
+  // Returns true if the family reproduces the pictures at every width, at twice the nodes of `degree`.
   bool holds(const std::vector<std::size_t>& points, const SpecularFamily& family, std::size_t degree) {
     const std::size_t stride = kFinest / std::max(kLeastChecked, 2 * degree);
     return std::all_of(widths_.begin(), widths_.end(), [&](Width& width) {
@@ -139,8 +139,8 @@ class FamilyProbe {
     });
   }
 
-  // Sums of inner products of the pictures at the nodes of `degree`, over all widths. Pictures are divided by
-  // the brightest pixel of their width, so that all widths count alike.
+  // Returns sums of inner products of the pictures at the nodes of `degree`, over all widths. Pictures are
+  // divided by the brightest pixel of their width, so that all widths count equally.
   Matrix gram_matrix(std::size_t degree) {
     Matrix gram(degree + 1, std::vector<double>(degree + 1));
     for (Width& width : widths_) {

@@ -1,4 +1,4 @@
-// For a model without a known specular law, finds a few pictures whose combinations give all its pictures.
+// For a model without a known specular law, this file finds pictures whose combinations give all others.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Interpolates over neighbouring widths of the target bank.
+// This file interpolates over neighbouring widths of the target bank.
 #pragma once
 
 #include <array>
@@ -6,10 +6,10 @@
 
 namespace remap {
 
-// The number of bank nodes in one interpolation: twelve nodes, 5 % apart, leave an error of 1e-7 in alpha.
+// This many bank nodes join in an interpolation: twelve nodes, 5 % apart, leave an error of 1e-7 in alpha.
 inline constexpr std::size_t kInterpolationNodes = 12;
 
-// The Lagrange basis on `nodes` at `x`: values and first derivatives.
+// A LagrangeBasis is the Lagrange basis on `nodes` at `x`: values and first derivatives.
 struct LagrangeBasis {
   using Values = std::array<double, kInterpolationNodes>;
   Values value{};

@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kJointRivalError = 1.01;    // as in match.cpp
 constexpr double kJointRivalDistance = 0.1;  // relative difference of a parameter
-// A search ends at this relative change of the squared error. Rivals are compared with the answer to one
-// percent only, so they need less precision.
+// A search ends at this relative change of the squared error. Rivals are compared with the answer only to one
+// percent, so they need less precision.
 constexpr double kAnswerTolerance = 1e-10;
 constexpr double kRivalTolerance = 1e-7;
 constexpr double kJointSameError = 1e-4;  // smaller errors are rounding errors of pictures
-constexpr double kBoundTolerance = 1e-6;  // share of the range
+constexpr double kBoundTolerance = 1e-6;  // fraction of the range
 
-// A small square matrix.
+// A Square is a small square matrix.
 class Square {
  public:
   explicit Square(std::size_t side) : side_(side), values_(side * side) {}
@@ -85,9 +85,9 @@ double pixel_power(PictureWeights weights, const std::vector<float>& picture) {
 
 }  // namespace
 
-// Reduces the residuals of a whole picture to a few numbers. A trust-region step depends on J^T J, J^T r and
-// r^T r only, and the triangle R of [J r] = Q R gives the same products. Its columns therefore serve as the
-// Jacobian and the residual.
+// A PictureCost reduces the residuals of a whole picture to a few numbers. A trust-region step depends only
+// on J^T J, J^T r and r^T r, and the triangle R of [J r] = Q R gives the same products. So its columns serve
+// as the Jacobian and the residual.
 class JointMatcher::PictureCost final : public ceres::CostFunction {
  public:
   PictureCost(const JointMatcher& matcher, const RoleValues& guess)
@@ -118,8 +118,8 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
     return last_triangle_;
   }
 
-  // Inner products of the tangents and, in the last row and column, of picture - source. They are summed over
-  // all channels and divided by the power of the source.
+  // Returns inner products of the tangents and, in the last row and column, of picture - source. They are
+  // summed over all channels and divided by the power of the source.
   Square gram(const double* values) const {
     Square products(count_ + 1);
     const std::vector<RoleValues> points = matcher_.points_of(values, guess_);

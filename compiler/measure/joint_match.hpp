@@ -1,7 +1,8 @@
-// The joint match varies all free parameters of the target at once, by bounded non-linear least squares over
-// the whole picture (Sztrajman et al. 2019, sections 3.1 and 4.1: one and three stages). It also serves
-// targets that are not affine in specular. With several color channels, parameters without color (such as
-// width) are shared and the others are found for each channel. In a sweep, only this file uses Ceres.
+// This file does the joint match, which varies all free parameters of the target at once. It uses bounded
+// non-linear least squares over the whole picture (Sztrajman et al. 2019, sections 3.1 and 4.1: one and three
+// stages). It also serves targets that are not affine in specular. With several color channels, parameters
+// without color (such as width) are shared and the others are found for each channel. In a sweep, only this
+// file uses Ceres.
 #pragma once
 
 #include <algorithm>
@@ -13,15 +14,15 @@
 
 namespace remap {
 
-// The initial guess of a one-stage match, as shares of the target's ranges of alpha, specular and diffuse.
+// This is the initial guess of a one-stage match, as fractions of the ranges of alpha, specular and diffuse.
 inline const RoleValues kFixedGuess{0.5, 0.5, 0.5};
 
 struct JointOptions {
   bool free_diffuse = true;        // false: diffuse keeps the value of the guess
-  bool source_has_diffuse = true;  // false: diffuse 0 is an answer and does not count as a bound that was hit
+  bool source_has_diffuse = true;  // false: diffuse 0 is an answer, not a bound that was hit
 };
 
-// One color channel of the source.
+// A JointChannel is one color channel of the source.
 struct JointChannel {
   std::vector<float> picture;
   PictureWeights weights;
@@ -31,7 +32,7 @@ struct JointChannel {
 struct JointMatch {
   std::vector<RoleValues> points;  // canonical, one for each channel
   double error = 0.0;              // of the objective: weighted relative RMS over all channels
-  double picture_error = 0.0;      // the same over the pixels alone, without means
+  double picture_error = 0.0;      // the same over only the pixels, without means
   bool converged = false;
   RowStatus status = RowStatus::kOk;
 
@@ -40,29 +41,29 @@ struct JointMatch {
 
 class JointMatcher {
  public:
-  // One channel for a grey match. The channels' pictures must be as long as the target's. `target` must
+  // A grey match has one channel. The channels' pictures must be as long as the target's. `target` must
   // outlive the matcher.
   JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, const JointOptions& options);
 
   // Returns the best match of searches from `guesses` in every channel, by Ceres' bounded
   // Levenberg-Marquardt. A guess out of bounds is moved into them. The status is kUnstable if the search does
-  // not converge, or if one from another guess or from `rivals` ends with an error lower by more than 1 %, or
-  // within 1 % but with a parameter that differs by more than 10 %. Otherwise it is kClamped if a parameter
-  // is at a bound and the pictures differ. Throws kNumeric if Ceres fails.
+  // not converge. It is also kUnstable if a search from another guess or from `rivals` ends with an error
+  // lower by more than 1 %, or within 1 % but with a parameter that differs by more than 10 %. Otherwise it
+  // is kClamped if a parameter is at a bound and the pictures differ. Throws kNumeric if Ceres fails.
   JointMatch match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
 
-  // Returns the weighted relative RMS of the pixels of `pictures`, one a channel, against the source.
+  // Returns the weighted relative RMS of the pixels of `pictures`, one per channel, against the source.
   double picture_error(std::span<const std::vector<float>> pictures) const;
 
-  // Converts shares (0 to 1) of the target's ranges to parameters. Parameters without a role that `shares`
-  // does not name take the shares of alpha, specular and diffuse in turn.
+  // Converts fractions (0 to 1) of the target's ranges to parameters. Parameters without a role that `shares`
+  // does not name get the fractions of alpha, specular and diffuse in turn.
   RoleValues point_of(const RoleValues& shares) const;
 
-  // Four points to judge a match from: narrow and wide, weak and strong, bright and dark.
+  // Returns four points to judge a match from: narrow and wide, weak and strong, bright and dark.
   std::vector<RoleValues> other_guesses() const;
 
  private:
-  // One searched number: a coordinate of one channel, or of all.
+  // An Unknown is one searched number: a coordinate of one channel, or of all.
   struct Unknown {
     std::size_t coordinate;
     std::size_t channel;

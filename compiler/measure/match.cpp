@@ -13,15 +13,15 @@ namespace {
 
 // The search starts on every sixth node of the bank; minima of the loss are far wider than that.
 constexpr std::size_t kCoarseStride = 6;
-// A second minimum makes a match unstable if its error is within 1 % of the best and its width is not that of
-// a neighbouring node.
+// A second minimum makes a match unstable if its error is within 1 % of the best and its width differs from
+// the widths of the neighbouring nodes.
 constexpr double kRivalError = 1.01;
-// The same for a second specular at one width, if it differs by this share of the range. Errors up to
-// kSameError are rounding errors of pictures.
+// A second specular at one width also makes a match unstable, if it differs by this fraction of the range.
+// Errors up to kSameError are rounding errors of pictures.
 constexpr double kRivalDistance = 0.02;
 constexpr double kSameError = 1e-4;
 
-// The sum of a * b, and of weights * a * b, over the numbers `at` of pictures.
+// Return the sum of a * b, and of weights * a * b, over the numbers `at` of pictures.
 double part_product(const std::vector<std::size_t>& at, const std::vector<float>& a,
                     const std::vector<float>& b) {
   double sum = 0.0;
@@ -49,7 +49,7 @@ double quadratic_form(const std::vector<std::vector<double>>& matrix,
   return sum;
 }
 
-// The losses at neighbouring nodes, interpolated coefficient by coefficient.
+// A LossWindow holds the losses at neighbouring nodes, interpolated coefficient by coefficient.
 struct LossWindow {
   std::array<std::vector<double>, kInterpolationNodes> losses;
   LagrangeBasis::Values logs{};  // log(alpha)
@@ -107,7 +107,7 @@ const Matcher::NodeProducts& Matcher::products(std::size_t node) {
   return products_.emplace(node, std::move(p)).first->second;
 }
 
-// |I - T|^2 = II - 2 IT + TT, all weighted. II does not depend on the target and is left out, so that
+// Returns |I - T|^2 = II - 2 IT + TT, all weighted. It omits II, which does not depend on the target, so that
 // refine() can differentiate the rest without cancellation.
 Matcher::Polynomial Matcher::loss(const Products& products, const std::vector<double>& coefficients) {
   Polynomial result = products.power;
@@ -155,8 +155,8 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
     window_of_means.losses[i] = loss(products(first + i).means, coefficients);
     window.logs[i] = std::log(bank_.alpha(first + i));
   }
-  // The derivative of the loss by log(alpha) at the best specular. The derivative by specular is 0 there, so
-  // the change of the specular does not contribute.
+  // Returns the derivative of the loss by log(alpha) at the best specular. The derivative by specular is 0
+  // there, so the change of the specular does not contribute.
   const auto derivative = [&](double x) {
     const LagrangeBasis basis(window.logs, x);
     return polynomial_value(window.sum(basis.derivative), least(window.sum(basis.value)).at);
@@ -178,7 +178,7 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   return match;
 }
 
-// Returns the match at log(alpha) = `x` from the loss at that width, and the part of it that is of means.
+// Returns the match at log(alpha) = `x` from the loss at that width, and its part from means.
 Match Matcher::match_at(double x, const Polynomial& loss, const Polynomial& loss_of_means,
                         const std::vector<double>& coefficients) const {
   const SpecularFamily& family = bank_.family();

@@ -1,4 +1,4 @@
-// The match finds the width and specular of the target that give the picture of the source. At each width the
+// This file finds the width and specular of the target that give the picture of the source. At each width the
 // loss is a polynomial in the coordinate of the target's family, so its minimum over specular is found
 // exactly. The width is found by a search over the bank, then as the root of the derivative.
 #pragma once
@@ -16,28 +16,28 @@ struct Match {
   double alpha = 0.0;
   double specular = 0.0;
   double error = 0.0;          // of the objective: sqrt(loss / weighted source power)
-  double picture_error = 0.0;  // the same over the pixels alone, without means
+  double picture_error = 0.0;  // the same over only the pixels, without means
   RowStatus status = RowStatus::kOk;
 };
 
-// Matches source materials whose pictures share weights and are combinations of the same few pictures: source
-// = sum of coefficient[k] * basis[k]. Inner products with the bank are computed once for each node instead of
-// once for each material. Not thread-safe; its bank is.
+// A Matcher matches source materials whose pictures share weights and are combinations of the same few
+// pictures: source = sum of coefficient[k] * basis[k]. Inner products with the bank are computed once for
+// each node instead of once for each material. It is not thread-safe; its bank is.
 class Matcher {
  public:
-  // `basis`: at least one picture, of as many numbers as `weights`.
+  // `basis` has at least one picture, of as many numbers as `weights`.
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, PictureWeights weights);
 
   // Finds the best match; kUnstable if another width or specular gives as good a picture. `minima` holds the
-  // bank nodes to start from and receives those of the minima found; if it is empty, the whole bank is
+  // bank nodes to start from and receives the nodes of the minima found. If it is empty, the whole bank is
   // searched. Materials of similar specular share their minima, so passing them on saves most of the search.
   Match match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima);
 
  private:
-  // A polynomial in the coordinate of the bank's family.
+  // A Polynomial is a polynomial in the coordinate of the bank's family.
   using Polynomial = std::vector<double>;
-  // Weighted inner products at one bank node: of the target's picture with itself, and with each basis
-  // picture.
+  // A Products holds weighted inner products at one bank node: of the target's picture with itself, and with
+  // each basis picture.
   struct Products {
     Polynomial power;
     std::vector<Polynomial> cross;
@@ -60,7 +60,7 @@ class Matcher {
   std::vector<std::vector<float>> basis_;
   PictureWeights weights_;
   std::vector<std::vector<float>> weighted_basis_;
-  // Gram matrices of the basis pictures: of all samples, and of mean pixels only.
+  // These are Gram matrices of the basis pictures: of all samples, and of only mean pixels.
   std::vector<std::vector<double>> power_, power_of_means_;
   std::map<std::size_t, NodeProducts> products_;
 };

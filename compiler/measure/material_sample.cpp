@@ -20,7 +20,7 @@ namespace {
 constexpr int kRandomDigits = 9, kMatchDigits = 9, kMatchErrorDigits = 6;
 constexpr std::array kChannelSuffixes = {"_r", "_g", "_b"};
 
-// A source parameter that varies.
+// A Varied is a source parameter that varies.
 struct Varied {
   ParameterDescription parameter;
   Range range;
@@ -76,8 +76,8 @@ std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelD
   return all;
 }
 
-// Draws the source columns of all samples. std::uniform_real_distribution differs between standard libraries
-// and is not used.
+// Draws the source columns of all samples. It does not use std::uniform_real_distribution, which differs
+// between standard libraries.
 std::vector<std::vector<double>> draw(const MaterialSampleOptions& options,
                                       const std::vector<Varied>& varied) {
   std::mt19937_64 generator(options.seed);
@@ -92,7 +92,7 @@ std::vector<std::vector<double>> draw(const MaterialSampleOptions& options,
   return samples;
 }
 
-// The data that the samples share.
+// A Matching holds the data that the samples share.
 struct Matching {
   const MaterialSampleOptions& options;
   const PictureTaker& picture_taker;
@@ -122,7 +122,7 @@ double source_alpha(const Matching& matching, const Material& material) {
   return to_alpha(matching.source.roughness, material.parameters.at(name).front());
 }
 
-// The target's own name for a coordinate, and a canonical value in the target's unit.
+// Return the target's own name for a coordinate, and a canonical value in the target's unit.
 std::string target_name(const Matching& matching, std::size_t coordinate) {
   const ModelDescription& model = matching.target.model;
   if (coordinate == kAlphaCoordinate) return model.parameter(ParameterRole::kRoughness).name;

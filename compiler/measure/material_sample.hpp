@@ -1,5 +1,5 @@
-// Samples all parameters of a material at once, at random, and matches all color channels together (Sztrajman
-// et al. 2019, section 5.2, last lines, and section 8).
+// This file samples all parameters of a material at once, at random, and matches all color channels together
+// (Sztrajman et al. 2019, section 5.2, last lines, and section 8).
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,7 @@
 
 namespace remap {
 
-// Random widths start here unless a range says otherwise; a small picture does not resolve narrower
-// highlights.
+// Random widths start here by default, because a small picture does not resolve narrower highlights.
 inline constexpr double kLeastRandomAlpha = 0.05;
 
 struct MaterialSampleOptions : PairOptions {
@@ -25,11 +24,11 @@ struct MaterialSampleOptions : PairOptions {
   std::vector<std::string> searched;    // target parameters without a role that are matched too
 };
 
-// Draws materials uniformly from the ranges, rounded to nine digits, and matches each by the joint match,
-// from the source's width and four other guesses; the best counts. With the same seed, a larger count starts
-// with the same rows. Rows hold the parameters' own units; a color has a column for each channel. Light is
-// matched as in run_sweep. The table does not depend on the number of jobs. Throws as run_sweep does. After
-// an interruption only the workers' picture cache remains.
+// Draws materials uniformly from the ranges, rounded to nine digits. It matches each by the joint match, from
+// the source's width and four other guesses; the best counts. With the same seed, a larger count starts with
+// the same rows. Rows hold the parameters' own units; a color has a column for each channel. Light is matched
+// as in run_sweep. The table does not depend on the number of jobs. Throws like run_sweep. After an
+// interruption only the workers' picture cache remains.
 MaterialTable run_material_sample(const Renderer& renderer, const MaterialSampleOptions& options,
                                   const SweepExecution& execution);
 

@@ -1,4 +1,4 @@
-// The objective of a match: which lights the pictures have, and how much each pixel and the mean count.
+// This file holds the objective of a match: the lights of the pictures, and the weights of pixels and mean.
 #pragma once
 
 #include <cmath>
@@ -13,15 +13,15 @@ namespace remap {
 
 enum class Weighting {
   kUniform,   // L2 of linear radiance (the paper)
-  kRelative,  // w = cos_view / (I / max(I) + floor), from the source picture I alone
+  kRelative,  // w = cos_view / (I / max(I) + floor), from only the source picture I
 };
 
 inline constexpr NamedValues<Weighting, 2> kWeightings = {
     {{Weighting::kUniform, "uniform"}, {Weighting::kRelative, "relative"}}};
 
-// A match minimises, over the target's parameters, the sum over lights and pixels of w^2 (source - target)^2.
-// With `mean_share`, each light adds mean_share * P * (mean(target) / mean(source) - 1)^2, where P is the sum
-// of w^2 source^2 over its pixels: the lobe's energy counts that much more than the form of its picture.
+// An Objective is minimised over the target's parameters. It is the sum over lights and pixels of w^2 (source
+// - target)^2. With `mean_share`, each light adds mean_share * P * (mean(target) / mean(source) - 1)^2, where
+// P is the sum of w^2 source^2 over its pixels. The lobe's energy then counts more.
 struct Objective {
   std::string name;  // of the preset, or `custom`
   std::vector<Light> lights;
@@ -29,28 +29,28 @@ struct Objective {
   double floor = 0.1;       // used by kRelative
   double mean_share = 0.0;  // used by kRelative
 
-  // The root of loss over power, times this, is relative to the power of the pixels.
+  // The root of loss over power, times this factor, is relative to the power of the pixels.
   double error_factor() const { return compares_means() ? std::sqrt(1.0 + mean_share) : 1.0; }
   bool compares_means() const { return weighting == Weighting::kRelative && mean_share > 0.0; }
   bool operator==(const Objective&) const = default;
 };
 
-// Returns an objective by name; Objective::name is that of its version.
+// Returns an objective by name; Objective::name also has its version.
 // `paper`: headlight, uniform weights, as in the published table (Sztrajman et al. 2019, section 4.1).
-// `natural-1`: light at 60 degrees, relative weights. `natural-2`: light at 65 degrees, relative weights, and
-// the mean with a share of 5; under environments its matches are nearer to the best possible
-// (docs/decisions/047). `natural`: the newest of them. Throws kUsage for an unknown name.
+// `natural-1`: light at 60 degrees, relative weights.
+// `natural-2`: light at 65 degrees, relative weights, and the mean with a share of 5; under environments its
+// matches are closer to the best possible (docs/decisions/047).
+// `natural`: the newest of them. Throws kUsage for an unknown name.
 Objective objective_preset(const std::string& name);
 inline const std::vector<std::string> kObjectives = {"natural", "natural-1", "natural-2", "paper"};
 
-// Returns the objective that a file names. In files, `natural` is `natural-1`, as when it was the only one.
+// Returns the objective that a file names. In files, `natural` means `natural-1`, once the only one.
 Objective recorded_objective(const std::string& name);
 
-// Whether a picture shows nothing: no value is above this radiance.
+// A picture is black if no value is above this radiance.
 inline constexpr float kBlackRadiance = 1e-12f;
 bool is_black(std::span<const float> picture);
 
-// How much each number of a picture counts.
 struct PictureWeights {
   std::vector<float> squared;      // w^2
   std::vector<std::size_t> means;  // indices of the numbers that are means; the others are pixels

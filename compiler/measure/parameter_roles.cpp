@@ -15,7 +15,7 @@ ParameterDescription& named(ModelDescription* model, const std::string& name) {
   return model->parameters[static_cast<std::size_t>(&found - model->parameters.data())];
 }
 
-// Gives `role` to the parameter `name`. The parameter that had it becomes kOther and is added to `displaced`.
+// Gives `role` to the parameter `name`. Its former parameter becomes kOther and is added to `displaced`.
 void give_role(ModelDescription* model, ParameterRole role, const std::string& name,
                std::set<std::string>* displaced) {
   if (name.empty()) return;

@@ -1,6 +1,6 @@
-// Chooses which parameters of a model a sweep varies and which values the others keep. A principled material
-// has more parameters than a sweep has roles: base color, metallic and specular level can each be the
-// specular.
+// This file chooses which parameters of a model a sweep varies and which values the others keep. A principled
+// material has more parameters than a sweep has roles: base color, metallic and specular level can each be
+// the specular.
 #pragma once
 
 #include <map>
@@ -11,23 +11,23 @@
 
 namespace remap {
 
-// An empty name keeps the parameter to which the model itself gives the role.
+// A ParameterRoles assigns parameters to roles. An empty name keeps the model's parameter.
 struct ParameterRoles {
   std::string roughness;
-  std::optional<RoughnessEncoding> convention;  // of `roughness`; empty: the model's own
+  std::optional<RoughnessEncoding> convention;  // of `roughness`; if empty, the model's own
   std::string specular;
   std::string diffuse;
   std::map<std::string, double> fixed;  // by name
 };
 
 // Reads back the roles recorded in a table of remapc sweep, from its comments `<side>_roughness_parameter`,
-// `<side>_specular` and `<side>_fixed`; an empty text stands for a missing comment.
+// `<side>_specular` and `<side>_fixed`. An empty text means a missing comment.
 ParameterRoles recorded_roles(const std::string& roughness, const std::string& specular,
                               const std::string& fixed);
 
-// Returns `model` with the roles of `roles`. Fixed parameters, and those that lost their role, become kOther
-// and keep one value. Throws kUsage, opened by the model's name, for an unknown parameter, a value out of
-// range, and a parameter that lost its role without getting a value.
+// Returns `model` with the roles of `roles`. Fixed parameters, and parameters that lost their role, become
+// kOther and keep one value. Throws kUsage, beginning with the model's name, for an unknown parameter and a
+// value out of range. Also throws it for a parameter that lost its role without getting a value.
 ModelDescription recast(const ModelDescription& model, const ParameterRoles& roles);
 
 // Returns the parameters without a role as a table records them: `metallic=1,specular=0.5`.

@@ -8,7 +8,7 @@
 namespace remap {
 namespace {
 
-// Throws kInput if the picture's size or channel count is not what the scene asks for.
+// Throws kInput if the picture's size or channel count differs from the scene.
 void require_form(const Image& image, int resolution, const std::string& model) {
   const auto side = static_cast<std::size_t>(resolution);
   const bool complete = image.width == resolution && image.height == resolution &&
@@ -22,7 +22,7 @@ void require_form(const Image& image, int resolution, const std::string& model) 
                                        " with 1 or 3)");
 }
 
-// Whether the picture at specular 0 is known to be black, so that it need not be rendered.
+// Returns true if the picture at specular 0 is known to be black, so that it need not be rendered.
 bool has_no_base(const ProbedModel& probed_model) {
   return probed_model.response.proportional() && probed_model.linear_range().min == 0.0;
 }

@@ -1,6 +1,6 @@
-// Renders the pictures that a match compares: under every light of the objective, only the pixels that show
-// the sphere, one picture after the other in one row of floats, each followed by its mean over the square if
-// the objective compares means.
+// This file renders the pictures that a match compares, under every light of the objective. It keeps only the
+// pixels that show the sphere. The pictures follow each other in one row of floats, each followed by its mean
+// over the square if the objective compares means.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 
 namespace remap {
 
-// Values for the roles of a model's parameters: a grey material.
+// A RoleValues holds values for the roles of a model's parameters: a grey material.
 struct RoleValues {
   double alpha = 0.0;
   double specular = 0.0;
@@ -31,20 +31,20 @@ struct RoleValues {
         others(std::move(other_values)) {}
 };
 
-// A model together with what its pictures revealed: the law of its specular parameter, and the factor by
-// which its pictures are multiplied.
+// A ProbedModel is a model together with what its pictures revealed: the law of its specular parameter, and
+// the factor by which its pictures are multiplied.
 struct ProbedModel {
   ModelDescription model;
   SpecularResponse response;
   double exposure = 1.0;
-  // For a model without a law, if probe_family found a family.
+  // This is set for a model without a law, if probe_family found a family.
   std::optional<SpecularFamily> curve = std::nullopt;
 
-  // How pictures depend on specular: by the law, else by the curve. Empty if every picture must be rendered.
+  // Returns how pictures depend on specular, by the law if there is one, otherwise by the curve. Returns
+  // nothing if every picture must be rendered.
   std::optional<SpecularFamily> family() const;
 
-  // The canonical speculars that the model accepts, and those in which its picture is linear (up to the
-  // knee).
+  // Return the canonical speculars that the model accepts, and those with a linear picture (up to the knee).
   Range specular_range() const;
   Range linear_range() const;
   Range diffuse_range() const;  // 0 to 0 for models without diffuse
@@ -58,13 +58,12 @@ class PictureTaker {
   // model's own parameter. Throws kInput for a picture of another size and for values that are not finite.
   std::vector<float> take(const ModelDescription& model, const RoleValues& role_values) const;
 
-  // The same for canonical specular, clamped to the model's range; the result is multiplied by the exposure.
+  // Does the same for canonical specular, clamped to the model's range; applies the exposure.
   std::vector<float> take(const ProbedModel& probed_model, const RoleValues& role_values) const;
 
-  // The same for a grey material.
   std::vector<float> take(const Material& material) const;
 
-  // The same for each channel of a material: one row if all its parameters are grey, else three.
+  // Does the same for each channel of a material: one row if all its parameters are grey, otherwise three.
   std::vector<std::vector<float>> take_channels(const Material& material) const;
 
   // Returns squared_weights() of the objective for pictures that this object took.
@@ -73,7 +72,7 @@ class PictureTaker {
   // Returns the picture under the first light as a square, row 0 at the top, 0 outside the sphere.
   std::vector<float> square_picture(const std::vector<float>& row) const;
 
-  // The number of pixels of one picture that show the sphere, and the view cosine of each.
+  // Return the number of pixels of one picture that show the sphere, and the view cosine of each.
   std::size_t pixel_count() const { return cosines_.size(); }
   const std::vector<float>& view_cosines() const { return cosines_; }
   const Objective& objective() const { return objective_; }
@@ -87,16 +86,16 @@ class PictureTaker {
   std::vector<float> cosines_;
 };
 
-// Pictures, at one width, of a model that is affine in canonical specular: base + specular * slope. `full` is
-// the picture at the largest specular of the linear range. The base of a proportional model is black and not
-// rendered, since real renderers are slow.
+// An AffinePictures holds pictures, at one width, of a model that is affine in canonical specular: base +
+// specular * slope. `full` is the picture at the largest specular of the linear range. The base of a
+// proportional model is black and not rendered, because real renderers are slow.
 struct AffinePictures {
   std::vector<float> base, slope, full;
 };
 AffinePictures take_affine(const PictureTaker& picture_taker, const ProbedModel& probed_model, double alpha);
 
-// Returns the pictures of the model's family at one width; the model must have one. Of an affine family these
-// are base and slope, or slope alone.
+// Returns the pictures of the model's family at one width; the model must have one. For an affine family
+// these are base and slope, or only slope.
 std::vector<std::vector<float>> take_family(const PictureTaker& picture_taker,
                                             const ProbedModel& probed_model, double alpha);
 

@@ -6,7 +6,7 @@
 namespace remap {
 namespace {
 
-// Limit of Newton's iterations; a step that would leave the bracket bisects it instead.
+// This limits Newton's iterations. A step that would leave the bracket bisects it instead.
 constexpr int kMostSteps = 100;
 
 // Returns the zero of a polynomial between `low` and `high`, where its values must differ in sign.

@@ -1,4 +1,5 @@
-// Polynomials in one variable, as coefficients in ascending powers. The loss of a match is one in specular.
+// This file handles polynomials in one variable, as coefficients in ascending powers. The loss of a match is
+// one in specular.
 #pragma once
 
 #include <vector>
@@ -17,7 +18,7 @@ std::vector<double> polynomial_product(const std::vector<double>& a, const std::
 // Returns the Lagrange basis polynomial on `nodes` that is 1 at node `k` and 0 at the others.
 std::vector<double> lagrange_polynomial(const std::vector<double>& nodes, std::size_t k);
 
-// A local minimum of a polynomial within a range.
+// A PolynomialMinimum is a local minimum of a polynomial within a range.
 struct PolynomialMinimum {
   double at = 0.0;
   double value = 0.0;

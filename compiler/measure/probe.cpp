@@ -15,16 +15,17 @@ namespace {
 
 using Radiances = std::vector<float>;
 
-// Pictures are floats: a combination of three is exact to a few 2^-24 of the brightest pixel.
+// This tolerance follows from floats: a combination of three pictures is exact to a few 2^-24 of the
+// brightest pixel.
 constexpr double kPictureTolerance = 2e-6;
 // A quotient of sums over many pixels is more accurate than one pixel.
 constexpr double kRatioTolerance = 1e-6;
-// Relative precision of the end of the widths that a renderer clamps.
+// This is the relative precision of the end of the widths that a renderer clamps.
 constexpr double kWidthPrecision = 2e-3;
 // Bisection stops here: a knee below this share of the range has no practical effect.
 constexpr int kMostHalvings = 20;
 
-// Like picture_tolerance, for a quotient of sums.
+// Returns the tolerance for a quotient of sums, like picture_tolerance.
 double ratio_tolerance(const ModelDescription& model) { return std::max(kRatioTolerance, model.precision); }
 
 double brightest(const Radiances& picture) { return *std::max_element(picture.begin(), picture.end()); }
@@ -43,7 +44,7 @@ bool is_black(const Radiances& picture) {
   return std::all_of(picture.begin(), picture.end(), [](float value) { return value == 0.0f; });
 }
 
-// Renders a model at one width, at the ends and in the middle of its specular range.
+// A WidthProbe renders a model at one width, at the ends and in the middle of its specular range.
 struct WidthProbe {
   double alpha;
   Radiances low, middle, high;
@@ -88,7 +89,7 @@ class SpecularProbe {
     return picture_taker_.take(model_, RoleValues{alpha, specular, 0.0});
   }
 
-  // Unknown (false) if the range does not begin at 0, in F0 for a range of indices.
+  // Returns false, which means unknown, if the range does not begin at 0, in F0 for a range of indices.
   bool black_at_zero() const {
     if (range_.min != 0.0 && range_.min != 1.0) return false;
     return std::all_of(widths_.begin(), widths_.end(),
@@ -102,8 +103,8 @@ class SpecularProbe {
     return worst;
   }
 
-  // How far pictures are from affine in the F0 of an index: in the middle of the range of indices, and at
-  // half of the range of F0.
+  // Returns how much pictures differ from affine in the F0 of an index: in the middle of the range of
+  // indices, and at half of the range of F0.
   double ior_deviation() const {
     if (range_.min < 1.0) return 1.0;
     const double low = normal_reflectance(range_.min), high = normal_reflectance(range_.max);
@@ -118,7 +119,7 @@ class SpecularProbe {
     return worst;
   }
 
-  // How far a picture lies along the line from `low` to `high`; nothing if it does not lie on the line.
+  // Returns how far a picture lies along the line from `low` to `high`, or nothing if it lies elsewhere.
   std::optional<double> share(const WidthProbe& probe, double specular) const {
     const Radiances picture = take(probe.alpha, specular);
     double product = 0.0, power = 0.0;
@@ -133,7 +134,7 @@ class SpecularProbe {
     return product / power;
   }
 
-  // The knee at one width: a picture below the knee determines its place, pictures on both sides confirm it.
+  // Returns the knee at one width. A picture below determines it, and pictures on both sides confirm it.
   std::optional<double> knee_at(const WidthProbe& probe) const {
     double step = 0.5 * (range_.max - range_.min);
     std::optional<double> reached = share(probe, range_.min + step);
@@ -195,7 +196,7 @@ EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescr
     if (is_black(here) || is_black(nearby)) return false;
     return line_deviation(nearby, here, 0.0, here) > picture_tolerance(model);
   };
-  // Bisects from a clamped end towards a width that is not clamped: the middle, or else the other end.
+  // Bisects from a clamped end towards a width that is not clamped: the middle, or otherwise the other end.
   const double middle = std::sqrt(alphas.min * alphas.max);
   const auto end = [&](double clamped, double other) {
     const double inwards = clamped < other ? step : 1.0 / step;

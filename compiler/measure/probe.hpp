@@ -1,5 +1,5 @@
-// Finds from a model's pictures what its parameters do: the law of specular, whether diffuse adds to the
-// highlight, and how strong its light is relative to another renderer's.
+// This file finds from a model's pictures what its parameters do: the law of specular, whether diffuse adds
+// to the highlight, and how strong its light is relative to another renderer's.
 #pragma once
 
 #include "measure/picture_taker.hpp"
@@ -16,7 +16,7 @@ SpecularResponse probe_specular(const PictureTaker& picture_taker, const ModelDe
 // can cause; larger deviations contradict a law.
 double picture_tolerance(const ModelDescription& model);
 
-// The widths of a sweep, and the part of them in which the width changes the picture.
+// An EffectiveWidths holds a sweep's widths, and the part in which the width changes the picture.
 struct EffectiveWidths {
   Range asked;
   Range effective;
@@ -29,19 +29,19 @@ struct EffectiveWidths {
 EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescription& model,
                              const Range& alphas);
 
-// Whether diffuse adds the same picture, in proportion, at every width and specular.
+// Returns true if diffuse adds the same picture, in proportion, at every width and specular.
 bool probe_diffuse(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas);
 
-// Finds the factor between the diffuse parameters of two models that gives the same diffuse light, by least
-// squares, and the RMS of what remains, relative to the source. The diffuse picture is the difference of two
-// pictures, so a Fresnel rim does not count as diffuse. This is the first stage of the two-stage match
-// (section 3.1), and its ratio is the one by which irradiance is matched (section 4). A scale that cannot be
-// distinguished from 1 in float pictures is 1.
+// A DiffuseMatch holds the factor between the diffuse parameters of two models that gives the same diffuse
+// light, by least squares. It also holds the RMS of the rest, relative to the source. The diffuse picture is
+// the difference of two pictures, so a Fresnel rim does not count as diffuse. This is the first stage of the
+// two-stage match (section 3.1), and its ratio also matches the irradiance (section 4). A scale that cannot
+// be distinguished from 1 in float pictures is 1.
 struct DiffuseMatch {
   double scale = 1.0;
   double error = 0.0;
 };
-// Whether the light of two models can be compared by match_diffuse. If one has no diffuse parameter, their
+// Returns true if match_diffuse can compare the light of two models. If one has no diffuse parameter, their
 // light is assumed equal.
 bool light_matched(const ModelDescription& source, const ModelDescription& target);
 

@@ -1,4 +1,4 @@
-// Writes the comments of a table that record how it was made, so that the command can be repeated from them.
+// This file writes the comments of a table that record how it was made, so that it can be remade.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ void add_side(const std::string& role, const ProbedModel& probed_model, Comments
 // Adds the limits of the target, which must be known.
 void add_limits(const Limits& limits, Comments* comments);
 
-// Adds the widths of one side that change its pictures, if some do not.
+// Adds the widths of one side that change its pictures, if other widths do not.
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);
 
 // Adds the noise of one side and how many pictures are averaged, if the noise was measured.
@@ -29,7 +29,7 @@ void add_noise(const std::string& role, const SteadyRenderer& renderer, const st
 // Adds the renderer's version and how pictures were compared.
 void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments);
 
-// The factor between the lights, and that it was accepted where that was needed.
+// Adds the factor between the lights, and that it was accepted if this was needed.
 void add_light_scale(const LightMatch& match, Comments* comments);
 
 void add_resolution(const PairOptions& options, Comments* comments);

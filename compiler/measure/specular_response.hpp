@@ -1,4 +1,4 @@
-// The law by which the pictures of a model depend on its specular parameter.
+// This file holds the law by which the pictures of a model depend on its specular parameter.
 #pragma once
 
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace remap {
 
-// How pictures depend on a model's specular parameter. All laws but kOther have a canonical coordinate in
-// which the picture is base + specular * slope.
+// A SpecularLaw is the way in which pictures depend on a model's specular parameter. All laws except kOther
+// have a canonical coordinate in which the picture is base + specular * slope.
 enum class SpecularLaw {
   kProportional,  // specular * slope
   kAffine,        // base + specular * slope: F0 with Schlick's Fresnel
@@ -18,7 +18,7 @@ enum class SpecularLaw {
   kOther,         // none of these; the canonical coordinate is the parameter itself
 };
 
-// `proportional`, `affine`, `ior`, `clamped`, `other`.
+// Returns `proportional`, `affine`, `ior`, `clamped` or `other`.
 std::string_view law_name(SpecularLaw law);
 
 struct SpecularResponse {
@@ -31,26 +31,26 @@ struct SpecularResponse {
   bool affine() const { return law != SpecularLaw::kOther; }
   bool proportional() const { return affine() && black_base; }
 
-  // Converts the parameter to the canonical coordinate and back: F0 for kIor, else the parameter itself.
+  // Convert the parameter to the canonical coordinate and back: F0 for kIor, otherwise the parameter itself.
   double canonical(double own) const;
   double native(double canonical) const;
 };
 
-// How the pictures of a model at one width depend on specular, whatever the law: as combinations of a few
-// pictures whose weights are polynomials. A match therefore handles polynomials only.
+// The following types describe how the pictures of a model at one width depend on specular, whatever the law.
+// They are combinations of a few pictures whose weights are polynomials, so a match handles only polynomials.
 
-// The variable of the weight polynomials.
+// A SpecularCoordinate is the variable of the weight polynomials.
 enum class SpecularCoordinate {
   kSpecular,  // canonical specular
   kEven,      // the range of canonical specular, mapped to -1 to 1
-  kRoot,      // the root of the share of the range, mapped to -1 to 1; fits exact Fresnel
+  kRoot,      // the root of the fraction of the range, mapped to -1 to 1; fits exact Fresnel
 };
 
-// Picture(specular) = sum over k of weights[k](coordinate(specular)) * picture k, at every width.
+// A SpecularFamily is picture(specular) = sum over k of weights[k](coordinate(specular)) * picture k.
 struct SpecularFamily {
   Range range;  // canonical speculars for which it holds
   SpecularCoordinate coordinate_kind = SpecularCoordinate::kSpecular;
-  std::vector<double> speculars;  // one for each picture; take_family chooses those of an affine family
+  std::vector<double> speculars;  // one for each picture; take_family chooses them for an affine family
   std::vector<std::vector<double>> weights;  // one polynomial for each picture, ascending powers
 
   std::size_t picture_count() const { return weights.size(); }
@@ -59,7 +59,7 @@ struct SpecularFamily {
   Range coordinate_range() const;
 
   // Returns the weights of the pictures at canonical `specular`, or their derivatives by it. At the lower end
-  // of the range a root has no derivative; that of a point close by is returned.
+  // of the range a root has no derivative, so the derivative at a point close by is returned.
   std::vector<double> weights_at(double specular) const;
   std::vector<double> slopes_at(double specular) const;
 };

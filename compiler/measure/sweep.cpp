@@ -22,13 +22,13 @@
 namespace remap {
 namespace {
 
-// As many as a table can have that is read again; rows at boundaries of regimes come on top.
+// This is half of the rows that a table may have to be read again. Rows at boundaries of regimes are added.
 constexpr std::size_t kMostSweepSamples = kMostCsvRows / 2;
-// The law of specular shows in any picture that resolves the highlight.
+// This resolution suffices, because the law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
 constexpr double kLeastProbedAlpha = 0.1;  // or where the model begins
-// The number of widths whose spheres are compared, spread over those of a table: for each, the usable row
-// whose specular1 is nearest half of the source's range.
+// So many widths have their spheres compared, spread over the widths of a table. Each uses the usable row
+// whose specular1 is closest to half of the source's range.
 constexpr std::size_t kComparedSpheres = 8;
 
 std::vector<SampleBlock> blocks_of(const std::vector<SamplePoint>& samples) {
@@ -92,7 +92,7 @@ std::vector<TableRow> rounded(std::vector<TableRow> rows) {
   return rows;
 }
 
-// Describes what the columns of a side hold.
+// Returns the content of the columns of a side.
 ModelSide column_side(const ProbedModel& probed_model) {
   ModelSide side = model_side(probed_model.model);
   if (probed_model.response.law == SpecularLaw::kIor) side.specular = "f0";
@@ -140,7 +140,7 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
   return table;
 }
 
-// Probes both models, matches their light, and makes what the blocks share.
+// Probes both models, matches their light, and prepares the data that the blocks share.
 SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_taker,
                       const ModelDescription& source, const ModelDescription& target) {
   const EffectiveWidths source_widths = probe_widths(picture_taker, source, sampled_alphas(options.samples));
@@ -171,7 +171,7 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
   return setup;
 }
 
-// Returns, for each width, the usable row whose specular is nearest `specular`.
+// Returns, for each width, the usable row whose specular is closest to `specular`.
 std::map<double, const TableRow*> middle_rows(const std::vector<TableRow>& rows, double specular) {
   std::map<double, const TableRow*> middle;
   for (const TableRow& row : rows) {
@@ -211,10 +211,10 @@ double white_exposure(const SweepSetup& setup) {
   return brightest > 0.0f ? 1.0 / static_cast<double>(brightest) : 1.0;
 }
 
-// The comment kSpheresComment of a table: the structural similarity of the source's sphere and that of its
-// match as a display shows them, by rising width, `0.1 0.998, 0.5 0.97`. Spheres are lit by the first light
-// of the objective, have no diffuse, and are exposed so that the brightest point of a white diffuse sphere
-// would be white.
+// Returns the comment kSpheresComment of a table, by rising width: `0.1 0.998, 0.5 0.97`. It holds the
+// structural similarity of the source's sphere and its match as a display shows them. Spheres are lit by the
+// first light of the objective, have no diffuse, and are exposed so that the brightest point of a white
+// diffuse sphere would be white.
 std::string spheres_text(const SweepSetup& setup, const std::vector<TableRow>& rows) {
   const double exposure = white_exposure(setup);
   const int side = setup.options.resolution;

@@ -1,4 +1,4 @@
-// The sweep matches every sample of the source's parameters and returns the table.
+// This file matches every sample of the source's parameters and returns the table.
 #pragma once
 
 #include <atomic>
@@ -14,8 +14,8 @@
 namespace remap {
 
 // Returns uniform samples, rounded to nine digits: `alpha_count` widths over `alphas`, both ends included,
-// times `specular_count` values over `speculars`, without a lower end of 0, where nothing can be matched. The
-// paper uses 30 x 30 (section 5.2).
+// times `specular_count` values over `speculars`. A lower end of 0 is omitted, because nothing can be matched
+// there. The paper uses 30 x 30 (section 5.2).
 std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_count, const Range& speculars,
                                       std::size_t specular_count);
 
@@ -29,11 +29,12 @@ SpecularResponse specular_response(const Renderer& renderer, const ModelDescript
 // Returns the canonical speculars that `model` accepts, by the same law.
 Range canonical_speculars(const Renderer& renderer, const ModelDescription& model);
 
-// Matches every sample. With two stages, width and specular come from pictures without diffuse, then diffuse
-// by itself. With one stage, all three come at once from kFixedGuess (joint_match.hpp); with three, at once
-// from the result of two stages. If the two models' light differs by a factor, the source's pictures are
-// multiplied by it first (section 4). The table does not depend on the number of jobs. Throws kUsage for
-// unknown models and samples out of range, kNumeric if a search fails, and what the renderer throws.
+// Matches every sample. With two stages, width and specular come from pictures without diffuse, and then
+// diffuse is matched separately. With one stage, all three are matched at once from kFixedGuess
+// (joint_match.hpp). With three, all are matched at once from the result of two stages. If the two models'
+// light differs by a factor, the source's pictures are first multiplied by it (section 4). The table does not
+// depend on the number of jobs. Throws kUsage for unknown models and samples out of range, kNumeric if a
+// search fails, and the renderer's errors.
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// The options of a sweep: what it computes, and how it runs.
+// This file holds the options of a sweep: what it computes, and how it runs.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@ struct SamplePoint {
   double specular = 0.0;  // canonical (probe.hpp)
 };
 
-// Two models, and how their pictures are compared.
+// A PairOptions holds two models, and how their pictures are compared.
 struct PairOptions {
   std::string source;
   std::string target;
@@ -27,10 +27,10 @@ struct PairOptions {
   int resolution = 512;
   int samples_per_axis = 1;
   bool match_irradiance = true;
-  bool accept_light = false;  // go on where require_light() (table/light.hpp) refuses
+  bool accept_light = false;  // continue even if require_light() (table/light.hpp) refuses
 };
 
-// The settings of a sweep. Every field is recorded in the table's comments.
+// A SweepOptions holds the settings of a sweep. Every field is recorded in the table's comments.
 struct SweepOptions : PairOptions {
   std::string sampling;              // how the samples were chosen, in words
   std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
@@ -38,7 +38,7 @@ struct SweepOptions : PairOptions {
   double diffuse = 0.0;              // of the source, in every sample
 };
 
-// How a sweep runs. None of this changes the table.
+// A SweepExecution decides how a sweep runs. None of this changes the table.
 struct SweepExecution {
   unsigned jobs = 0;                                                // 0: one for each core
   std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread

@@ -9,20 +9,20 @@
 namespace remap {
 namespace {
 
-// At the upper end all nodes of an interpolation are on one side, which multiplies its error by about 40;
-// steps a quarter as wide divide it by 4^11.
+// This factor makes steps narrower at the upper end, where all nodes of an interpolation are on one side.
+// This multiplies the error by about 40, and steps a quarter as wide divide it by 4^11.
 constexpr double kEdgeRefinement = 4.0;
 
 constexpr double kNarrowing = 4.0;
 
-// The grid of a target without a family.
+// These set the grid of a target without a family.
 constexpr std::size_t kWidths = 14;
 constexpr std::size_t kSpeculars = 8;
 constexpr std::size_t kMostMinima = 3;
 
-// Descends from the largest alpha: first a window of narrow steps, then full ones, to the first width at or
-// below the smallest alpha. It ends at that alpha itself if the next step would fall below `least`, the
-// model's limit.
+// Returns widths that descend from the largest alpha. First comes a window of narrow steps, then full ones,
+// to the first width at or below the smallest alpha. It ends at that alpha itself if the next step would fall
+// below `least`, the model's limit.
 std::vector<double> bank_alphas(const Range& alphas, double ratio, double least) {
   const double bottom = std::log(alphas.min), top = std::log(alphas.max), step = std::log(ratio);
   double narrow_step = step / kEdgeRefinement;

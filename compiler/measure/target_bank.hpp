@@ -1,5 +1,5 @@
-// The bank of target pictures. For widths on a geometric grid it holds the few pictures whose combinations
-// give all others of that width (SpecularFamily). Each is rendered when a search first needs it.
+// This file holds the bank of target pictures. For widths on a geometric grid it has the few pictures whose
+// combinations give all others of that width (SpecularFamily). Each is rendered when a search first needs it.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace remap {
 
-// The largest ratio of neighbouring widths. Interpolating the loss over twelve such widths leaves an error of
-// 1e-7 in alpha.
+// This is the largest ratio of neighbouring widths. Interpolating the loss over twelve such widths leaves an
+// error of 1e-7 in alpha.
 inline constexpr double kBankRatio = 1.05;
 
 // Returns the widths of `target` to search for sources whose narrowest width is `narrowest`. They start at a
@@ -23,8 +23,8 @@ Range searched_widths(const ModelDescription& target, double narrowest);
 class TargetBank {
  public:
   // Makes a bank for widths in `alphas`, clamped to the model's range. Neighbours are at most `ratio` apart,
-  // the last two 1.5 times that; they are closer at the upper end, where interpolation has nodes on one side
-  // only. `target` must have a family (ProbedModel::family).
+  // the last two 1.5 times as much. They are closer at the upper end, where interpolation has nodes only on
+  // one side. `target` must have a family (ProbedModel::family).
   TargetBank(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas, double ratio);
 
   std::size_t size() const { return alphas_.size(); }
@@ -35,8 +35,8 @@ class TargetBank {
   // Returns the pictures of a node (take_family). The first call renders and keeps them. Thread-safe.
   const std::vector<std::vector<float>>& pictures(std::size_t node) const;
 
-  // Renders those `nodes` that no other thread has started, so that threads that need the same nodes share
-  // the work instead of waiting for each other at each one.
+  // Renders the `nodes` that no other thread has started. Threads that need the same nodes then share the
+  // work instead of waiting for each other at each one.
   void prepare(std::span<const std::size_t> nodes) const;
 
  private:
@@ -53,8 +53,8 @@ class TargetBank {
   mutable std::deque<Slot> slots_;
 };
 
-// Pictures of a target on a coarse grid of widths and speculars. They give a search its starting points if
-// the target has no family (ProbedModel::family).
+// A TargetGrid holds pictures of a target on a coarse grid of widths and speculars. They give a search its
+// starting points if the target has no family (ProbedModel::family).
 class TargetGrid {
  public:
   // Samples widths in `alphas`, evenly in log(alpha), and canonical speculars, evenly; without diffuse.

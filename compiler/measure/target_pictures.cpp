@@ -11,13 +11,13 @@
 namespace remap {
 namespace {
 
-// Step of central differences, as a share of alpha or of the range. The truncation error is its square, the
-// rounding error that of floats divided by it.
+// This is the step of central differences, as a fraction of alpha or of the range. The truncation error is
+// its square, the rounding error is a float's divided by it.
 constexpr double kDifferenceStep = 1e-3;
-// Pixels that are interpolated together: their sums fit into the first-level cache.
+// So many pixels are interpolated together, because their sums fit into the first-level cache.
 constexpr std::size_t kBlockPixels = 512;
 
-// The nodes of the bank around `alpha` and their Lagrange basis in log(alpha).
+// A Window holds the nodes of the bank around `alpha` and their Lagrange basis in log(alpha).
 struct Window {
   std::size_t first;
   LagrangeBasis basis;

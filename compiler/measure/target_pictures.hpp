@@ -1,5 +1,5 @@
-// The target's picture and its derivatives by each parameter, at any point, for a non-linear match. They come
-// from the bank if the target has one, else from renders.
+// This file gives the target's picture and its derivatives by each parameter, at any point, for a non-linear
+// match. They come from the bank if the target has one, otherwise from renders.
 #pragma once
 
 #include <memory>
@@ -11,16 +11,17 @@
 
 namespace remap {
 
-// One parameter that a match varies: alpha, canonical specular, diffuse, then others by name.
+// A Coordinate is one parameter that a match varies: alpha, canonical specular, diffuse, then others by name.
 struct Coordinate {
-  std::string name;     // set for others only
+  std::string name;     // set only for others
   Range range;          // a single value if the target has no such parameter
   bool shared = false;  // one value for all color channels
 };
 
 inline constexpr std::size_t kAlphaCoordinate = 0, kSpecularCoordinate = 1, kDiffuseCoordinate = 2;
 
-// A picture and its derivatives by each coordinate; floats as from PictureTaker::take.
+// A PictureTangents holds a picture and its derivatives by each coordinate, as floats from
+// PictureTaker::take.
 struct PictureTangents {
   std::vector<float> picture;
   std::vector<std::vector<float>> by;  // empty where not wanted
@@ -34,8 +35,8 @@ class TargetPictures {
   double value(const RoleValues& point, std::size_t coordinate) const;
   void set_value(RoleValues* point, std::size_t coordinate, double value) const;
 
-  // One picture for each of `points`; successive points of one width are cheaper. `wanted`: the coordinates
-  // by which the pictures are differentiated. Thread-safe.
+  // Returns one picture for each of `points`; successive points of one width are cheaper. `wanted` selects
+  // the coordinates by which the pictures are differentiated. Thread-safe.
   virtual std::vector<PictureTangents> at(const std::vector<RoleValues>& points,
                                           const std::vector<bool>& wanted) const = 0;
 
@@ -47,8 +48,8 @@ class TargetPictures {
   std::vector<Coordinate> coordinates_;
 };
 
-// Pictures of a target whose diffuse adds to its specular (probe_diffuse), interpolated between the nodes of
-// the bank. Besides the bank they need two renders, for the diffuse picture.
+// A BankPictures holds pictures of a target whose diffuse adds to its specular (probe_diffuse), interpolated
+// between the nodes of the bank. Besides the bank they need two renders, for the diffuse picture.
 class BankPictures final : public TargetPictures {
  public:
   BankPictures(const PictureTaker& picture_taker, const ProbedModel& target, const TargetBank& bank);
@@ -64,9 +65,9 @@ class BankPictures final : public TargetPictures {
   std::vector<float> diffuse_;  // added by diffuse 1
 };
 
-// Rendered pictures of any target, with derivatives by central differences (one-sided at the ends of a
-// range): two renders for each coordinate and one for the point. `others` names the parameters without a role
-// that the match varies.
+// A RenderedPictures renders pictures of any target, with derivatives by central differences (one-sided at
+// the ends of a range). It needs two renders for each coordinate and one for the point. `others` names the
+// parameters without a role that the match varies.
 class RenderedPictures final : public TargetPictures {
  public:
   RenderedPictures(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas,
@@ -82,15 +83,15 @@ class RenderedPictures final : public TargetPictures {
   ProbedModel target_;
 };
 
-// A target with the pictures that matches use.
+// A MatchTarget is a target with the pictures that matches use.
 struct MatchTarget : ProbedModel {
   std::unique_ptr<TargetBank> bank;          // if it has a family
-  std::unique_ptr<TargetPictures> pictures;  // for non-linear matches; else null
+  std::unique_ptr<TargetPictures> pictures;  // for non-linear matches; otherwise null
 };
 
-// Finds how the pictures of `target` follow from its parameters, by renders at the widths `probed`. Pictures
-// for non-linear matches are made if it has no family, or for matches `with_diffuse`. `searched`: the widths
-// of the match. `others`: as in RenderedPictures; with some of them there is no bank.
+// Finds how the pictures of `target` follow from its parameters, by renders at the widths `probed`. It makes
+// pictures for non-linear matches if the target has no family, or for matches `with_diffuse`. `searched`
+// holds the widths of the match. `others` is as in RenderedPictures; with some of them there is no bank.
 MatchTarget match_target(const PictureTaker& picture_taker, const ProbedModel& target, const Range& searched,
                          const Range& probed, bool with_diffuse, const std::vector<std::string>& others = {});
 

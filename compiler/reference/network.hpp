@@ -1,6 +1,6 @@
-// Fully connected networks, and their formula over any scalar: doubles for the interpreter, Taylor models for
-// proofs. A scalar needs +, -, * with itself and with double, and the functions that are declared for double
-// here.
+// This file holds fully connected networks, and their formula over any scalar. Doubles serve the interpreter,
+// Taylor models the proofs. A scalar needs +, -, * with itself and with double, and the functions that are
+// declared for double here.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,8 @@
 
 namespace remap {
 
-// normalised = (t - offset) * scale, with t = value, or t = value / (value + pole), which spreads values near
-// 0, where curves over alpha bend most.
+// A Scaling is normalised = (t - offset) * scale. Here t = value, or t = value / (value + pole), which
+// spreads values near 0, where curves over alpha bend most.
 struct Scaling {
   double offset = 0.0;
   double scale = 1.0;  // not 0
@@ -27,7 +27,7 @@ inline constexpr NamedValues<Activation, 3> kActivations = {
     {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
 inline std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
 
-// One layer: outputs = weights inputs + biases.
+// A Layer is outputs = weights inputs + biases.
 struct Layer {
   std::size_t input_count = 0;
   std::vector<double> weights;  // one row of input_count per output
@@ -36,8 +36,7 @@ struct Layer {
   bool operator==(const Layer&) const = default;
 };
 
-// A fully connected network of normalised inputs and outputs, with `activation` after every layer but the
-// last.
+// A Network is fully connected, with normalised ends, and `activation` after all layers except the last.
 struct Network {
   Activation activation = Activation::kTanh;
   std::vector<Scaling> inputs;

@@ -123,7 +123,7 @@ std::size_t interpret(const Network& network, const code::Conventions& use,
   return outside;
 }
 
-// Converts a block to metallic by a formula.
+// ConvertBlock converts a block to metallic by a formula.
 struct ConvertBlock {
   const code::Conventions& use;
   const std::array<const float*, 7>& in;

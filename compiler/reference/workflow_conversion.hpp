@@ -1,6 +1,6 @@
-// Conversions of whole materials between the two workflows, by every formula that is measured or ships, texel
-// by texel. Closed forms use floats, with the same bits as the generated header of the conversion if products
-// and sums are not fused. Networks are interpreted in double precision, to test their headers.
+// This file converts whole materials between the two workflows, by every formula that is measured or ships,
+// texel by texel. Closed forms use floats, with the same bits as the generated header of the conversion if
+// products and sums are not fused. Networks are interpreted in double precision, to test their headers.
 #pragma once
 
 #include <array>
@@ -18,20 +18,20 @@
 
 namespace remap {
 
-// From metallic to specular: equation (2) of the paper, exact.
+// Equation2 converts from metallic to specular by equation (2) of the paper. It is exact.
 struct Equation2 {
   bool operator==(const Equation2&) const = default;
 };
 
-// From specular to metallic, which cannot represent all specular materials.
+// The following formulas convert from specular to metallic, which cannot express all specular materials.
 //
-// The projection: the base color and metallic with the least difference in pictures, in closed form.
+// A Projection finds the base color and metallic with the least difference in pictures, in closed form.
 struct Projection {
   double prior = 0.0;  // >= 0 (kCleanPrior)
   bool operator==(const Projection&) const = default;
 };
 
-// Equation (3) of the paper: the inverse of equation (2) for each channel separately. Metallic is the mean
+// Equation (3) of the paper is the inverse of equation (2) for each channel separately. Metallic is the mean
 // over the channels.
 enum class MetallicMean {
   kPlain,
@@ -44,13 +44,13 @@ struct Equation3 {
   bool operator==(const Equation3&) const = default;
 };
 
-// The solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for scaled diffuse.
+// KhronosSolver solves KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for scaled diffuse.
 struct KhronosSolver {
   bool operator==(const KhronosSolver&) const = default;
 };
 
-// A network that was trained on the inverse of equation (2) (section 8 of the paper): from diffuse RGB and
-// specular RGB, in the conventions of the specular workflow, to base color RGB and metallic, without
+// A LearnedNetwork was trained on the inverse of equation (2) (section 8 of the paper). It goes from diffuse
+// RGB and specular RGB, in the conventions of the specular workflow, to base color RGB and metallic, without
 // roughness.
 struct LearnedNetwork {
   Network network;  // 6 inputs, 4 outputs
@@ -59,17 +59,17 @@ struct LearnedNetwork {
 
 using WorkflowFormula = std::variant<Equation2, Projection, Equation3, KhronosSolver, LearnedNetwork>;
 
-// Whether it was trained on a table; the others are closed forms.
+// Returns true if the formula was trained on a table; the others are closed forms.
 inline bool is_learned(const WorkflowFormula& formula) noexcept {
   return std::holds_alternative<LearnedNetwork>(formula);
 }
 
-// `equation-2`, `projection`, `equation-3`, `khronos`, `network`.
+// Returns `equation-2`, `projection`, `equation-3`, `khronos` or `network`.
 std::string_view formula_name(const WorkflowFormula& formula);
-// A description of the formula, for reports and headers.
+// Returns a description of the formula, for reports and headers.
 std::string formula_text(const WorkflowFormula& formula);
 
-// A conversion of whole materials. The formula determines the direction.
+// A WorkflowConversion converts whole materials. The formula determines the direction.
 struct WorkflowConversion {
   SpecularWorkflow specular;
   MetallicWorkflow metallic;
@@ -84,33 +84,33 @@ struct WorkflowConversion {
   bool operator==(const WorkflowConversion&) const = default;
 };
 
-// Throws kInput, beginning with `context`, for a width other than roughness, glossiness or alpha, for F0 or a
-// prior out of range, for Khronos' solver unless diffuse is scaled on both sides and F0 is above 0, and for a
-// network without 6 inputs and 4 outputs.
+// Throws kInput, beginning with `context`, for a width other than roughness, glossiness or alpha, and for F0
+// or a prior out of range. Also throws it for Khronos' solver unless diffuse is scaled on both sides and F0
+// is above 0, and for a network without 6 inputs and 4 outputs.
 void require_valid(const WorkflowConversion& conversion, const std::string& context);
 
-// A parameter of a material, with one row of texels per channel.
+// A MaterialParameter is a parameter of a material, with one row of texels per channel.
 struct MaterialParameter {
   std::string name;
   int channel_count = 1;  // 1 or 3
   std::string meaning;
 };
 
-// In the order of the rows: diffuse, specular, width; or base_color, metallic, width.
+// Return the parameters in the order of the rows: diffuse, specular, width; or base_color, metallic, width.
 std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion);
 std::vector<MaterialParameter> target_parameters(const WorkflowConversion& conversion);
 
-// The constants of a conversion for its formulas.
+// Returns the constants of a conversion for its formulas.
 workflow_code::Conventions conventions_of(const WorkflowConversion& conversion);
 
-// One texel, as SpecularMaterial.
+// A MetallicMaterial is one texel, like SpecularMaterial.
 struct MetallicMaterial {
   std::array<float, 3> base_color{};
   float metallic = 0.0f;
   float width = 0.0f;
 };
 
-// Converts `count` texels. `in` and `out`: one row per channel, in the order of source_parameters() and
+// Converts `count` texels. `in` and `out` have one row per channel, in the order of source_parameters() and
 // target_parameters(). An output row may equal an input row; other rows must not overlap. Values outside [0,
 // 1] are clamped; NaN makes the outputs that depend on it NaN. Returns the number of texels with such values.
 // Throws kUsage for a wrong number of rows, and the errors of require_valid().
@@ -121,21 +121,19 @@ std::size_t convert_workflow(const WorkflowConversion& conversion, std::size_t c
 MetallicMaterial to_metallic(const WorkflowConversion& conversion, const SpecularMaterial& material);
 SpecularMaterial to_specular(const WorkflowConversion& conversion, const MetallicMaterial& material);
 
-// The diagnosis of one texel.
 struct MetallicDiagnosis {
-  // Square root of the remaining weighted squared error; 0 for an exact match. Pictures under natural light
-  // differ by about 0.42 of it, as root mean square of display values.
+  // This is the square root of the remaining weighted squared error, and 0 for an exact match. Pictures under
+  // natural light differ by about 0.42 times this value, as root mean square of display values.
   float residual = 0.0f;
-  // The range of metallic values, as a fraction of [0, 1], whose squared error (with the best base color for
-  // each) is within (1/255)^2 of the least one. Above 0.2 metallic is undetermined, which does not change the
-  // picture.
+  // This is the range of metallic values, as a fraction of [0, 1], whose squared error (with the best base
+  // color for each) is within (1/255)^2 of the least one. Above 0.2 metallic is undetermined, which does not
+  // change the picture.
   float metallic_uncertainty = 0.0f;
-  // Whether a parameter, or by more than half a step of 8 bits the base color of a channel, was outside [0,
-  // 1].
+  // This is true if a parameter was outside [0, 1], or a base color by more than half a step of 8 bits.
   bool is_clamped = false;
 };
 
-// Diagnoses `result`, which any method may have made from `material`. Weights and errors are those of the
+// Diagnoses `result`, which any method may have made from `material`. Weights and errors are as in the
 // projection without its prior. NaN in the texel gives {NaN, NaN, true}. Throws the errors of
 // require_valid().
 MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularMaterial& material,

@@ -1,12 +1,13 @@
-// The BRDF models of the hub, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section 4), and the lobes
-// of files that hold an exponent. Values are reflectance per steradian without the cosine of the light.
+// This file holds the BRDF models of the hub, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section
+// 4), and the lobes of files that hold an exponent. Values are reflectance per steradian without the cosine
+// of the light.
 #pragma once
 
 #include <string>
 
 namespace remap {
 
-// Directions at a surface point, reduced to the cosines that isotropic models need.
+// A LocalGeometry holds directions at a surface point, reduced to the cosines that isotropic models need.
 struct LocalGeometry {
   double cos_light;       // normal to light, > 0
   double cos_view;        // normal to camera, > 0
@@ -16,12 +17,12 @@ struct LocalGeometry {
   double cos_mirror;      // mirrored light to view
 };
 
-// From the cosines between normal and light, normal and camera, light and camera; the sum of light and camera
-// must not be 0.
+// Returns the geometry from the cosines between normal and light, normal and camera, light and camera. The
+// sum of light and camera must not be 0.
 LocalGeometry local_geometry(double cos_light, double cos_view, double cos_between);
 
-// Reflectance of one model: `base` + specular * `slope`. Under Schlick's Fresnel (1994), `base` is the
-// reflectance at F0 = 0. It is 0 for models whose specular is a plain scale.
+// A Lobe is the reflectance of one model: `base` + specular * `slope`. Under Schlick's Fresnel (1994), `base`
+// is the reflectance at F0 = 0. It is 0 for models whose specular is a plain scale.
 struct Lobe {
   double base;
   double slope;
@@ -41,30 +42,30 @@ enum class Brdf {
 };
 enum class Fresnel { kNone, kSchlick };
 
-// The parts of a built-in model.
+// A BrdfModel holds the parts of a built-in model.
 struct BrdfModel {
   Brdf brdf = Brdf::kGgx;
   Fresnel fresnel = Fresnel::kSchlick;
   bool operator==(const BrdfModel&) const = default;
 };
 
-// Returns the built-in model `name`, for callers with lights other than those of a Scene. Throws kUsage for
-// an unknown name (with the nearest), and for a model whose specular is neither a scale nor F0.
+// Returns the built-in model `name`, for callers whose lights are not in a Scene. Throws kUsage for an
+// unknown name (with the closest), and for a model whose specular is neither a scale nor F0.
 BrdfModel builtin_brdf(const std::string& name);
 
-// Whether builtin_brdf() knows the model and its specular is a scale or F0.
+// Returns true if builtin_brdf() knows the model and its specular is a scale or F0.
 bool is_linear_lobe(const std::string& name);
 
-// A model whose specular map holds a scale or F0. `lobe` is the model itself where reflectance is linear in
-// that value. Otherwise `lobe` is that of a perfect mirror, to be multiplied by the exact Fresnel reflectance
-// of a dielectric with the map's F0.
+// A MapModel is a model whose specular map holds a scale or F0. `lobe` is the model itself if reflectance is
+// linear in that value. Otherwise `lobe` is a perfect mirror's lobe, to be multiplied by the exact Fresnel
+// reflectance of a dielectric with the map's F0.
 struct MapModel {
   BrdfModel lobe;
   bool is_dielectric = false;
 };
 
-// Returns the built-in model `name` for maps with values of 0 to 1: of a model with an index of refraction,
-// the map holds F0. Throws kUsage for an unknown name (with the nearest), and for conductors, since F0 does
+// Returns the built-in model `name` for maps with values of 0 to 1. For a model with an index of refraction,
+// the map holds F0. Throws kUsage for an unknown name (with the closest), and for conductors, because F0 does
 // not determine their index.
 MapModel builtin_map_model(const std::string& name);
 
@@ -73,8 +74,8 @@ double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& geometry);
 
 Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& geometry);
 
-// The normal distribution of microfacets, normalised to projected area 1, and the separable Smith shadowing
-// of one direction (Walter et al. 2007). Both take kBeckmann, kGgx, kAs.
+// Return the normal distribution of microfacets, normalised to projected area 1, and the separable Smith
+// shadowing of one direction (Walter et al. 2007). Both accept kBeckmann, kGgx, kAs.
 double microfacet_distribution(Brdf brdf, double alpha, double cos_half);
 double smith_shadowing(Brdf brdf, double alpha, double cos_direction);
 

@@ -1,5 +1,5 @@
-// The built-in renderer renders the hub's models in the sweep scene, in double precision. It approximates
-// nothing but the average over a pixel.
+// This file renders the hub's models in the sweep scene, in double precision. It approximates only the
+// average over a pixel.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@
 namespace remap {
 namespace {
 
-// The meaning of parameters other than width and diffuse, and the reflectance that they give the lobe.
+// A Reflectance is the meaning of the parameters other than width and diffuse for the lobe.
 enum class Reflectance {
   kScale,         // `specular`, 0 to 1
   kTrimmedScale,  // `specular`, 0 to 2, clamped to 1 so that energy is conserved
@@ -33,7 +33,7 @@ enum class Reflectance {
 // Below 1e-4 a lobe is a mirror that no picture of the sweep resolves.
 constexpr Range kAlphaRange{1e-4, 1.0};
 
-// Exponents of 0.1 to 10,000: alpha is the square root of 2 / (n + 2).
+// This range is for exponents of 0.1 to 10,000: alpha is the square root of 2 / (n + 2).
 constexpr Range kExponentAlphas{0.014140721622265262, 0.9759000729485333};
 
 struct BuiltinModel {
@@ -44,7 +44,7 @@ struct BuiltinModel {
   Range alpha = kAlphaRange;
 };
 
-// Names as in the hub; `-plain` multiplies the microfacet lobe by a constant instead of Schlick's Fresnel.
+// Names are the hub's. `-plain` multiplies the microfacet lobe by a constant instead of Schlick's Fresnel.
 constexpr std::array kModels = {
     BuiltinModel{"mitsuba/ward", Brdf::kWard, Reflectance::kScale},
     BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Reflectance::kScale},
@@ -80,12 +80,12 @@ constexpr std::array kModels = {
                  RoughnessEncoding::kExponent, kExponentAlphas},
 };
 
-// Dielectrics: from no boundary to germanium in the infrared. Conductors: the measured values of visible
-// light, including the 0 that a projection into a color space gives.
+// Dielectrics range from no boundary to germanium in the infrared. Conductors range over the measured values
+// of visible light, including the 0 that a projection into a color space gives.
 constexpr Range kIorRange{1.0, 4.0};
 constexpr Range kEtaRange{0.0, 12.0};
 constexpr Range kExtinctionRange{0.0, 20.0};
-// F0 of a dielectric at `specular` 1 (Burley 2012): 0.5 is 4 %, the index 1.5; 0.375 is the paper's 3 %.
+// This is a dielectric's F0 at `specular` 1 (Burley 2012). 0.5 means 4 %, index 1.5; 0.375 the paper's 3 %.
 constexpr double kDielectricF0 = 0.08;
 
 std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
@@ -132,8 +132,8 @@ const BuiltinModel* find_builtin(const std::string& name) {
   return model == kModels.end() ? nullptr : &*model;
 }
 
-// One lit sample of the picture: its pixel, its directions, and cos_light / distance^2 divided by the number
-// of samples in the pixel.
+// A LitSample is one lit sample of the picture: its pixel, its directions, and cos_light / distance^2 divided
+// by the number of samples in the pixel.
 struct LitSample {
   std::uint32_t pixel;
   LocalGeometry geometry;
@@ -184,7 +184,7 @@ class BuiltinRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
  private:
-  // The directions depend on the scene only, and a sweep renders hundreds of pictures of a few scenes.
+  // Returns the directions. They depend only on the scene, and a sweep uses few scenes.
   std::shared_ptr<const std::vector<LitSample>> samples_of(const Scene& scene) const;
 
   mutable std::mutex mutex_;
@@ -212,7 +212,7 @@ std::shared_ptr<const std::vector<LitSample>> BuiltinRenderer::samples_of(const 
   return samples;
 }
 
-// The parameters of one color channel.
+// A LobeChannel holds the parameters of one color channel.
 struct LobeChannel {
   double specular = 0.0;  // scale, F0, or the index of a dielectric
   double eta = 0.0, k = 0.0;
@@ -232,7 +232,7 @@ double channel_value(const std::vector<double>& values, std::size_t channel) {
   return values[values.size() == 1 ? 0 : channel];
 }
 
-// The parameter values of each channel; one channel where all parameters are grey.
+// Returns the parameter values of each channel, or one channel if all parameters are grey.
 std::vector<LobeChannel> channels_of(const Material& material, const ModelDescription& description,
                                      Reflectance reflectance) {
   std::vector<LobeChannel> channels(1);
@@ -258,8 +258,8 @@ std::vector<LobeChannel> channels_of(const Material& material, const ModelDescri
   return channels;
 }
 
-// The reflectance of one channel, from `shape`, the lobe of a perfect mirror, and `schlick`, Schlick's weight
-// at this geometry.
+// Returns the reflectance of one channel. `shape` is the lobe of a perfect mirror, and `schlick` is Schlick's
+// weight at this geometry.
 double specular_reflectance(Reflectance reflectance, double shape, double schlick, const LobeChannel& channel,
                             double cos_light_half) {
   switch (reflectance) {

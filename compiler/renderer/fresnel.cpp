@@ -23,7 +23,7 @@ PolarisedReflectance fresnel_dielectric(double cosine, double ior) {
 }
 
 PolarisedReflectance fresnel_conductor(double cosine, double eta, double k) {
-  // a + i b = sqrt(c^2 - sin^2): the index times the cosine of the refracted ray.
+  // Here a + i b = sqrt(c^2 - sin^2) is the index times the cosine of the refracted ray.
   const double cosine_2 = cosine * cosine, sine_2 = std::max(0.0, 1.0 - cosine_2);
   const double real = eta * eta - k * k - sine_2;
   const double length = std::sqrt(real * real + 4.0 * eta * eta * k * k);

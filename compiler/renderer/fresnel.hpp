@@ -1,5 +1,5 @@
-// Fresnel reflectance of smooth boundaries for unpolarised light, and equation (1) of the paper, which
-// reduces an index of refraction to the reflectance at normal incidence.
+// This file computes Fresnel reflectance of smooth boundaries for unpolarised light. It also has equation (1)
+// of the paper, which reduces an index of refraction to the reflectance at normal incidence.
 #pragma once
 
 #include <complex>
@@ -14,19 +14,20 @@ double normal_reflectance(std::complex<double> ior);
 // Returns the real index >= 1 whose normal_reflectance is `f0` in [0, 1): (1 + sqrt(f0)) / (1 - sqrt(f0)).
 double ior_of_reflectance(double f0);
 
-// Reflectance of light polarised in the plane of incidence (p) and perpendicular to it (s).
+// A PolarisedReflectance is the reflectance of light polarised in the plane of incidence (p) and
+// perpendicular to it (s).
 struct PolarisedReflectance {
   double p;
   double s;
   double mean() const { return 0.5 * (p + s); }
 };
 
-// Reflectance of a dielectric with relative index `ior` > 0, seen from outside; `cosine` in [0, 1] is that of
-// the angle of incidence (Fresnel 1823). Returns 1 under total reflection, which needs ior < 1.
+// Returns the reflectance of a dielectric with relative index `ior` > 0, seen from outside. `cosine` in [0,
+// 1] belongs to the angle of incidence (Fresnel 1823). Returns 1 under total reflection, which needs ior < 1.
 PolarisedReflectance fresnel_dielectric(double cosine, double ior);
 
-// Reflectance of a conductor with index eta + i k, eta > 0, k >= 0, without approximation (Born and Wolf
-// 1999, section 14.2). At k = 0 it equals fresnel_dielectric.
+// Returns the reflectance of a conductor with index eta + i k, eta > 0, k >= 0, without approximation (Born
+// and Wolf 1999, section 14.2). At k = 0 it equals fresnel_dielectric.
 PolarisedReflectance fresnel_conductor(double cosine, double eta, double k);
 
 // Returns (1 - cosine)^5, the weight of white in Schlick's Fresnel (1994): F = F0 + (1 - F0) weight.

@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// Finds red, green and blue: by name, else the first three channels; a single channel serves as all three.
+// Finds red, green and blue by name, otherwise the first three channels. A single channel is all three.
 std::array<std::size_t, 3> color_channels(const std::vector<std::string>& names,
                                           const std::filesystem::path& path) {
   if (names.size() == 1) return {0, 0, 0};

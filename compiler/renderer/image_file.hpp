@@ -1,4 +1,4 @@
-// Reads and writes the compiler's pictures.
+// This file reads and writes the compiler's pictures.
 #pragma once
 
 #include <filesystem>

@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// In the order of ParameterRole: for messages, and as words of the protocol.
+// These words, in the order of ParameterRole, are used in messages and in the protocol.
 constexpr std::array<const char*, 6> kRoleNames = {"roughness",           "specular",   "diffuse",
                                                    "index of refraction", "extinction", "anything else"};
 constexpr std::array<std::string_view, 6> kRoleWords = {"roughness", "specular",   "diffuse",

@@ -1,5 +1,5 @@
-// The interface of a renderer: a black box with models, parameters and scenes that returns linear images. The
-// built-in renderer and workers implement it; a sweep uses nothing else of them.
+// This file is the interface of a renderer: a black box with models, parameters and scenes that returns
+// linear images. The built-in renderer and workers implement it. A sweep uses nothing else of them.
 #pragma once
 
 #include <array>
@@ -16,15 +16,15 @@
 
 namespace remap {
 
-// What a parameter does, so that a sweep can vary it without knowing its name. A sweep varies the first
-// three. Conductors have an index and an extinction instead of one specular value. kOther keeps its standard
-// value.
+// A ParameterRole is what a parameter does, so that a sweep can vary it without knowing its name. A sweep
+// varies the first three. Conductors have an index and an extinction instead of one specular value. kOther
+// keeps its standard value.
 enum class ParameterRole { kRoughness, kSpecular, kDiffuse, kIndex, kExtinction, kOther };
 inline constexpr std::array kParameterRoles = {ParameterRole::kRoughness,  ParameterRole::kSpecular,
                                                ParameterRole::kDiffuse,    ParameterRole::kIndex,
                                                ParameterRole::kExtinction, ParameterRole::kOther};
 
-// `roughness`, `specular`, `diffuse`, `index`, `extinction`, `other`.
+// Returns `roughness`, `specular`, `diffuse`, `index`, `extinction` or `other`.
 std::string_view role_word(ParameterRole role);
 
 struct ParameterDescription {
@@ -42,16 +42,16 @@ struct ModelDescription {
   std::vector<ParameterDescription> parameters;
   bool noise = false;        // the picture depends on the seed
   bool is_external = false;  // rendered by another program: pictures are expensive, claims are checked
-  double precision = 0.0;    // relative error of a pixel if larger than that of a float, else 0
+  double precision = 0.0;    // relative error of a pixel if larger than a float's, otherwise 0
 
   bool has(ParameterRole role) const;
-  // Throws kUsage if the model has no parameter of that role.
+  // Returns the parameter. Throws kUsage if the model has no parameter of that role.
   const ParameterDescription& parameter(ParameterRole role) const;
-  // Throws kUsage with the nearest known name.
+  // Returns the parameter. Throws kUsage with the closest known name.
   const ParameterDescription& parameter(const std::string& parameter_name) const;
 };
 
-// A model with a value for each parameter: one value for grey, three for red, green, blue.
+// A Material is a model with a value for each parameter: one value for grey, three for red, green, blue.
 struct Material {
   std::string model;
   std::map<std::string, std::vector<double>> parameters;
@@ -61,18 +61,18 @@ class Renderer {
  public:
   virtual ~Renderer() = default;
 
-  // Name and version of the renderer; part of every cache key and recorded in every table.
+  // Returns name and version of the renderer. They are part of every cache key and recorded in every table.
   virtual std::string version() const = 0;
-  // The same for the program that renders `model`, where this renderer combines several.
+  // Returns the same for the program that renders `model`, if this renderer combines several.
   virtual std::string version_of(const std::string& model) const;
 
   virtual std::vector<ModelDescription> models() const = 0;
-  // Returns the description of one model. Throws kUsage for an unknown name, with the nearest.
+  // Returns the description of one model. Throws kUsage for an unknown name, with the closest.
   virtual ModelDescription model(const std::string& name) const;
 
-  // Renders the sphere with `material` in `scene`, as radiance: one channel if every parameter is grey, else
-  // three. Thread-safe. Throws kUsage for an unknown model or parameter or a value out of range, kInput if
-  // the renderer fails.
+  // Renders the sphere with `material` in `scene`, as radiance: one channel if every parameter is grey,
+  // otherwise three. Thread-safe. Throws kUsage for an unknown model or parameter or a value out of range,
+  // and kInput if the renderer fails.
   virtual Image render(const Material& material, const Scene& scene) const = 0;
 };
 
@@ -86,8 +86,7 @@ void require_material(const Material& material, const ModelDescription& model);
 // by models without diffuse). Other parameters get their standard values.
 Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse);
 
-// Converts a range of a model's own width parameter to alpha, ascending: some conventions fall as alpha
-// rises.
+// Converts a range of a model's own width to alpha, ascending, because some widths fall as alpha rises.
 Range canonical_widths(RoughnessEncoding convention, const Range& own);
 
 // Describes `model` as the source or target of a conversion.

@@ -30,7 +30,7 @@ SurfacePoint normalised(const SurfacePoint& v) {
   return {v.x * scale, v.y * scale, v.z * scale};
 }
 
-// Returns the nearest point of the circle in the middle of the tube.
+// Returns the closest point of the circle in the middle of the tube.
 SurfacePoint tube_middle(const SurfacePoint& p) {
   const double height = p.y * kSine + p.z * kCosine;  // along the axis
   const SurfacePoint flat = {p.x, p.y - height * kSine, p.z - height * kCosine};
@@ -43,7 +43,7 @@ double torus_distance(const SurfacePoint& p) {
   return length({p.x - middle.x, p.y - middle.y, p.z - middle.z}) - kTubeRadius;
 }
 
-// Sphere tracing (Hart 1996): steps of the exact distance never pass the surface. Returns the distance along
+// Traces spheres (Hart 1996): steps of the exact distance never pass the surface. Returns the distance along
 // the ray, or a negative number if nothing is hit before `end`.
 double march(const SurfacePoint& origin, const SurfacePoint& direction, double start, double end) {
   double t = start;
@@ -85,7 +85,7 @@ SurfacePoint camera_ray(int resolution, double column, double row) {
 bool sphere_point(int resolution, double column, double row, SurfacePoint* point) {
   const SurfacePoint ray = camera_ray(resolution, column, row);
   const double dx = ray.x, dy = ray.y;
-  // Ray (0, 0, d) + t (dx, dy, -1) against x^2 + y^2 + z^2 = 1; the smaller root is the visible point.
+  // Intersect the ray (0, 0, d) + t (dx, dy, -1) with x^2 + y^2 + z^2 = 1. The smaller root is visible.
   const double a = dx * dx + dy * dy + 1.0;
   const double b = kCameraDistance;
   const double discriminant = b * b - a * (b * b - 1.0);

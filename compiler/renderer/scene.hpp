@@ -1,6 +1,6 @@
-// The sweep scene (Sztrajman et al. 2019, section 4.1): a unit sphere at the origin, a pinhole camera on +z
-// whose square image just encloses the sphere, and one point light of unit intensity. A torus in place of the
-// sphere previews a conversion on another shape.
+// This file holds the sweep scene (Sztrajman et al. 2019, section 4.1): a unit sphere at the origin, a
+// pinhole camera on +z whose square image just encloses the sphere, and one point light of unit intensity. A
+// torus can replace the sphere to preview a conversion on another shape.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@ namespace remap {
 
 inline constexpr double kCameraDistance = 3.0;
 
-// A point light of unit intensity. `angle` is measured in degrees at the sphere, from the camera about the
-// vertical axis (0: headlight). `distance` is measured from the origin in sphere radii (> 1).
+// A Light is a point light of unit intensity. `angle` is measured in degrees at the sphere, from the camera
+// about the vertical axis (0: headlight). `distance` is measured from the origin in sphere radii (> 1).
 struct Light {
   double angle = 0.0;
   double distance = 3.0;
   bool operator==(const Light&) const = default;
 };
 
-// The object in front of the camera. Sweeps use the sphere.
+// A Shape is the object in front of the camera. Sweeps use the sphere.
 enum class Shape { kSphere, kTorus };
 inline constexpr NamedValues<Shape, 2> kShapes = {{{Shape::kSphere, "sphere"}, {Shape::kTorus, "torus"}}};
 
-// One picture. `samples_per_axis` = 1 samples the pixel centre; N averages an N x N grid in each pixel.
+// A Scene is one picture. `samples_per_axis` 1 samples the pixel centre; N averages an N x N grid.
 struct Scene {
   int resolution = 512;  // width and height in pixels
   int samples_per_axis = 1;
@@ -35,10 +35,10 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-// Returns `headlight` for a light at the camera, else its angle in degrees, with the distance if it is not 3.
+// Returns `headlight` for a light at the camera. Otherwise returns degrees, with the distance if it is not 3.
 std::string light_name(const Light& light);
 
-// A point or direction in world space, which is view space (camera on +z).
+// A SurfacePoint is a point or direction in world space, which is view space (camera on +z).
 struct SurfacePoint {
   double x, y, z;  // on the unit sphere, the position is also the normal
 };
@@ -51,8 +51,8 @@ SurfacePoint camera_ray(int resolution, double column, double row);
 // Returns false if it misses.
 bool sphere_point(int resolution, double column, double row, SurfacePoint* point);
 
-// Returns cos(normal, view) of each pixel, averaged over its samples; 0 where the pixel does not show the
-// sphere. Row-major, resolution^2 values.
+// Returns cos(normal, view) of each pixel, averaged over its samples, and 0 if the pixel does not show the
+// sphere. The values are row-major, resolution^2.
 std::vector<float> view_cosines(int resolution, int samples_per_axis);
 
 // Returns `sphere` or `torus`.
@@ -73,8 +73,8 @@ struct SurfaceHit {
 // if it misses.
 bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit);
 
-// Whether the shape casts its own shadow on the point, for a light at `light`. Always false for the sphere:
-// its own shadow is where the light is below the horizon, which this function does not test.
+// Returns true if the shape casts its own shadow on the point, for a light at `light`. Always false for the
+// sphere: its own shadow is where the light is below the horizon, which this function does not test.
 bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light);
 
 // Returns the indices, row by row, of the pixels whose centres show the shape.

@@ -13,7 +13,7 @@ constexpr int kResolution = 128;
 // At this width the highlight covers about a hundred pixels.
 constexpr double kNarrowWidth = 0.3;
 
-// The noise of one picture, from two that differ in the seed only: the difference has sqrt(2) times its
+// Returns the noise of one picture, from two with different seeds. The difference has sqrt(2) times its
 // error.
 Noise difference(const Image& a, const Image& b) {
   if (a.values.size() != b.values.size()) return {};  // PictureTaker reports pictures of the wrong size

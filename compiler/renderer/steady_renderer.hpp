@@ -1,4 +1,4 @@
-// Averages the pictures of noisy renderers over seeds, after measuring how noisy they are.
+// This file averages the pictures of noisy renderers over seeds, after measuring how noisy they are.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// How much the pictures of a model depend on the seed.
+// A Noise states how much the pictures of a model depend on the seed.
 struct Noise {
   double level = 0.0;    // RMS difference from the mean over seeds, relative to the RMS of the picture
   double largest = 0.0;  // largest difference of one pixel, relative to the brightest pixel
@@ -21,22 +21,22 @@ inline constexpr double kSteadyNoise = 0.01;
 // Averaging more pictures than this makes a sweep too slow.
 inline constexpr int kMostSeeds = 64;
 
-// Renders like `inner`, but averages the pictures of some models over as many seeds as their noise requires.
-// The noise is measured, whatever the model's description claims. Other models are passed through.
+// A SteadyRenderer renders like `inner`, but averages the pictures of some models over as many seeds as their
+// noise requires. The noise is measured, not taken from descriptions. Other models are passed through.
 class SteadyRenderer final : public Renderer {
  public:
-  // Measures the noise of those `models` that are external, under `light`: two pictures of 128^2 at two
-  // widths each. Throws kInput if more than kMostSeeds pictures would be needed, kUsage for unknown models.
+  // Measures the noise of the external ones of `models`, under `light`: two pictures of 128^2 at two widths
+  // each. Throws kInput if more than kMostSeeds pictures would be needed, and kUsage for unknown models.
   SteadyRenderer(const Renderer& inner, const std::vector<std::string>& models, const Light& light);
 
-  // For a model that was measured.
+  // Returns the noise of a model that was measured.
   const Noise& noise(const std::string& model) const { return noise_.at(model); }
   bool measured(const std::string& model) const { return noise_.contains(model); }
 
   std::string version() const override { return inner_.version(); }
   std::string version_of(const std::string& model) const override { return inner_.version_of(model); }
   std::vector<ModelDescription> models() const override { return inner_.models(); }
-  // The precision in the description includes the remaining noise.
+  // Returns the description. Its precision includes the remaining noise.
   ModelDescription model(const std::string& name) const override;
   Image render(const Material& material, const Scene& scene) const override;
 

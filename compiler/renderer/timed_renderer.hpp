@@ -1,4 +1,4 @@
-// Counts the pictures of a renderer and the time that they take.
+// This file counts the pictures of a renderer and the time that they take.
 #pragma once
 
 #include <atomic>
@@ -7,7 +7,7 @@
 
 namespace remap {
 
-// Renders like `inner`. Seconds are those that callers waited, summed over threads.
+// A TimedRenderer renders like `inner`. Its seconds are the waiting time of callers, summed over threads.
 class TimedRenderer final : public Renderer {
  public:
   explicit TimedRenderer(const Renderer& inner) : inner_(inner) {}

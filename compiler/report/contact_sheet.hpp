@@ -1,4 +1,4 @@
-// Sheets of small pictures for visual comparison.
+// This file makes sheets of small pictures for visual comparison.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace remap {
 
-// The display value of a sheet where it shows no picture.
+// This is the display value of a sheet outside its pictures.
 inline constexpr float kSheetBackground = 0.12f;
 
 // Returns a dark sheet of display values for `rows` x `columns` square pictures of `side` pixels.
 Image contact_sheet(std::size_t rows, std::size_t columns, int side);
 
-// Copies a picture to a cell of the sheet. `pixels`: row-major indices into the square; `colors`: three
+// Copies a picture to a cell of the sheet. `pixels` are row-major indices into the square, and `colors` three
 // display values for each of them.
 void place_picture(Image* sheet, int side, std::size_t row, std::size_t column,
                    std::span<const std::uint32_t> pixels, std::span<const float> colors);

@@ -21,9 +21,9 @@ namespace {
 constexpr std::size_t kMostRows = 2000;
 constexpr int kCurvePoints = 200;
 constexpr const char* kLimitColor = "#999999";
-constexpr std::size_t kCurves = 5;  // alphas whose specular is drawn
+constexpr std::size_t kCurves = 5;  // number of alphas whose specular is drawn
 
-// The least error that is drawn. Smaller errors are rounding.
+// This is the least error that is drawn. Smaller errors are rounding.
 constexpr double kLeastError = 1e-8;
 
 std::string shown_error(double error) { return number_text(std::max(std::fabs(error), kLeastError)); }
@@ -85,7 +85,7 @@ class Plot {
     out_ << "EOD\n";
   }
 
-  // 1 where the target is at a limit, else 0.
+  // Returns 1 if the target is at a limit, otherwise 0.
   int at_limit(const TableRow& row) const { return row.status == RowStatus::kOk ? 0 : 1; }
 
   void write_residuals(std::size_t f) {
@@ -127,9 +127,9 @@ class Plot {
          << " noenhanced\nset ylabel " << gnuplot_text(y) << " noenhanced\n";
   }
 
-  // The first line is the widest, so that overlapping lines stay visible. The rows are drawn last: `rows`, a
-  // data block whose column `y` is drawn over `x`, and whose column `limit` tells those at a limit of the
-  // target.
+  // Plots curves. The first line is the widest, so that overlapping lines stay visible. The rows are drawn
+  // last: `rows` is a data block whose column `y` is drawn over `x`. Its column `limit` marks the rows at a
+  // limit of the target.
   void plot_curves(const std::string& block, const std::string& rows, int x, int y, int limit) {
     // gnuplot requires a range even if all values are 0.
     out_ << "set yrange [0:1e-3<*]\nset key left top Left reverse\nplot ";

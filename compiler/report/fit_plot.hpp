@@ -1,4 +1,4 @@
-// Plots a table and its fits: both target parameters with the curves of the fits, and the errors of the fits.
+// This file plots a table and its fits: both target parameters with the curves and errors of the fits.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 namespace remap {
 
 // Checks before a long computation that its result can be plotted. Throws kUsage if `path` does not end with
-// .svg or .png, kOutput if its folder cannot be created or gnuplot is missing.
+// .svg or .png, and kOutput if its folder cannot be created or gnuplot is missing.
 void require_plot(const std::filesystem::path& path);
 
-// Writes the plot as SVG or PNG. `fits`: one to six fits of `table` with the same domain. Draws at most 2000
-// usable rows. Throws kOutput if gnuplot fails or the file cannot be written.
+// Writes the plot as SVG or PNG. `fits` are one to six fits of `table` with the same domain. Draws at most
+// 2000 usable rows. Throws kOutput if gnuplot fails or the file cannot be written.
 void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<Fit>& fits);
 
-// The kind and, if it has one, the form of a fit: for example `parametric paper`, `svr`.
+// Returns the kind and, if it has one, the form of a fit: for example `parametric paper`, `svr`.
 std::string fit_label(const Fit& fit);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// Draws plots with gnuplot, which runs as a child process.
+// This file draws plots with gnuplot, which runs as a child process.
 #pragma once
 
 #include <array>
@@ -10,16 +10,16 @@ namespace remap {
 // Throws kOutput with the name of Debian's package if gnuplot cannot be started.
 void require_gnuplot();
 
-// Colors that color-blind readers can distinguish (Okabe and Ito 2008).
+// These are colors that color-blind readers can distinguish (Okabe and Ito 2008).
 inline constexpr std::array<const char*, 6> kPlotColors = {"#0072B2", "#D55E00", "#009E73",
                                                            "#CC79A7", "#E69F00", "#56B4E9"};
 
-// The gnuplot commands with which every plot starts: an SVG or PNG of `width` x `height` pixels with a light
-// grid.
+// Returns the gnuplot commands with which every plot starts: an SVG or PNG of `width` x `height` pixels with
+// a light grid.
 std::string plot_style(int width, int height, bool is_png = false);
 
-// `text` as a text of a script, in quotes between which no character has a meaning for gnuplot. In double
-// quotes gnuplot would run what stands between backquotes.
+// Returns `text` as a text of a script, in quotes that give no character a meaning for gnuplot. In double
+// quotes gnuplot would run commands between backquotes.
 std::string gnuplot_text(const std::string& text);
 
 // Writes the SVG or PNG that gnuplot draws for `script`. Throws kOutput if the file cannot be written, or if

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kColumns = 3;  // source, copied, converted
 
-// One side of the fit, ready to be rendered.
+// An End is one side of the fit, ready to be rendered.
 struct End {
   ModelDescription model;
   SpecularResponse response;  // between the fit's specular and the model's own
@@ -60,13 +60,13 @@ Material material_of(const End& end, double alpha, const std::vector<double>& sp
   return material;
 }
 
-// Linear radiance of a shape and the share of each pixel that it covers, row by row.
+// A CoveredPicture holds a shape's linear radiance and the covered fraction of each pixel, row by row.
 struct CoveredPicture {
   std::vector<float> radiance;  // red, green, blue; mean over the covered part of the pixel
   std::vector<float> coverage;  // 0 to 1
 };
 
-// The share of each pixel that the sphere covers, from samples x samples points.
+// Returns the fraction of each pixel that the sphere covers, from samples x samples points.
 std::vector<float> sphere_coverage(int side, int samples) {
   const auto width = static_cast<std::size_t>(side), step = static_cast<std::size_t>(samples);
   std::vector<float> coverage(width * width, 0.0f);
@@ -76,14 +76,14 @@ std::vector<float> sphere_coverage(int side, int samples) {
   return coverage;
 }
 
-// The pixel beside `pixel` on its way to the center of the picture.
+// Returns the pixel beside `pixel` in the direction of the picture's center.
 std::size_t inner_pixel(std::size_t pixel, std::size_t width) {
   const auto inner = [&](std::size_t place) { return place < width / 2 ? place + 1 : place - 1; };
   return inner(pixel / width) * width + inner(pixel % width);
 }
 
-// Channel c comes from the material `first + c`, or from `first` where the specular is grey. A pixel of the
-// rim whose center misses the sphere looks like its inner neighbour.
+// Returns a picture. Channel c comes from the material `first + c`, or from `first` if the specular is grey.
+// A pixel of the rim whose center misses the sphere looks like its inner neighbour.
 CoveredPicture covered_picture(const SpherePictures& pictures, std::size_t first, std::size_t material_count,
                                int samples) {
   const auto width = static_cast<std::size_t>(pictures.resolution());
@@ -102,7 +102,7 @@ CoveredPicture covered_picture(const SpherePictures& pictures, std::size_t first
   return picture;
 }
 
-// Pixels that show the shape at least in part.
+// Returns pixels that show the shape at least in part.
 std::vector<std::uint32_t> covered_pixels(const CoveredPicture& picture) {
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < picture.coverage.size(); ++i)
@@ -117,7 +117,7 @@ std::vector<float> chosen(const CoveredPicture& picture, const std::vector<std::
   return radiance;
 }
 
-// Display values over the background of the sheet, so that a rim is smooth.
+// Returns display values over the background of the sheet, so that a rim is smooth.
 std::vector<float> over_background(const CoveredPicture& picture, const std::vector<std::uint32_t>& pixels,
                                    std::vector<float> colors) {
   for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -128,13 +128,12 @@ std::vector<float> over_background(const CoveredPicture& picture, const std::vec
   return colors;
 }
 
-// The three pictures of a row.
 using RowPictures = std::array<CoveredPicture, kColumns>;
 
-// Takes the share of a row's work that is finished, 0 to 1.
+// A RowProgress receives the finished fraction of a row's work, 0 to 1.
 using RowProgress = std::function<void(double)>;
 
-// Renders rows under a point light.
+// A LampStudio renders rows under a point light.
 class LampStudio {
  public:
   LampStudio(const Renderer& renderer, const Fit& fit, const PreviewOptions& options, const Light& light)
@@ -180,7 +179,7 @@ class LampStudio {
   End source_, target_;
 };
 
-// Renders rows under an environment.
+// An EnvironmentStudio renders rows under an environment.
 class EnvironmentStudio {
  public:
   EnvironmentStudio(const Fit& fit, const PreviewOptions& options, const Environment& environment)
@@ -214,7 +213,7 @@ class EnvironmentStudio {
   }
 
  private:
-  // Spots of light are directions, each of which costs as much as a sample: a finer map has more of them.
+  // The map is coarse, because each spot of light costs as much as a sample, and a finer map has more spots.
   static constexpr int kMapRows = 64;
 
   static BrdfModel lobe_of(const ModelSide& side, const Environment& environment) {
@@ -260,7 +259,7 @@ std::string short_list(std::vector<double> values) {
   return listed(values);
 }
 
-// The scene, and the numbers of a source and of its conversion.
+// Returns the scene, and the numbers of a source and of its conversion.
 std::string row_label(const std::vector<double>& specular, const PreviewFigure& figure) {
   return figure.light + ", " + shape_name(figure.shape) + "\nalpha " + short_number(figure.alpha) + "\n-> " +
          short_number(figure.target_alpha) + "\nspecular " + short_list(specular) + "\n-> " +
@@ -275,7 +274,7 @@ std::vector<Shape> lit_shapes(const PreviewLight& light, const std::vector<Shape
   return {Shape::kSphere};
 }
 
-// Fills a preview row by row.
+// A SheetFiller fills a preview row by row.
 class SheetFiller {
  public:
   SheetFiller(const Fit& fit, const PreviewOptions& options, std::size_t rows)
@@ -299,7 +298,7 @@ class SheetFiller {
   Preview result() { return std::move(preview_); }
 
  private:
-  // `share`: of the row in work.
+  // Reports progress. `share` belongs to the row in work.
   void tell(double share) const {
     const double finished = static_cast<double>(preview_.figures.size()) + share;
     if (options_.progress) options_.progress(finished / static_cast<double>(rows_));

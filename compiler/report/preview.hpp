@@ -1,6 +1,6 @@
-// Previews a conversion: under each light, the source, the target with the numbers of the source, and the
-// target with converted numbers, on several shapes and at alphas that may differ from those of the sweep.
-// Copying the numbers is what a conversion competes with.
+// This file previews a conversion on several shapes. Under each light it shows the source, the target with
+// the numbers of the source, and the target with converted numbers. Alphas may differ from the sweep's.
+// Copying the numbers is the alternative to a conversion.
 #pragma once
 
 #include <functional>
@@ -15,18 +15,18 @@
 
 namespace remap {
 
-// A point light, or an environment, which lights spheres of the built-in renderer only.
+// A PreviewLight is a point light, or an environment, which lights only spheres of the built-in renderer.
 struct PreviewLight {
   std::string name;
   std::variant<Light, Environment> light;
 };
 
-// `headlight` or degrees from the camera, -180 to 180, at `distance` in radii of the sphere; sky, overcast,
-// studio or a file (EXR, HDR), whose mean luminance becomes `exposure` (> 0). Throws kUsage, and kInput as
-// load_environment does.
+// Reads `headlight` or degrees from the camera, -180 to 180, at `distance` in radii of the sphere. Also reads
+// sky, overcast, studio or a file (EXR, HDR), whose mean luminance becomes `exposure` (> 0). Throws kUsage,
+// and kInput like load_environment.
 PreviewLight preview_light(const std::string& word, double distance, double exposure);
 
-// `studio`, which lights spheres of built-in models; `45` if a model or every shape is another.
+// Returns `studio`, which lights spheres of built-in models, or `45` for other models or without a sphere.
 std::string default_light(const Fit& fit, const std::vector<Shape>& shapes);
 
 struct PreviewOptions {
@@ -39,17 +39,18 @@ struct PreviewOptions {
   int resolution = 160;          // width and height of each picture, pixels
   int samples_per_axis = 2;      // N x N samples in each pixel; under an environment of its coverage only
   int directions = 64;           // samples of an environment's light for each pixel
-  std::function<void(double share)> progress;  // of the whole, 0 to 1; from any thread. It may throw
+  std::function<void(double share)>
+      progress;  // receives the finished fraction, 0 to 1; any thread; may throw
 };
 
-// How far a picture is from the source's, in display values (sRGB) over the pixels that show the shape. Under
-// a point light, a white diffuse surface facing it where it is nearest is white.
+// A PreviewSimilarity compares a picture with the source's, in display values (sRGB) over the pixels that
+// show the shape. Under a point light, a white diffuse surface facing it at the closest point is white.
 struct PreviewSimilarity {
   double ssim = 0.0;  // of luma, 1 for equal pictures
   double rms = 0.0;   // over red, green and blue
 };
 
-// One source material, shown in three pictures.
+// A PreviewFigure is one source material, shown in three pictures.
 struct PreviewFigure {
   std::string light;
   Shape shape = Shape::kSphere;
@@ -68,13 +69,13 @@ struct Preview {
   SheetLabels labels;
 };
 
-// Four alphas in a geometric sequence over the part of 0.1 to 0.7 that the domain covers.
+// Returns four alphas in a geometric sequence over the part of 0.1 to 0.7 that the domain covers.
 std::vector<double> preview_alphas(const Domain& domain);
 
-// The source's pictures are multiplied by the factor between the light of the two renderers that the fit's
-// table states. Throws kUsage for models that `renderer` does not have, for an environment without the sphere
-// or with models that are no lobes of the built-in renderer with a scale or F0, for values out of range, for
-// a diffuse reflectance where a model has none, and without lights or shapes.
+// Makes a preview. The source's pictures are multiplied by the factor between the light of the two renderers
+// from the fit's table. Throws kUsage for models that `renderer` lacks, and for values out of range. Also
+// throws it for an environment without the sphere or with models that are not lobes of the built-in renderer
+// with a scale or F0, for a diffuse reflectance that a model lacks, and without lights or shapes.
 Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOptions& options);
 
 }  // namespace remap

@@ -17,7 +17,7 @@ constexpr double kSteepest = 0.7;      // tangent of the slope at the edges of t
 constexpr double kSurroundings = 0.3;  // uniform radiance from all sides
 constexpr double kLeastAlpha = 0.02;   // narrower highlights would be smaller than a pixel
 
-// Colors that color-blind readers can distinguish (Okabe and Ito 2008).
+// These are colors that color-blind readers can distinguish (Okabe and Ito 2008).
 constexpr std::array<DisplayColor, 7> kStrokeColors = {{{0.84f, 0.37f, 0.00f},
                                                         {0.00f, 0.45f, 0.70f},
                                                         {0.00f, 0.62f, 0.45f},

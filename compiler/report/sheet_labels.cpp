@@ -11,10 +11,10 @@
 namespace remap {
 namespace {
 
-// In dots of the font: the distance of lines, and the room on each side of a text.
+// These are in dots of the font: the distance of lines, and the room on each side of a text.
 constexpr int kLineHeight = 11, kTextMargin = 5;
-constexpr int kCellOfDots = 128;  // a dot is as many pixels as this goes into the side of a cell
-constexpr int kRowDots = 170;     // the most that a label of a row takes
+constexpr int kCellOfDots = 128;  // this many dots go into the side of a cell
+constexpr int kRowDots = 170;     // limit for the label of a row
 constexpr int kMostLines = 9;
 constexpr float kInk = 0.9f;
 
@@ -22,7 +22,7 @@ using TextLines = std::vector<std::string>;
 
 int width_in_dots(std::string line) { return stb_easy_font_width(line.data()); }
 
-// The place of the last space that leaves at most `room` dots before it; npos where there is none.
+// Returns the place of the last space that leaves at most `room` dots before it, or npos if there is none.
 std::size_t line_break(const std::string& line, int room) {
   std::size_t space = line.rfind(' ');
   while (space != std::string::npos && width_in_dots(line.substr(0, space)) > room)
@@ -30,7 +30,7 @@ std::size_t line_break(const std::string& line, int room) {
   return space;
 }
 
-// The lines of a label, at most `most` and each at most `room` dots wide.
+// Returns the lines of a label, at most `most` and each at most `room` dots wide.
 TextLines shown_lines(const std::string& label, int room, int most) {
   TextLines lines = parts_between(label, '\n');
   for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -1,5 +1,5 @@
-// Labels around the pictures of a sheet. Their letters are those of stb_easy_font: fonts of the machine take
-// no part, so a sheet has the same bytes everywhere.
+// This file draws labels around the pictures of a sheet. The letters come from stb_easy_font, not from fonts
+// of the machine, so a sheet has the same bytes everywhere.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace remap {
 
-// One text for each column and row; `\n` begins a new line.
+// A SheetLabels holds one text for each column and row; `\n` begins a new line.
 struct SheetLabels {
   std::vector<std::string> columns, rows;
 };
 
-// Returns the sheet of equal cells with the labels of columns above it and those of rows at its left. A line
-// that is too long is broken at a space, and a word cut to end with "..."; lines that have no room are left
-// out; a character that is not ASCII is shown as "?".
+// Returns the sheet of equal cells with column labels above it and row labels at its left. A line that is too
+// long is broken at a space, and a long word is cut to end with "...". Lines without room are left out. A
+// character that is not ASCII is shown as "?".
 Image labelled(const Image& sheet, const SheetLabels& labels);
 
 }  // namespace remap

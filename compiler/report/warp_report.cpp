@@ -20,14 +20,14 @@ constexpr int kSide = 512;  // in pixels
 constexpr std::size_t kMostPoints = 16384, kMostStrokePoints = 512;
 constexpr DisplayColor kGrey = {0.72f, 0.72f, 0.72f};
 
-// Points of one kind. Later points cover earlier ones.
+// A PlottedPoints holds points of one kind. Later points cover earlier ones.
 struct PlottedPoints {
   Points positions;                  // the first two coordinates are drawn; rows with NaN are skipped
   std::vector<DisplayColor> colors;  // one per point, or one for all
   double radius = 1.0;               // in pixels
 };
 
-// The visible part of the plane.
+// A PlotBox is the visible part of the plane.
 struct PlotBox {
   double x = 0.0, y = 0.0;  // centre
   double half_width = 1.0, half_height = 1.0;
@@ -35,7 +35,7 @@ struct PlotBox {
 
 constexpr float kPlotPaper = 0.97f, kLine = 0.85f;
 
-// The first two coordinates of row `i`.
+// Returns the first two coordinates of row `i`.
 std::array<double, 2> place_of(const Points& positions, Eigen::Index i) {
   const double golden = 0.6180339887498949 * static_cast<double>(i);
   return {positions(i, 0), positions.cols() > 1 ? positions(i, 1) : golden - std::floor(golden) - 0.5};
@@ -66,7 +66,7 @@ void draw_lines(const PlotBox& box, double scale, Image* picture) {
   for (int x = 0; x < picture->width && row >= 0 && row < picture->height; ++x) mark(x, row);
 }
 
-// The bounding box of all layers, enlarged by a twentieth, and widened to an aspect ratio of 1:1 to 3:1.
+// Returns the bounding box of all layers, enlarged by a twentieth, with an aspect ratio of 1:1 to 3:1.
 PlotBox box_around(const std::vector<PlottedPoints>& layers) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
@@ -113,7 +113,7 @@ std::vector<WarpTexel> texels_at(const TextureMaterial& material, const std::vec
   return texels;
 }
 
-// The points of a material in its space.
+// A Cloud holds the points of a material in its space.
 struct Cloud {
   PlottedPoints texels;
   std::vector<PlottedPoints> strokes;

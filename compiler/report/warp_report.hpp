@@ -1,5 +1,5 @@
-// Reports a warp in pictures: both materials, their strokes and appearance spaces, and the result (An et al.
-// 2011, figure 1).
+// This file reports a warp in pictures: both materials, their strokes and appearance spaces, and the result
+// (An et al. 2011, figure 1).
 #pragma once
 
 #include <filesystem>
@@ -13,22 +13,22 @@
 
 namespace remap {
 
-// Pictures in display values. The longer side of maps and the width of spaces are 512 pixels.
+// A WarpPictures holds pictures in display values. Longer sides of maps and widths of spaces are 512 pixels.
 struct WarpPictures {
   Image source, target, result;          // shaded by shaded_map()
   Image source_strokes, target_strokes;  // the dimmed maps with the strokes in their colors
-  // The first two coordinates: points in the colors of texels; points of strokes are larger and in the colors
-  // of the strokes.
+  // These show the first two coordinates. Points have the colors of texels; points of strokes are larger and
+  // in the colors of the strokes.
   Image source_space, target_space;
   Image before, after;  // the source's points, or their images, over the template's (grey)
 };
 
-// Draws the pictures. The result is that of the compiled converter. Draws at most 16384 points of each
+// Draws the pictures. The result comes from the compiled converter. Draws at most 16384 points of each
 // material and 512 points of each stroke.
 WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial& target,
                            const std::vector<StrokePair>& strokes, const WarpFit& fit);
 
-// The texts of the report.
+// A WarpWords holds the texts of the report.
 struct WarpWords {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  // name and value

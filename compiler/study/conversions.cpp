@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-// The target parameters for each alpha of the options.
+// Parameters holds the target parameters for each alpha of the options.
 using Parameters = std::vector<SamplePoint>;
 
 Parameters copied(const EnvironmentsOptions& options) {
@@ -62,10 +62,11 @@ constexpr double kWidthRatio = 1.085;  // between neighboring alphas
 constexpr int kLeastErrorSamples = 256;
 constexpr double kWidestAlpha = 1.0;  // limit of the built-in models
 
-// Pictures of one material under each environment.
+// Pictures holds pictures of one material under each environment.
 using Pictures = std::vector<std::vector<float>>;
 
-// The mean RMSE of a target whose pictures are dark + specular * (bright - dark). `source`: display values.
+// Returns the mean RMSE of a target whose pictures are dark + specular * (bright - dark). `source` has
+// display values.
 double mean_rmse(const Pictures& source, const Pictures& dark, const Pictures& bright, double specular) {
   double sum = 0.0;
   std::vector<float> shown;
@@ -80,7 +81,7 @@ double mean_rmse(const Pictures& source, const Pictures& dark, const Pictures& b
   return sum / static_cast<double>(source.size());
 }
 
-// The position of the minimum of the parabola through three values at -1, 0 and 1, clamped to [-1, 1].
+// Returns the minimum's position of the parabola through values at -1, 0 and 1, clamped to [-1, 1].
 double vertex(double before, double middle, double after) {
   const double bend = before - 2.0 * middle + after;
   return bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;

@@ -1,6 +1,6 @@
-// The options of the environments study, and the target materials that each method of the environments study
-// computes, and the best ones: those with the pictures most similar to the source's under given environments,
-// which no conversion of parameters can exceed.
+// This file holds the options of the environments study, and the target materials that each method computes.
+// It also finds the best materials: their pictures are most similar to the source's under given environments,
+// and no conversion of parameters can do better.
 #pragma once
 
 #include <optional>
@@ -25,12 +25,12 @@ enum class Method {
   kPaper,     // match by the objective `paper`
   kNatural1,  // match by the objective `natural-1`
   kNatural2,  // match by the objective `natural-2`
-  kShipped,   // a texel by a fit (lower/interpreter.hpp)
+  kShipped,   // per texel by a fit (lower/interpreter.hpp)
   kBest,      // least mean RMSE over the given environments; no conversion can be better
 };
 std::string method_name(Method method);
 
-// `progress` is called progress_steps() times.
+// An EnvironmentsOptions holds the options. `progress` is called progress_steps() times.
 struct EnvironmentsOptions : SphereSampling {
   std::vector<StudyPair> pairs;           // models of the built-in renderer
   std::vector<double> alphas;             // of the source
@@ -43,7 +43,7 @@ struct EnvironmentsOptions : SphereSampling {
   std::optional<double> sheet_alpha;      // one of `alphas`: draw contact sheets of it
 };
 
-// The target parameters for one source material.
+// A Conversion holds the target parameters for one source material.
 struct Conversion {
   std::size_t pair = 0;  // index into EnvironmentsOptions::pairs
   Method method = Method::kCopy;
@@ -55,7 +55,7 @@ struct Conversion {
 // method. kShipped applies to pairs with a fit in `options.fits`.
 std::vector<Conversion> conversions_of(const EnvironmentsOptions& options);
 
-// The height of the pictures that the search compares, which is also its number of progress calls per alpha.
+// This is the height of the pictures in the search, and its number of progress calls per alpha.
 inline constexpr int kLeastErrorResolution = 48;
 
 // Returns the target parameters of least mean RMSE over the environments for each of `starts`, which have one

@@ -26,7 +26,7 @@ double mean_radiance(const std::vector<float>& radiance) {
   return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
-// A picture of one material under one environment.
+// A LitPicture is a picture of one material under one environment.
 struct LitPicture {
   DisplayedSphere display;
   double mean = 0.0;                           // linear luminance
@@ -42,8 +42,8 @@ LitPicture picture_of(const SpherePictures& pictures, std::size_t material, std:
   return picture;
 }
 
-// The mean square sampling error of the difference of two pictures. It is estimated from the differences that
-// each half of the light directions gives: the error of their mean is half of their difference.
+// Returns the mean square sampling error of the difference of two pictures. The estimate uses the differences
+// that each half of the light directions gives: the error of their mean is half of their difference.
 double squared_noise(const LitPicture& source, const LitPicture& target) {
   double sum = 0.0;
   for (std::size_t i = 0; i < source.halves[0].size(); ++i) {

@@ -1,13 +1,12 @@
-// A one-dimensional search that the least errors of the studies share.
+// This file holds a one-dimensional search for the least errors of the studies.
 #pragma once
 
 #include <utility>
 
 namespace remap {
 
-// Golden section search in [low, high] for the minimum of `f`, which must have only one there. Each of
-// `steps` evaluates `f` once and reduces the interval to 0.618 times its length. Returns the best point and
-// its value.
+// Searches [low, high] by golden sections for the minimum of `f`, which must have only one there. Each of
+// `steps` evaluates `f` once and shortens the interval to 0.618. Returns the best point and value.
 template <typename Function>
 std::pair<double, double> golden_section(double low, double high, int steps, const Function& f) {
   constexpr double kGolden = 0.6180339887498949;

@@ -22,9 +22,9 @@ std::vector<float> difference(const std::vector<float>& a, const std::vector<flo
   return values;
 }
 
-// RGB values of `pixels` in grey pictures of the built-in renderer with the light at the camera.
+// Returns RGB values of `pixels` in grey pictures of the built-in renderer with the light at the camera.
 BasisPictures headlight_basis(double alpha, int resolution, const std::vector<std::uint32_t>& pixels) {
-  // A light at distance d gives the nearest point of a white diffuse sphere the radiance 1 / (pi (d - 1)^2).
+  // A light at distance d gives the closest point of a white diffuse sphere the radiance 1 / (pi (d - 1)^2).
   constexpr double kNearest = 2.0, kExposure = std::numbers::pi * kNearest * kNearest;
   const auto renderer = make_builtin_renderer();
   Scene scene;
@@ -50,7 +50,7 @@ constexpr std::size_t kPixelStep = 4;
 constexpr std::size_t kGrid = 33;
 constexpr int kSections = 14, kNewtonSteps = 4;
 
-// Pictures of one channel under one light, at the compared pixels.
+// A Strip holds pictures of one channel under one light, at the compared pixels.
 struct Strip {
   std::vector<float> diffuse, dark, slope, source;
 };

@@ -1,7 +1,7 @@
-// Pictures of all materials of one lobe. A picture is linear in diffuse reflectance and F0, so three pictures
-// for each light and alpha give all others. They give the least error of conversions to the metallic
-// workflow: the base color and metallic whose pictures are nearest to those of a specular material, found by
-// numerical search.
+// This file holds pictures of all materials of one lobe. A picture is linear in diffuse reflectance and F0,
+// so three pictures for each light and alpha give all others. They give the least error of conversions to the
+// metallic workflow. A numerical search finds the base color and metallic whose pictures are closest to a
+// specular material's.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,23 @@
 
 namespace remap {
 
-// A surface with a Lambertian lobe and a GGX lobe with Schlick's Fresnel; linear RGB.
+// A Reflectances is a surface with a Lambertian lobe and a GGX lobe with Schlick's Fresnel, in linear RGB.
 struct Reflectances {
   Rgb diffuse{}, f0{};
 };
 
-// A picture of the sphere is diffuse reflectance times `diffuse`, plus `dark`, plus F0 times `slope`; linear
-// RGB, three values per pixel.
+// A BasisPictures gives a picture of the sphere as diffuse reflectance times `diffuse`, plus `dark`, plus F0
+// times `slope`. It is linear RGB, three values per pixel.
 struct BasisPictures {
   std::vector<float> diffuse, dark, slope;
 };
 
-// Pictures of the sphere of the sweep scene at several alphas, under environments and with a light at the
-// camera (headlight).
+// A LitReflectances holds pictures of the sphere of the sweep scene at several alphas, under environments and
+// with a light at the camera (headlight).
 class LitReflectances {
  public:
-  // `alphas`: above 0. Light indices are those of `environments` (of one size, as RadiancePyramid requires);
-  // the last index is the headlight, which gives the nearest point of a white diffuse sphere radiance 1.
+  // `alphas` are above 0. Light indices are as in `environments` (of one size, as RadiancePyramid requires).
+  // The last index is the headlight, which gives the closest point of a white diffuse sphere radiance 1.
   // Throws the errors of render_spheres. Calls `sampling.progress` `sampling.resolution` times for each
   // alpha.
   LitReflectances(std::span<const Environment> environments, std::span<const double> alphas,
@@ -38,13 +38,13 @@ class LitReflectances {
   std::size_t environment_count() const { return environment_count_; }
   std::size_t headlight() const { return environment_count_; }
   int resolution() const { return resolution_; }
-  // Row-major indices of the pixels that show the sphere.
+  // Returns row-major indices of the pixels that show the sphere.
   const std::vector<std::uint32_t>& pixels() const { return pixels_; }
 
   const BasisPictures& basis(std::size_t alpha, std::size_t light) const {
     return bases_[alpha * (environment_count_ + 1) + light];
   }
-  // Linear RGB, three values for each of pixels().
+  // Returns linear RGB, three values for each of pixels().
   std::vector<float> radiance(std::size_t alpha, std::size_t light, const Reflectances& surface) const;
 
  private:
@@ -54,8 +54,9 @@ class LitReflectances {
   std::vector<BasisPictures> bases_;  // [alpha][light]
 };
 
-// The reflectances of a metallic material (remap/workflow.hpp). With n = 1 - metallic, diffuse reflectance
-// is diffuse_of_albedo * n * base color, and F0 is dielectric_f0 * n + metallic * base color.
+// A MetallicReflection holds the reflectances of a metallic material (remap/workflow.hpp). With n = 1 -
+// metallic, diffuse reflectance is diffuse_of_albedo * n * base color, and F0 is dielectric_f0 * n + metallic
+// * base color.
 struct MetallicReflection {
   double dielectric_f0 = 0.04;
   double diffuse_of_albedo = 1.0;
@@ -70,7 +71,7 @@ Reflectances reflectances_of(const MetallicSurface& surface, const MetallicRefle
 
 // Returns the surface of least mean RMSE of display values over the environments of `lit` at one of its
 // alphas. Searches metallic on a grid of 33 values and by a golden section around the best, and base color by
-// Newton's method. Compares a quarter of the pixels, so that the RMSE may exceed the least by some
+// Newton's method. Compares a quarter of the pixels, so that the RMSE may exceed the least by a few
 // thousandths of it.
 MetallicSurface best_metallic(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
                               const MetallicReflection& reflection);

@@ -1,4 +1,4 @@
-// remap-study: measures how accurate the converters are, under environment maps and between workflows.
+// This is remap-study. It measures the accuracy of converters, under environment maps and between workflows.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "command_line/version_text.hpp"

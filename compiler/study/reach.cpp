@@ -22,10 +22,10 @@ namespace remap {
 namespace {
 
 constexpr double kAlphaRatio = 1.01;  // of neighbouring widths of the target
-constexpr std::size_t kStride = 6;    // of those that are looked at first
+constexpr std::size_t kStride = 6;    // of the widths that are examined first
 constexpr double kNarrowest = 0.25;   // width of the target, relative to the source's least
 
-// Value `i` of `count` over a range, the ends included.
+// Returns value `i` of `count` over a range, including its ends.
 double part(const Range& range, std::size_t i, std::size_t count) {
   return range.min + (range.max - range.min) * static_cast<double>(i) / static_cast<double>(count - 1);
 }
@@ -47,7 +47,8 @@ ProbedModel probed(const PictureTaker& taker, const Renderer& renderer, const st
   return model;
 }
 
-// The widths of a target, a hundredth apart, with the pictures that give all others of each. Thread-safe.
+// A TargetWidths holds the widths of a target, a hundredth apart, with the pictures that give all others of
+// each width. Thread-safe.
 class TargetWidths {
  public:
   TargetWidths(const PictureTaker& taker, ProbedModel target, double narrowest)
@@ -65,7 +66,7 @@ class TargetWidths {
   std::size_t size() const { return alphas_.size(); }
   double alpha(std::size_t i) const { return alphas_[i]; }
   const ProbedModel& target() const { return target_; }
-  // Renders them when they are first asked for.
+  // Renders the pictures on the first call.
   const std::vector<std::vector<float>>& pictures(std::size_t i) const {
     std::call_once(are_rendered_[i], [&] { pictures_[i] = take_family(taker_, target_, alphas_[i]); });
     return pictures_[i];
@@ -79,7 +80,7 @@ class TargetWidths {
   mutable std::deque<std::once_flag> are_rendered_;
 };
 
-// The difference of a source picture from those of a target whose specular is free.
+// A Comparison is the difference of a source picture from pictures of a target whose specular is free.
 class Comparison {
  public:
   Comparison(const std::vector<float>& source, std::vector<float> weights, double error_factor)
@@ -88,7 +89,7 @@ class Comparison {
         power_(product(source, source)),
         error_factor_(error_factor) {}
 
-  // The best specular of a width and its error: the loss is a polynomial.
+  // Returns the best specular of a width and its error, from the polynomial of the loss.
   std::pair<double, double> best(const std::vector<std::vector<float>>& pictures,
                                  const SpecularFamily& family) const {
     std::vector<double> loss = {power_};
@@ -122,15 +123,15 @@ class Comparison {
   double power_, error_factor_;
 };
 
-// The least value of the parabola through three errors at equal steps, the middle one least, in squares:
-// there losses are parabolas.
+// Returns the least value of the parabola through three errors at equal steps, the middle one least. It uses
+// squares, because losses are parabolas in squares.
 double least_between(double before, double middle, double after) {
   const double b = before * before, m = middle * middle, a = after * after;
   const double bend = b - 2.0 * m + a;
   return bend > 0.0 ? std::sqrt(std::max(0.0, m - 0.125 * (a - b) * (a - b) / bend)) : middle;
 }
 
-// Looks at every sixth width, then at all around those that are better than their neighbours.
+// Examines every sixth width, then all around the widths that are better than their neighbours.
 void find_least(const Comparison& comparison, const TargetWidths& target, ReachedMaterial* material) {
   const std::size_t count = target.size();
   const SpecularFamily family = target.target().family().value();
@@ -171,7 +172,7 @@ class FitStudy {
     if (scale != fit_.table.comments.end()) source_.exposure = parse_number(scale->second).value_or(1.0);
   }
 
-  // The materials of one source width.
+  // Returns the materials of one source width.
   std::vector<ReachedMaterial> materials(std::size_t row) const {
     std::vector<ReachedMaterial> all;
     for (std::size_t k = 1; k <= options_.materials; ++k) {

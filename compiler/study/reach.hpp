@@ -1,5 +1,5 @@
-// The reach study: how much nearer to the source's picture the target could come than a converter brings it,
-// over the whole range of both parameters.
+// This file is the reach study: how much closer to the source's picture the target could come than a
+// converter brings it, over the whole range of both parameters.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace remap {
 
 struct ReachOptions {
   std::vector<Fit> fits;           // between models that the renderer has
-  std::vector<Range> speculars;    // of the sources, canonical, a range a fit; empty: their whole ranges
+  std::vector<Range> speculars;    // of the sources, canonical, one range per fit; empty: their whole ranges
   std::size_t materials = 32;      // of each parameter: their product is compared
   Range alphas{0.05, 1.0};         // of the source; narrower highlights need more pixels
   int resolution = 192;            // width and height of the pictures in pixels
@@ -25,25 +25,25 @@ struct ReachOptions {
 
 std::size_t progress_steps(const ReachOptions& options);
 
-// One source material. Errors are those of the pictures, relative to the source's, as the objective of the
-// fit's table weighs them.
+// A ReachedMaterial is one source material. Errors compare pictures, relative to the source's, as the
+// objective of the fit's table weighs them.
 struct ReachedMaterial {
   double alpha = 0.0, specular = 0.0;                // of the source
   double target_alpha = 0.0, target_specular = 0.0;  // by the converter
-  double error = 0.0;                                // of those
+  double error = 0.0;                                // of the converter
   double least_alpha = 0.0, least_specular = 0.0;    // the best that the target can do
   double least_error = 0.0;
   double excess() const { return error - least_error; }
 };
 
-// Renders every material, its conversion (by the interpreter, with the domain rule), and the target at widths
-// a hundredth apart, each at its best specular in closed form. No search of a sweep takes part. Throws kUsage
-// for models that the renderer does not have, kInput for a fit whose table does not name its objective and
-// for a target without a family (specular_response.hpp), and kInterrupted.
-// Returns the materials of each fit.
+// Renders every material and its conversion (by the interpreter, with the domain rule). Also renders the
+// target at widths a hundredth apart, each at its best specular in closed form. It uses no search of a sweep.
+// Throws kUsage for models that the renderer lacks, and kInterrupted. Throws kInput for a fit whose table
+// does not name its objective and for a target without a family (specular_response.hpp). Returns the
+// materials of each fit.
 std::vector<std::vector<ReachedMaterial>> study_reach(const Renderer& renderer, const ReachOptions& options);
 
-// A row for each material, by fits in their order.
+// Returns a row for each material, in the order of the fits.
 std::string reach_csv(const ReachOptions& options, const std::vector<std::vector<ReachedMaterial>>& result);
 
 }  // namespace remap

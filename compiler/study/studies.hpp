@@ -1,4 +1,4 @@
-// The subcommands of `remap-study`. Each function adds one study to the program.
+// This file declares the subcommands of `remap-study`. Each function adds one study to the program.
 #pragma once
 
 #include "command_line/command.hpp"

@@ -1,4 +1,4 @@
-// `remap-study environments`: compares pictures of source and converted spheres under environment maps.
+// `remap-study environments` compares pictures of source and converted spheres under environment maps.
 #include <algorithm>
 
 #include "build/fit_folder.hpp"
@@ -11,7 +11,7 @@ namespace remap {
 namespace {
 
 struct EnvironmentsCommand {
-  std::vector<std::string> pairs;  // SOURCE:TARGET; empty: the six of default_pairs()
+  std::vector<std::string> pairs;  // SOURCE:TARGET; if empty, the six of default_pairs()
   bool plain = false;
   EnvironmentsOptions study;
   StudyOptions shared;

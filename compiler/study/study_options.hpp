@@ -1,4 +1,4 @@
-// Options that the studies share: environment maps, rendering, progress and output.
+// This file holds the options that the studies share: environment maps, rendering, progress and output.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@
 namespace remap {
 
 struct StudyOptions {
-  std::vector<std::filesystem::path> environments;  // empty: use the built-in environments
+  std::vector<std::filesystem::path> environments;  // if empty, the built-in environments
   double exposure = 1.0;                            // mean luminance of each environment after scaling
-  std::filesystem::path fit_folder;                 // empty: the default, if it is there
-  std::filesystem::path folder;                     // of the results; empty: standard output
+  std::filesystem::path fit_folder;                 // if empty, the default, if it exists
+  std::filesystem::path folder;                     // of the results; if empty, standard output
   bool pictures = false, force = false, quiet = false;
 };
 
@@ -27,21 +27,19 @@ void add_environment_options(Command& app, StudyOptions& options);
 // Adds `--resolution` and `--samples`.
 void add_sampling_options(Command& app, SphereSampling& sampling);
 
-// Adds `-o`, `--force`, `--jobs`, `--quiet`, and `--pictures` if it has a text. The texts are those of the
-// help.
+// Adds `-o`, `--force`, `--jobs`, `--quiet`, and `--pictures` if it has a text. The texts appear in the help.
 void add_output_options(Command& app, StudyOptions& options, unsigned& jobs, const std::string& folder_text,
                         const std::string& pictures_text = "");
 
-// Reads the environments and scales them to the same mean luminance, so that each of them counts in the
-// means and none is overexposed. Throws kUsage if the exposure is not above 0, and the errors of
-// load_environment.
+// Reads the environments and scales them to the same mean luminance, so that each of them counts in the means
+// and none is overexposed. Throws kUsage if the exposure is not above 0, and the errors of load_environment.
 std::vector<Environment> read_environments(const StudyOptions& options);
 
-// The folder of fits that the user named, otherwise the default; empty if that does not exist.
+// Returns the user's folder of fits, otherwise the default. Returns an empty path if there is none.
 std::filesystem::path fit_folder_of(const StudyOptions& options);
 
-// Creates the output folder for the results of the study `name`. Throws kUsage for pictures without a folder,
-// and kOutput if the folder cannot be created, or holds results of the study that `--force` does not give up.
+// Creates the output folder for the results of the study `name`. Throws kUsage for pictures without a folder.
+// Throws kOutput if the folder cannot be created, or holds results of the study without `--force`.
 void prepare_folder(const StudyOptions& options, const std::string& name);
 
 // Runs `study` until it ends or is interrupted, and prints its progress under `name`.

@@ -1,4 +1,4 @@
-// `remap-study reach`: how much nearer the target could come than converters bring it.
+// `remap-study reach` measures how much closer the target could come than converters bring it.
 #include <algorithm>
 #include <memory>
 
@@ -29,8 +29,8 @@ Range sampled_speculars(const std::filesystem::path& table) {
   return {least->specular1, most->specular1};
 }
 
-// The fits that were asked for, otherwise all between models of the built-in renderer that were matched by
-// pictures.
+// Returns the requested fits. Without a request these are all fits between models of the built-in renderer
+// that were matched by pictures.
 std::vector<Fit> chosen_fits(const ReachCommand& command, const std::filesystem::path& folder) {
   std::vector<Fit> chosen;
   for (Fit& fit : load_fits(folder)) {

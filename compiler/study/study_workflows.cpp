@@ -1,4 +1,4 @@
-// `remap-study workflows`: measures what conversions from the specular to the metallic workflow lose.
+// `remap-study workflows` measures what conversions from the specular to the metallic workflow lose.
 #include <filesystem>
 
 #include "build/fit_folder.hpp"
@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// Brighter than usual, because the methods differ most on dark materials.
+// This is brighter than usual, because the methods differ most on dark materials.
 constexpr double kExposure = 1.7;
 
 struct WorkflowsCommand {

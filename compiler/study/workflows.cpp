@@ -61,7 +61,7 @@ MetallicSurface converted(const WorkflowMethod& method, const Reflectances& surf
   return metallic;
 }
 
-// In the glTF convention, diffuse is scaled by 1 - max(specular).
+// Scales diffuse by 1 - max(specular), as in the glTF convention.
 Reflectances scaled_surface(Reflectances surface) {
   const double left = 1.0 - std::max({surface.f0[0], surface.f0[1], surface.f0[2]});
   for (double& diffuse : surface.diffuse) diffuse *= left;
@@ -79,7 +79,7 @@ double mean_rmse(const WorkflowPictures& pictures, std::size_t environment_count
   return sum / static_cast<double>(environment_count);
 }
 
-// Compares one material with the results of `methods`, of which the last is the least error.
+// Compares one material with the results of `methods`. The last method is the least error.
 std::vector<WorkflowPictures> compared(const LitReflectances& lit, const std::vector<WorkflowMethod>& methods,
                                        const StudyMaterial& material, const Reflectances& shown,
                                        double alpha) {
@@ -132,7 +132,7 @@ WorkflowComparison comparison_of(const WorkflowsOptions& options, const LitRefle
   return comparison;
 }
 
-// Indices of the first materials of each group.
+// Returns indices of the first materials of each group.
 std::vector<std::size_t> sheet_rows(const std::vector<StudyMaterial>& materials) {
   std::vector<std::size_t> rows;
   std::map<std::string, std::size_t> counts;

@@ -1,5 +1,5 @@
-// The workflows study: compares several conversions from the specular to the metallic workflow by pictures
-// under environment maps (Sztrajman et al. 2019, section 8, figures 21 and 22).
+// This file is the workflows study. It compares several conversions from the specular to the metallic
+// workflow by pictures under environment maps (Sztrajman et al. 2019, section 8, figures 21 and 22).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace remap {
 
-// A conversion and the reflectances of its result.
+// A WorkflowMethod is a conversion with the reflectances of its result.
 struct WorkflowMethod {
   std::string name;
   WorkflowConversion conversion;  // to metallic; both ends hold alpha
@@ -24,18 +24,18 @@ struct WorkflowMethod {
 // the projection, in this order. Diffuse is plain; Khronos' solver is applied to such maps although its
 // convention differs, because importers do so. Networks of other conventions are skipped.
 std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned);
-// The methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos' solver is
-// made for this convention.
+// Returns the methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos'
+// solver is made for this convention.
 std::vector<WorkflowMethod> gltf_methods();
 
-// A material of the specular workflow; diffuse is a reflectance.
+// A StudyMaterial is a material of the specular workflow; diffuse is a reflectance.
 struct StudyMaterial {
   std::string name, group;
   Reflectances surface;
   std::size_t alpha = 0;  // index into the alphas of the study
 };
 
-// `progress` is called progress_steps() times.
+// A WorkflowsOptions holds the options. `progress` is called progress_steps() times.
 struct WorkflowsOptions : SphereSampling {
   std::vector<StudyMaterial> materials;
   std::vector<double> alphas;
@@ -50,14 +50,14 @@ std::size_t progress_steps(const WorkflowsOptions& options);
 // columns, and for numbers out of range.
 void read_materials(const std::string& text, const std::string& name, WorkflowsOptions* options);
 
-// One material converted by one method.
+// A WorkflowPictures is one material converted by one method.
 struct WorkflowPictures {
   MetallicSurface surface;
   std::vector<double> rmse;  // for each light: error of display values, in percent of the display range
   std::vector<double> ssim;  // for each light: of luma
 };
 
-// All methods in one convention. The last is kLeastErrorMethod, a search without a conversion.
+// A WorkflowComparison holds all methods in one convention. The last is kLeastErrorMethod, a search.
 struct WorkflowComparison {
   std::string convention;  // `plain`, `gltf`
   std::vector<WorkflowMethod> methods;
@@ -68,25 +68,25 @@ inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
 
 struct WorkflowsResult {
   std::vector<WorkflowComparison> comparisons;  // plain, then glTF
-  // One labelled sheet for each environment, in display values: one row for each of two materials per group;
-  // the source, then the plain methods.
+  // This holds one labelled sheet for each environment, in display values. Each group has two rows, one per
+  // material, with the source, then the plain methods.
   std::vector<Image> sheets;
 };
 
 // Renders every material and the result of each method. The least error is the best of a search under these
 // environments and of all methods with its F0, so that none of them has a smaller error. Throws kUsage for
-// empty lists, numbers out of range, and an environment that has the name of another or of the headlight; and
-// kInterrupted.
+// empty lists, numbers out of range, and an environment with the name of another or of the headlight. Also
+// throws kInterrupted.
 WorkflowsResult study_workflows(const WorkflowsOptions& options);
 
-// A row for each convention, material, method and light. The last light is the headlight.
+// Returns a row for each convention, material, method and light. The last light is the headlight.
 std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult& result);
 
-// Random metallic materials are converted to the specular workflow by equation (2) and back by each method
-// (Sztrajman et al. 2019, section 8, figure 20, in the opposite direction). Both workflows can represent
-// them.
+// Round trips: random metallic materials are converted to the specular workflow by equation (2) and back by
+// each method (Sztrajman et al. 2019, section 8, figure 20, in the opposite direction). Both workflows can
+// represent them.
 
-// The distribution of the materials and the storage of the specular maps.
+// A FamilyKind is the distribution of the materials and the storage of the specular maps.
 enum class FamilyKind {
   kExact,    // base color and metallic uniform; floats
   kStored,   // as kExact, stored with 8 bits in sRGB
@@ -94,16 +94,17 @@ enum class FamilyKind {
 };
 inline constexpr std::size_t kFamilyKinds = 3;
 
-// RMS errors of one method over the materials of one kind. Base color: sRGB, all channels.
+// A RoundTripErrors holds RMS errors of one method over one kind of materials. Base color is sRGB, all
+// channels.
 struct RoundTripErrors {
   std::string method;
   FamilyKind family = FamilyKind::kExact;
   double metallic = 0.0, base_color = 0.0;
 };
 
-// Returns every method with every kind. Each method converts back from specular materials of its own F0 and
-// convention. Khronos' solver is also tested on plain maps, as `Khronos, plain`. `count`: materials of each
-// kind, with uniform alpha. Materials depend only on `seed`. Throws kUsage if `count` is 0.
+// Returns every method with every kind. Each method converts back from specular materials with its F0 and
+// convention. Khronos' solver is also tested on plain maps, as `Khronos, plain`. `count` is the number of
+// materials of each kind, with uniform alpha. Materials depend only on `seed`. Throws kUsage if `count` is 0.
 std::vector<RoundTripErrors> study_round_trips(const std::vector<WorkflowFit>& learned, std::size_t count,
                                                std::uint64_t seed, unsigned jobs);
 

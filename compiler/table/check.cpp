@@ -24,7 +24,7 @@ constexpr double kGapFactor = 3.0;
 // show jumps of 10 % and more; smooth sweeps stay below 1 %).
 constexpr double kJumpAlpha = 0.02;
 constexpr double kJumpSlope = 0.05;
-// The fewest random samples for each source column from which something can be learned.
+// With fewer random samples for each source column, nothing can be learned.
 constexpr std::size_t kFewestRowsAColumn = 10;
 
 using Rows = std::vector<const TableRow*>;
@@ -39,13 +39,13 @@ std::string sample_text(const TableRow& row) {
   return "alpha1 " + number_text(row.alpha1) + ", specular1 " + number_text(row.specular1);
 }
 
-// The findings of a check.
+// A Findings collects the findings of a check.
 class Findings {
  public:
   void add(Severity severity, const std::string& kind, std::size_t line, const std::string& message) {
     all_.push_back({severity, kind, line, message});
   }
-  // A sample of line `line` that line `first` holds already, with the same target values or with others.
+  // Adds a sample of line `line` that line `first` has already, with the same target values or with others.
   void add_repeat(bool same, const std::string& sample, std::size_t line, std::size_t first) {
     const std::string repeat = sample + " also appears in line " + std::to_string(first);
     if (same)
@@ -150,7 +150,7 @@ class TableCheck : Findings {
     }
   }
 
-  // alpha2 of each width, averaged over specular, must rise with alpha1.
+  // Checks that alpha2 of each width, averaged over specular, rises with alpha1.
   void check_monotone() {
     double previous = 0.0;
     double previous_alpha = 0.0;
@@ -169,7 +169,7 @@ class TableCheck : Findings {
     }
   }
 
-  // Along specular at one width, compares the middle of three values with the line through the outer two.
+  // Compares, along specular at one width, the middle of three values with the line through the outer two.
   void check_jumps() {
     for (const auto& [alpha, rows] : by_alpha_) {
       for (std::size_t i = 1; i + 1 < rows.size(); ++i) {

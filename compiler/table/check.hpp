@@ -1,4 +1,4 @@
-// Checks a table before it is fitted, since a regression hides faults in its data.
+// This file checks a table before it is fitted, because a regression hides faults in its data.
 #pragma once
 
 #include <string>
@@ -21,13 +21,13 @@ struct Finding {
   std::string message;
 };
 
-// Returns all findings by severity, then by line. Only rows of status ok are checked, except for saturation
-// and range. check.cpp defines the threshold of each check.
-// `accept_light`: what light_remark() (light.hpp) calls an error is a warning.
+// Returns all findings by severity, then by line. Checks only rows of status ok, except for saturation and
+// range. check.cpp defines the threshold of each check. With `accept_light`, an error of light_remark()
+// (light.hpp) becomes a warning.
 std::vector<Finding> check_table(const Table& table, bool accept_light = false);
 
-// The same for named parameters: values that are not finite, too few usable rows for the number of columns,
-// source columns with a single value, repeated samples, and rows that are not fitted.
+// Does the same for named parameters. It finds values that are not finite, too few usable rows for the number
+// of columns, source columns with a single value, repeated samples, and rows that are not fitted.
 std::vector<Finding> check_table(const MaterialTable& table, bool accept_light = false);
 
 std::string_view severity_name(Severity severity);

@@ -41,7 +41,7 @@ void require_line(const Csv& csv, std::size_t number, std::string_view line) {
                  std::to_string(kLongestCsvLine) + " are read");
 }
 
-// Two columns of one name are ambiguous.
+// Throws if two columns have the same name, because they are ambiguous.
 void require_header(const Csv& csv) {
   const std::vector<CsvCell>& cells = csv.header.cells;
   if (cells.size() > kMostCsvColumns)
@@ -81,7 +81,7 @@ void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* 
 void add_comment(std::string_view line, Comments* comments) {
   const std::size_t colon = line.find(": ");
   if (colon == std::string_view::npos || comments->size() == kMostCsvComments) return;
-  // Comments reach fits and headers, which take no control characters.
+  // Comments reach fits and headers, which accept no control characters.
   comments->emplace_back(plain(trimmed(line.substr(1, colon - 1)), kLongestComment),
                          plain(trimmed(line.substr(colon + 2)), kLongestComment));
 }

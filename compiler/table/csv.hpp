@@ -1,5 +1,5 @@
-// Reads and writes the CSV tables of this project: comments, a header row and rows of as many cells. A cell
-// that was read knows its place.
+// This file reads and writes the CSV tables of this project: comments, a header row and rows of as many
+// cells. A cell that was read knows its place.
 #pragma once
 
 #include <concepts>
@@ -12,13 +12,13 @@
 
 namespace remap {
 
-// The lines `# key: value` of a table, in file order.
+// Comments holds the lines `# key: value` of a table, in file order.
 using Comments = std::vector<std::pair<std::string, std::string>>;
 
-// Adds what the line `# key: value` says.
+// Adds the content of the line `# key: value`.
 void add_comment(std::string_view line, Comments* comments);
 
-// One cell of a line with its place, for messages.
+// A CsvCell is one cell of a line with its place, for messages.
 struct CsvCell {
   std::string_view text;
   std::size_t column = 1;
@@ -29,7 +29,7 @@ struct CsvLine {
   std::vector<CsvCell> cells;
 };
 
-// The largest tables that are read: twice the largest table of remapc sample. A million rows take 300 MB
+// These limit the tables that are read: twice the largest table of remapc sample. A million rows take 300 MB
 // of memory while they are read.
 inline constexpr std::size_t kMostCsvRows = 2'000'000, kMostCsvColumns = 1000, kMostCsvComments = 1000;
 inline constexpr std::size_t kLongestCsvLine = 100'000, kLongestComment = 5000;  // bytes
@@ -39,9 +39,9 @@ struct Csv {
   Comments comments;
   CsvLine header;
   std::vector<CsvLine> lines;
-  std::vector<std::string> remarks;  // what a reader assumed, for the user
+  std::vector<std::string> remarks;  // assumptions, for the user
 
-  // Returns the value of a comment; empty if there is no such comment.
+  // Returns the value of a comment, or an empty text if there is no such comment.
   std::string comment(const std::string& key) const;
 
   // Throws kInput: `name:line:column: what`.
@@ -51,7 +51,6 @@ struct Csv {
   double number(const CsvLine& line, const CsvCell& cell, const std::string& column_name) const;
 };
 
-// Splits one line into its cells.
 std::vector<CsvCell> split_csv_line(std::string_view line, char delimiter);
 
 // Parses UTF-8 text delimited by comma, tab or semicolon, whichever occurs most in the header row. Cells
@@ -59,14 +58,14 @@ std::vector<CsvCell> split_csv_line(std::string_view line, char delimiter);
 // length, for two columns of one name, and for text beyond the limits above.
 Csv parse_csv(std::string_view text, const std::string& name);
 
-// CSV text that is being written.
+// A CsvText is CSV text that is being written.
 class CsvText {
  public:
-  // `header`: the names of the columns, separated by commas.
+  // `header` holds the names of the columns, separated by commas.
   explicit CsvText(const std::string& header, const Comments& comments = {});
 
-  // Adds a row of at least one cell: text (quoted if it holds a comma), a number (the shortest text that
-  // reads back), an optional number (none: an empty cell), or a range of these, one cell each.
+  // Adds a row of at least one cell: text (quoted if it holds a comma), or a number (the shortest text that
+  // reads back). Also accepts an optional number (none: an empty cell), or a range of these, one cell each.
   template <typename... Cells>
   void add_row(const Cells&... cells) {
     (add(cells), ...);

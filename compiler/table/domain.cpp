@@ -11,16 +11,14 @@
 namespace remap {
 namespace {
 
-// Up to this many different alpha1, each is a column; more are grouped into as many columns by their order.
+// Up to this many different alpha1, each is a column. More are grouped into as many columns by their order.
 constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
-// Scattered rows: a column that ends within this share of the highest specular1 counts as reaching it.
+// In scattered rows, a column that ends within this fraction of the highest specular1 reaches it.
 constexpr double kSameReach = 0.9;
-// Widths that were measured apart by less than this share, a few units of the last digit that tables hold,
-// are one.
+// Widths that differ by less than this fraction, a few units of a table's last digit, are treated as one.
 constexpr double kSameWidth = 1e-9;
 
-// Maps each alpha1 to its column.
 std::map<double, std::size_t> column_of_alpha(const Table& table) {
   std::map<double, std::size_t> rows_of_alpha;
   for (const TableRow& row : table.rows) ++rows_of_alpha[row.alpha1];
@@ -37,7 +35,7 @@ std::map<double, std::size_t> column_of_alpha(const Table& table) {
   return column_of;
 }
 
-// Rows of similar width.
+// A Column holds rows of similar width.
 struct Column {
   double first = INFINITY, last = -INFINITY;  // alpha1 of its usable rows
   double cut = INFINITY;                      // lowest specular1 that is clamped without an answer
@@ -67,7 +65,7 @@ std::vector<Column> columns_of(const Table& table) {
   return columns;
 }
 
-// Gives widths that differ by the rounding of the measurement the least of them, so that they are one column.
+// Replaces widths that differ by rounding of the measurement by the least one, to form one column.
 void join_widths(std::vector<TableRow>& rows) {
   std::map<double, double> joined;
   for (const TableRow& row : rows) joined[row.alpha1] = row.alpha1;

@@ -1,12 +1,12 @@
-// Finds the box of source parameters that a table covers: the domain of its fits.
+// This file finds the box of source parameters that a table covers: the domain of its fits.
 #pragma once
 
 #include "table/table.hpp"
 
 namespace remap {
 
-// Returns the box with alpha1 in a range and specular1 from 0 to a bound in which every width has rows of
-// an answer up to the bound and no other row is clamped (covered_box.hpp chooses among such boxes). Rows of
+// Returns the box with alpha1 in a range and specular1 from 0 to a bound. In it every width has rows of an
+// answer up to the bound and no other row is clamped (covered_box.hpp chooses among such boxes). Rows of
 // other statuses are gaps and do not limit it. Throws kInput if the table has no such box.
 Domain table_domain(const Table& table);
 
@@ -14,9 +14,9 @@ Domain table_domain(const Table& table);
 std::string range_text(const Range& range);
 
 // Exchanges source and target of the table's usable rows (Sztrajman et al. 2019, section 5). Comments are
-// kept, since they record how the table was made; `roles: swapped` is added, and what is about one role is
-// removed: the comparison of spheres, whose widths are the source's, and the target's limits. Widths of the
-// target that differ by the rounding of the measurement (1e-9 of the width) become one.
+// kept, because they record how the table was made, and `roles: swapped` is added. Comments about one role
+// are removed: the comparison of spheres, whose widths are the source's, and the target's limits. Widths of
+// the target that differ by the rounding of the measurement (1e-9 of the width) become one.
 Table swapped(const Table& table);
 
 }  // namespace remap

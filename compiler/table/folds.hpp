@@ -1,4 +1,4 @@
-// Folds of cross-validation.
+// This file makes the folds of cross-validation.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,6 @@ struct Fold {
   std::vector<TableRow> training;
   std::vector<TableRow> judging;
 };
-// The rows of each fold of draw_folds().
 std::vector<Fold> split_folds(const std::vector<TableRow>& rows, std::size_t fold_count, std::uint64_t seed);
 
 // Draws `count` of `rows` (all if there are fewer) by `seed` and keeps their order.

@@ -1,5 +1,6 @@
-// The table of a sweep over more parameters than width and specular. It has a column for each parameter and
-// channel, named as the models name them (Sztrajman et al. 2019, section 5.2: random samples; section 8).
+// This file holds the table of a sweep over more parameters than width and specular. It has a column for each
+// parameter and channel, named as the models name them (Sztrajman et al. 2019, section 5.2: random samples;
+// section 8).
 #pragma once
 
 #include <string>
@@ -23,7 +24,7 @@ struct MaterialTable {
   Comments comments;                                        // without the two that list columns
   std::vector<std::string> source_columns, target_columns;  // base_color_r1, ..., roughness2
   std::vector<NamedRow> rows;
-  std::vector<std::string> remarks = {};  // what its reader assumed, for the user
+  std::vector<std::string> remarks = {};  // assumptions of the parser, for the user
 };
 
 // Parses what material_table_text writes and ignores other columns. Throws kInput with `name:line:column:`.
@@ -31,13 +32,13 @@ MaterialTable parse_material_table(std::string_view text, const std::string& nam
 
 std::string material_table_text(const MaterialTable& table);
 
-// A table of either form: alpha and specular (remapc sweep), or named parameters (remapc sample).
+// An AnyTable is a table of alpha and specular (remapc sweep), or of named parameters (remapc sample).
 using AnyTable = std::variant<Table, MaterialTable>;
 
-// Reads CSV text that was parsed as the form that its comments declare: a comment source_columns makes it a
-// MaterialTable. `map` applies to a Table only. Throws as parse_table and parse_material_table do.
+// Reads CSV text that was parsed as the form that its comments declare. A comment source_columns makes it a
+// MaterialTable. `map` applies only to a Table. Throws like parse_table and parse_material_table.
 AnyTable any_table(const Csv& csv, const ColumnMap& map);
-// The same from text.
+// Reads the same from text.
 AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
 }  // namespace remap

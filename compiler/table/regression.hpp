@@ -1,4 +1,4 @@
-// The result of every regression: a mapping and how it was found.
+// This file holds the result of every regression: a mapping and how it was found.
 #pragma once
 
 #include <functional>
@@ -16,15 +16,15 @@ struct Regression {
   std::map<std::string, std::string> method;  // recorded in the fit: hyper-parameters, search, starts
 };
 
-// Called repeatedly with the share of the work done, 0 to 1, from any thread. An exception from it ends the
-// regression. May be empty.
+// A FitProgress is called repeatedly with the finished fraction of the work, 0 to 1, from any thread. An
+// exception from it ends the regression. It may be empty.
 using FitProgress = std::function<void(double share)>;
 
-// The progress of a part of the work, from the share `begin` to the share `end`. Refers to `progress`; empty
-// if that is.
+// Returns the progress of a part of the work, from the fraction `begin` to the fraction `end`. It refers to
+// `progress`, and is empty if `progress` is.
 FitProgress part_of(const FitProgress& progress, double begin, double end);
 
-// By which an error of an output counts where fits are compared: 1 / value, but at most 50. Pictures show
+// Returns the weight of an output's error when fits are compared: 1 / value, but at most 50. Pictures show
 // errors relative to the value; below a fiftieth they show nothing.
 double error_weight(double value);
 
@@ -32,9 +32,9 @@ double error_weight(double value);
 // `kind`.
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind);
 
-// Whether target alpha varies with specular at fixed source alpha by more than its scatter: compares the
-// variation of alpha2 that straight lines over specular explain, one for each alpha1, with their residuals.
-// If not, target alpha is fitted from source alpha alone.
+// Returns true if target alpha varies with specular at fixed source alpha by more than its scatter. It
+// compares the variation of alpha2 that straight lines over specular explain, one for each alpha1, with their
+// residuals. If this is false, target alpha is fitted only from source alpha.
 bool alpha_needs_specular(const std::vector<TableRow>& rows);
 
 // Returns `id`, or the id of a converter between the models if it is empty. Throws kUsage for an invalid id.

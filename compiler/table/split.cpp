@@ -14,7 +14,7 @@
 namespace remap {
 
 std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed) {
-  // A Fisher-Yates shuffle, because std::shuffle differs between standard libraries.
+  // This is a Fisher-Yates shuffle, because std::shuffle differs between standard libraries.
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937_64 random(seed);

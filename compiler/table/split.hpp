@@ -1,4 +1,4 @@
-// The split into training rows and held-out rows, and the error figures over rows.
+// This file splits rows into training rows and held-out rows, and computes the error figures over rows.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace remap {
 
-// A random permutation of `count` indices that depends only on `seed`, not on the machine. The first ones are
-// held out.
+// Returns a random permutation of `count` indices that depends only on `seed`, not on the machine. The first
+// ones are held out.
 std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed);
 
-// The record of a split of `rows` rows, of which `fraction` (rounded) are held out. Throws kUsage for a
-// fraction outside [0, 0.9].
+// Returns the record of a split of `rows` rows, of which `fraction` (rounded) are held out. Throws kUsage for
+// a fraction outside [0, 0.9].
 Split split_record(std::uint64_t seed, double fraction, std::size_t rows);
 
 struct RowSplit {
@@ -25,16 +25,16 @@ struct RowSplit {
   Split record;
 };
 
-// Splits the rows in `domain` that have an answer; `held_out_fraction` of them
-// (rounded), drawn by `seed`, are held out. Other rows are counted by their status, or as `beyond the
-// domain`. The split does not depend on the machine. Throws kUsage for a fraction outside [0, 0.9].
+// Splits the rows in `domain` that have an answer. It holds out `held_out_fraction` of them (rounded), drawn
+// by `seed`. Other rows are counted by their status, or as `beyond the domain`. The split does not depend on
+// the machine. Throws kUsage for a fraction outside [0, 0.9].
 RowSplit split_rows(const Table& table, const Domain& domain, std::uint64_t seed, double held_out_fraction);
 
-// The rows at which the target is at no limit.
+// Returns the rows at which the target is at no limit.
 std::vector<TableRow> inside_rows(const std::vector<TableRow>& rows);
 
-// Errors of target alpha and target specular, one per row. `map`: gives the target's alpha and specular for
-// those of the source.
+// A Residuals holds errors of target alpha and target specular, one per row. `map` gives the target's alpha
+// and specular for the source's.
 struct Residuals {
   std::vector<double> alpha, specular;
 };
@@ -42,7 +42,7 @@ Residuals residuals_of(const std::vector<TableRow>& rows,
                        const std::function<MappedTexel(double alpha, double specular)>& map);
 Residuals residuals_of(const std::vector<TableRow>& rows, const MappingKind& mapping);
 
-// RMS, 99th percentile (nearest rank) and maximum of absolute values. Zeros for an empty list.
+// Returns RMS, 99th percentile (closest rank) and maximum of absolute values, and zeros for an empty list.
 ErrorFigures error_figures(std::vector<double> errors);
 
 // Formats an error with two significant digits, rounded away from 0: `7.2e-04`; `0` for 0.

@@ -1,5 +1,5 @@
-// The table of a sweep: the target's parameters for each sample of the source's. Sweeps write it and fits
-// read it, as a CSV file that records how it was made.
+// This file holds the table of a sweep: the target's parameters for each sample of the source's. Sweeps write
+// it and fits read it, as a CSV file that records how it was made.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace remap {
 
-// How far a row can be trusted, and at which limit of the target it is. Tables call the
-// last three clamped, too.
+// A RowStatus states how reliable a row is, and at which limit of the target it is. Tables also call the last
+// three clamped.
 enum class RowStatus {
   kOk,
   kClamped,   // a target parameter is at a bound, or the source's renderer clamps its width
@@ -50,33 +50,33 @@ struct Table {
   ModelSide source;
   ModelSide target;
   bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
-  bool has_error = true;     // else the errors of its rows are NaN, and not written
+  bool has_error = true;     // otherwise the errors of its rows are NaN, and not written
   std::vector<TableRow> rows;
-  Limits limits;                     // as the comments tell (find_limits)
-  std::vector<std::string> remarks;  // what its reader assumed, for the user
+  Limits limits;                     // from the comments (find_limits)
+  std::vector<std::string> remarks;  // assumptions of the parser, for the user
 };
 
-// The comments in which a sweep records the limits of its target.
+// A sweep records the limits of its target in these comments.
 inline constexpr const char* kAlphaLimitComment = "target_alpha_limit";
 inline constexpr const char* kSpecularLimitComment = "target_specular_limit";
 
-// The status of a row that may be kClamped by the limit that it is at.
+// Returns the status of a row that may be kClamped by the limit that it is at.
 RowStatus status_at(const TableRow& row, const Limits& limits);
 
 // Sets the limits of a table from its comments, and the statuses of its rows, if the limit of alpha is known.
-// Who makes a table with limits calls it; what is parsed has them. Throws kInput for a comment that is not a
-// number above 0.
+// Call it after making a table with limits; parsed tables have them. Throws kInput for a comment that is not
+// a number above 0.
 void find_limits(Table* table);
 
-// The comments that identify a table of named parameters (material_table.hpp): the columns of each side,
+// These comments identify a table of named parameters (material_table.hpp): the columns of each side,
 // separated by commas.
 inline constexpr const char* kSourceColumnsComment = "source_columns";
 inline constexpr const char* kTargetColumnsComment = "target_columns";
 
-// The comment that holds the similarity of spheres: `alpha1 ssim, alpha1 ssim, ...`.
+// This comment holds the similarity of spheres: `alpha1 ssim, alpha1 ssim, ...`.
 inline constexpr const char* kSpheresComment = "sphere_ssim";
 
-// The columns and models of a foreign table.
+// A ColumnMap holds the columns and models of a foreign table.
 struct ColumnMap {
   std::map<std::string, std::string> columns;  // own name -> name in the file; missing: the same name
   ModelSide source;                            // empty model: taken from the comments
@@ -84,39 +84,38 @@ struct ColumnMap {
 };
 
 // Returns the column map of a preset, or of `own=file,own=file,...`. The preset `sztrajman-2019` is for the
-// table published with the paper, Mitsuba Ward to Ashikhmin-Shirley; its `eta2` holds F0, its `k2` is a
-// sentinel; it is recognised where no map is given. Throws kUsage for an unknown preset or own column.
+// table published with the paper, Mitsuba Ward to Ashikhmin-Shirley. Its `eta2` holds F0, and its `k2` is a
+// sentinel. It is recognised if no map is given. Throws kUsage for an unknown preset or own column.
 ColumnMap column_map(const std::string& text);
 
 // Parses CSV text: UTF-8, `#` comments, then a header row delimited by comma, tab or semicolon. The columns
 // alpha1, specular1, alpha2, specular2 are required; error, status, and diffuse1 with diffuse2 are optional;
 // others are ignored. `<side>_specular_column` names the specular of a side if its columns hold another
-// coordinate than the model's own parameter (F0 for an index), else `<side>_specular` does. Throws kInput
-// with `name:line:column:` for a missing column, a bad number or status, a row of another length, and text
-// without rows.
+// coordinate than the model's own parameter (F0 for an index), otherwise `<side>_specular` does. Throws
+// kInput with `name:line:column:` for a missing column, a bad number or status, a row of another length, and
+// text without rows.
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
-// The same from CSV text that parse_csv has split.
+// Does the same from CSV text that parse_csv has split.
 Table table_from_csv(const Csv& csv, const ColumnMap& map);
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
 
-// Whether the row belongs to a regime. Fits use only such rows.
+// Returns true if the row belongs to a regime. Fits use only such rows.
 bool has_answer(const TableRow& row);
 std::vector<TableRow> answer_rows(const Table& table);
 
-// Whether the source parameters of a row lie in `domain`.
+// Returns true if the source parameters of a row lie in `domain`.
 bool is_inside(const TableRow& row, const Domain& domain);
 
 // Returns the `rows` whose source parameters lie in `domain`.
 std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const Domain& domain);
 
-// Formats a table as CSV: comments, header row, rows; the diffuse columns only if has_diffuse,
-// the errors only if has_error. Parsing the
-// text gives the same numbers.
+// Formats a table as CSV: comments, header row, rows. It writes the diffuse columns only if has_diffuse, and
+// the errors only if has_error. Parsing the text gives the same numbers.
 std::string table_text(const Table& table);
 
-// Returns what a fit records of its table, whose file is `bytes`.
+// Returns the facts that a fit records about its table, whose file is `bytes`.
 TableRecord table_record(const std::filesystem::path& path, std::string_view bytes, const Comments& comments);
 
 }  // namespace remap

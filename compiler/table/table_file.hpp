@@ -1,5 +1,5 @@
-// Tables as files. What commands write is plain CSV, which numpy, pandas and spreadsheets read without
-// options; how it was made is beside it, in FILE.json (decision 052). Files with comments are read as well.
+// Commands write plain CSV, which numpy, pandas and spreadsheets read without options. FILE.json beside it
+// records how it was made (decision 052). Files with comments are read as well.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,19 @@ namespace remap {
 
 // Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
-// The text of a file; empty if it is missing.
+// Returns the SHA-256 of a file, or an empty text if the file is missing.
 std::string file_sha256(const std::filesystem::path& path);
 
-// Parses what a JSON object of texts says of the table `table`. Throws kInput, beginning with `context`.
+// Parses a JSON object of texts about the table `table`. Throws kInput, beginning with `context`.
 Comments parse_metadata(std::string_view json, const std::string& context);
 
-// Parses the content of the file `path` (parse_csv). A table without comments has those of FILE.json.
+// Parses the content of the file `path` (parse_csv). A table without comments gets the comments of FILE.json.
 Csv parse_table_file(std::string_view bytes, const std::filesystem::path& path);
 
-// The table in one text, with its comments: fits record its hash, which is the same in both forms.
+// Returns the table in one text, with its comments. Fits record its hash, which is the same in both forms.
 std::string whole_text(const Csv& csv, std::string_view bytes);
 
-// Throws kOutput where the table or its FILE.json is there already, unless `force`.
+// Throws kOutput if the table or its FILE.json exists already, unless `force`.
 void require_new_table(const std::filesystem::path& path, bool force);
 
 // Writes CSV text as a plain file, and its comments, if it has some, as FILE.json.

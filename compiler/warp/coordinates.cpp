@@ -18,7 +18,7 @@ constexpr double kFitRidge = 1e-9;         // relative to the mean square of the
 constexpr double kStressGoal = 0.03;
 constexpr double kLeastRadius = 1e-3;
 
-// Computes the stress of 1, 2 and 3 dimensions. `columns`: centred features.
+// Computes the stress of 1, 2 and 3 dimensions. `columns` are centred features.
 std::array<double, 3> stress_of(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& axes) {
   std::array<double, 3> error{};
   double total = 0.0;
@@ -46,7 +46,7 @@ AppearanceCoordinates coordinates_without_terms(int dimension) {
   return coordinates;
 }
 
-// Ridge regression over the 36 terms of texels.
+// Does a ridge regression over the 36 terms of texels.
 Placement fitted(const WarpMaterial& material, const AppearanceFeatures& features,
                  const AppearanceSpace& space, int dimension) {
   const std::vector<std::uint32_t> texels = sample_texels(material, kSlowTexels);

@@ -1,6 +1,6 @@
-// Appearance spaces: principal coordinates of each material (An et al. 2011, section 3). Distances are
-// Euclidean in features, so multidimensional scaling reduces to a principal component analysis without
-// landmarks, and coordinates are closed forms of the parameters.
+// This file computes appearance spaces: principal coordinates of each material (An et al. 2011, section 3).
+// Distances are Euclidean in features, so multidimensional scaling reduces to a principal component analysis
+// without landmarks, and coordinates are closed forms of the parameters.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// Positions of points: one row per point, one column per dimension.
+// Points holds positions: one row per point, one column per dimension.
 using Points = Eigen::MatrixXd;
 
 struct AppearanceSpace {
@@ -29,28 +29,28 @@ AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFe
 // Projects features, one column per texel, to positions.
 Points projected(const AppearanceSpace& space, const Eigen::MatrixXd& columns, int dimension);
 
-// The smallest number of dimensions, at most 3, whose stress is below 3 %.
+// Returns the smallest number of dimensions, at most 3, whose stress is below 3 %.
 int dimension_of(const AppearanceSpace& space);
 
 AppearanceCoordinates closed_form(const AppearanceSpace& space, const SeparableFeatures& features,
                                   int dimension);
 
-// Positions of all texels; NaN for texels that are not finite.
+// Returns positions of all texels, with NaN for texels that are not finite.
 Points positions_of(const AppearanceCoordinates& coordinates, const std::vector<WarpTexel>& texels);
 
-// The coordinates of a material's texels.
+// A Placement holds the coordinates of a material's texels.
 struct Placement {
-  // For parameters a closed or fitted form; for tables the position of every entry.
+  // For parameters this is a closed or fitted form, for tables the position of every entry.
   std::variant<AppearanceCoordinates, Points> coordinates;
-  // RMS distance of fitted coordinates from the projected features, over at most 4096 texels; 0 for a closed
-  // form and for tables.
+  // This is the RMS distance of fitted coordinates from the projected features, over at most 4096 texels. It
+  // is 0 for a closed form and for tables.
   double fit_error = 0.0;
 };
 
 Placement placement_of(const MaterialRef& material, const AppearanceFeatures& features,
                        const AppearanceSpace& space, int dimension);
 
-// Positions of all texels, or of `texels`; NaN for texels that are not finite or not in the table.
+// Return positions of all texels, or of `texels`, with NaN for those not finite or not in the table.
 Points positions_of(const Placement& placement, const MaterialRef& material);
 Points positions_of(const Placement& placement, const MaterialRef& material,
                     const std::vector<std::uint32_t>& texels);

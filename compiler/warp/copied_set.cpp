@@ -21,7 +21,6 @@ class CopyWriter {
   CopyWriter(const fs::path& folder, const std::vector<std::uint32_t>& texels, const MapFrame& size)
       : folder_(folder), texels_(texels), size_(size) {}
 
-  // `value`: returns the value of a template texel in a channel.
   template <typename Value>
   void write(const char* name, const std::vector<std::string>& channels, const Value& value) {
     Image image{

@@ -1,4 +1,4 @@
-// Writes the exact copy of a warp to files: each texel of the source is copied from one template texel.
+// This file writes a warp's exact copy to files: each source texel is copied from one template texel.
 #pragma once
 
 #include <array>
@@ -9,14 +9,13 @@
 
 namespace remap {
 
-// The template and its table.
 struct CopiedTemplate {
   MaterialRef material;
   MapFrame frame;
   std::filesystem::path table;  // of a tabulated material: profiles.exr, profiles.csv or brdfs.txt
 };
 
-// The files of all kinds.
+// These are the files of all kinds.
 inline constexpr std::array<const char*, 8> kCopyNames = {"diffuse.exr",  "specular.exr",      "alpha.exr",
                                                           "profiles.exr", "index.exr",         "profiles.csv",
                                                           "brdfs.txt",    "template_texel.exr"};
@@ -27,7 +26,7 @@ inline constexpr std::array<const char*, 8> kCopyNames = {"diffuse.exr",  "specu
 //   profiles.exr       profiles.exr
 //   all kinds          template_texel.exr: channels X and Y, the position in the template from 0 at the top
 //                      left, by which other maps can be copied
-// `texels`: the result of copy_exactly(). Returns the files. Throws kOutput.
+// `texels` is the result of copy_exactly(). Returns the files. Throws kOutput.
 std::vector<std::filesystem::path> write_copied_set(const std::filesystem::path& folder,
                                                     const std::vector<std::uint32_t>& texels,
                                                     const MapFrame& source, const CopiedTemplate& goal);

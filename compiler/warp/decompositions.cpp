@@ -16,7 +16,7 @@ Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& left, const Eigen::Matrix
 }
 
 Eigen::MatrixXd nearest_orthogonal(const Eigen::MatrixXd& matrix) {
-  // Rotations alone: what makes other matrices square first is not needed.
+  // Computes only rotations, because the preparation for other matrices is not needed.
   const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(
       matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();

@@ -1,5 +1,5 @@
-// Decompositions of small dense matrices, in one file: their templates take longer to compile than the rest
-// of the folder.
+// This file decomposes small dense matrices. It is separate, because its templates take longer to compile
+// than the rest of the folder.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 // Returns the n x m matrix x with left x = right for a symmetric, positive definite n x n matrix.
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right);
 
-// Returns the orthogonal n x n matrix nearest to `matrix` (n x n): U V' of its singular value decomposition
+// Returns the orthogonal n x n matrix closest to `matrix` (n x n): U V' of its singular value decomposition
 // (Schoenemann 1966, the orthogonal Procrustes problem).
 Eigen::MatrixXd nearest_orthogonal(const Eigen::MatrixXd& matrix);
 

@@ -1,6 +1,6 @@
-// Computes appearance features: vectors whose Euclidean distance is the appearance distance of two
-// reflectances, for any model or table. features.cpp has those in closed form, sampled_features.cpp those by
-// samples.
+// This file computes appearance features: vectors whose Euclidean distance is the appearance distance of two
+// reflectances, for any model or table. features.cpp has the closed forms, and sampled_features.cpp the
+// features by samples.
 #pragma once
 
 #include <variant>
@@ -13,24 +13,26 @@
 
 namespace remap {
 
-// The weight of differences between two reflectances over directions (An et al. 2011, equation 1). kRelative
-// divides a difference by the mean reflectance of both materials plus 0.03. Its rank correlation with
-// differences of lit spheres is 0.95; that of kPlain is 0.58, because highlight peaks dominate.
+// An AppearanceDistance is the weight of differences between two reflectances over directions (An et al.
+// 2011, equation 1). kRelative divides a difference by the mean reflectance of both materials plus 0.03. Its
+// rank correlation with differences of lit spheres is 0.95. For kPlain it is 0.58, because highlight peaks
+// dominate.
 enum class AppearanceDistance { kRelative, kPlain };
 inline constexpr NamedValues<AppearanceDistance, 2> kAppearanceDistances = {
     {{AppearanceDistance::kRelative, "relative"}, {AppearanceDistance::kPlain, "plain"}}};
 
 inline constexpr Eigen::Index kFeatureBasis = 14;  // features per channel; the error is 3e-4 of the distance
 
-// Features of parameters whose lobes are linear in diffuse and specular. The features of one channel are d *
-// diffuse + s * slope(alpha) + base(alpha), where d is diffuse and s specular. Columns are nodes of alpha.
+// A SeparableFeatures holds features of parameters whose lobes are linear in diffuse and specular. The
+// features of one channel are d * diffuse + s * slope(alpha) + base(alpha), where d is diffuse and s
+// specular. Columns are nodes of alpha.
 struct SeparableFeatures {
   Eigen::VectorXd diffuse;      // kFeatureBasis
   Eigen::MatrixXd slope, base;  // kFeatureBasis x kWidthNodes
 };
 
-// Features of samples, for tables and for exact Fresnel reflectance. Samples are at the directions of
-// half_vector_quadrature() or at the radii of profiles.
+// A SampledFeatures holds features of samples, for tables and for exact Fresnel reflectance. Samples are at
+// the directions of half_vector_quadrature() or at the radii of profiles.
 struct SampledFeatures {
   std::vector<double> radii;  // union of both materials; empty for reflectances
   Eigen::VectorXd weights;    // square roots of the weights of the samples of one channel
@@ -41,43 +43,43 @@ struct SampledFeatures {
 
 using AppearanceFeatures = std::variant<SeparableFeatures, SampledFeatures>;
 
-// The features of both materials in one space.
+// A FeaturePair holds the features of both materials in one space.
 struct FeaturePair {
   AppearanceFeatures source, target;
 };
 
-// Uses closed forms if both materials are parametric, without exact Fresnel reflectance, samples otherwise.
-// Throws kInput if only one of the materials has profiles, and kUsage for profiles with the relative
-// distance, which is defined for reflectances only.
+// Uses closed forms if both materials are parametric, without exact Fresnel reflectance, and samples
+// otherwise. Throws kInput if only one of the materials has profiles. Throws kUsage for profiles with the
+// relative distance, which is only defined for reflectances.
 FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& target,
                                 AppearanceDistance distance = AppearanceDistance::kRelative);
 
-// The features of a parametric texel: 3 * kFeatureBasis numbers, channel by channel, or one number per column
-// of the sampled basis.
+// Returns the features of a parametric texel: 3 * kFeatureBasis numbers, channel by channel, or one number
+// per column of the sampled basis.
 Eigen::VectorXd features_of(const AppearanceFeatures& features, const WarpTexel& texel);
 
-// The features of `texels`, one column per texel. All of them must be finite or in the table.
+// Returns the features of `texels`, one column per texel. All of them must be finite or in the table.
 Eigen::MatrixXd feature_columns(const AppearanceFeatures& features, const MaterialRef& material,
                                 const std::vector<std::uint32_t>& texels);
 
-// The square roots of the weights of the directions of half_vector_quadrature() for `distance` between
-// reflectances. Features are compressed from these weighted samples and can be tested against them.
+// Returns the square roots of the weights of the directions of half_vector_quadrature() for `distance`
+// between reflectances. Features are compressed from these weighted samples and can be tested against them.
 Eigen::VectorXd direction_weights(const MaterialRef& source, const MaterialRef& target,
                                   AppearanceDistance distance);
 
-// The samples of a texel, which features by samples compare: the reflectance at every direction, or the
-// profile at every radius, of red, green and blue.
+// Returns the samples of a texel, which features by samples compare. These are the reflectance at every
+// direction, or the profile at every radius, of red, green and blue.
 Eigen::VectorXd samples_of(const SampledFeatures& features, const WarpTexel& texel);
 Eigen::VectorXd samples_of(const SampledFeatures& features, const TabulatedMaterial& material,
                            std::uint32_t entry);
 Eigen::VectorXd samples_of(const SampledFeatures& features, const MaterialRef& material, std::uint32_t texel);
 Eigen::VectorXd features_of_samples(const SampledFeatures& features, const Eigen::VectorXd& samples);
 
-// Like appearance_features(), by samples. `weights`: of direction_weights(); ignored for profiles.
+// Works like appearance_features(), by samples. `weights` are direction_weights(), unused for profiles.
 FeaturePair sampled_features(const MaterialRef& source, const MaterialRef& target,
                              AppearanceDistance distance, const Eigen::VectorXd& weights);
 
-// The mean reflectance over kReferenceTexels texels and all channels, at every direction, by samples.
+// Returns the mean reflectance over kReferenceTexels texels and all channels, at every direction, by samples.
 Eigen::VectorXd mean_of_samples(const MaterialRef& material);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// Reads whole images.
+// This file reads whole images.
 #pragma once
 
 #include <cstddef>

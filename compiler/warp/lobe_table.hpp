@@ -1,4 +1,4 @@
-// The specular lobe of a model over directions and alpha, from which features of parameters are computed.
+// This file tabulates a model's specular lobe over directions and alpha, to compute features of parameters.
 #pragma once
 
 #include <vector>
@@ -13,14 +13,15 @@ namespace remap {
 inline constexpr std::size_t kWidthNodes = 64;  // uniform in log(alpha) between kLeastWidth and kLargestWidth
 inline constexpr double kLeastWidth = 0.04, kLargestWidth = 1.0;
 
-// The position of an alpha between `node` and the next node; `fraction` is 0 to 1.
+// A WidthPosition is the position of an alpha between `node` and the next node; `fraction` is 0 to 1.
 struct WidthPosition {
   Eigen::Index node = 0;
   double fraction = 0.0;
 };
 WidthPosition width_position(double alpha) noexcept;
 
-// Slope and base of a model (Lobe in brdf.hpp) at every direction (row) and node of alpha (column).
+// A LobeTable holds slope and base of a model (Lobe in brdf.hpp) by direction (row) and node of alpha
+// (column).
 struct LobeTable {
   Eigen::MatrixXd slope, base;
 };
@@ -28,7 +29,7 @@ LobeTable lobe_table(const BrdfModel& model, const std::vector<QuadratureDirecti
 
 inline constexpr std::size_t kReferenceTexels = 400;
 
-// The mean reflectance of a material over kReferenceTexels texels and all channels, at every direction.
+// Returns a material's mean reflectance over kReferenceTexels texels and all channels, by direction.
 Eigen::VectorXd mean_reflectance(const WarpMaterial& material, const LobeTable& table);
 
 }  // namespace remap

@@ -1,5 +1,5 @@
-// The input of a warp: two materials as lists of texels, and strokes that mark corresponding regions. A texel
-// has parameters of a BRDF model, or is an entry of a table of reflectances or profiles.
+// This file holds the input of a warp: two materials as lists of texels, and strokes that mark corresponding
+// regions. A texel has parameters of a BRDF model, or is an entry of a table of reflectances or profiles.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace remap {
 
-// The texels of one material in any order. Texels with a value that is not finite are skipped. Reflectances
-// and alpha are in 0 to 1 (clamped()).
+// A WarpMaterial holds the texels of one material in any order. Texels with a value that is not finite are
+// skipped. Reflectances and alpha are in 0 to 1 (clamped()).
 struct WarpMaterial {
   std::string name;  // for messages
   BrdfModel model;   // of the specular lobe; default: GGX with Schlick's Fresnel
@@ -23,18 +23,18 @@ struct WarpMaterial {
   bool is_dielectric = false;  // as in MapModel: reflectance is not linear in specular
 };
 
-// A material whose texels are entries of a table: measured BRDFs, or radially symmetric scattering profiles
-// P(r) of the diffuse component of a BSSRDF (Song et al. 2009).
+// A TabulatedMaterial has texels that are entries of a table. These are measured BRDFs, or radially symmetric
+// scattering profiles P(r) of the diffuse component of a BSSRDF (Song et al. 2009).
 struct TabulatedMaterial {
   std::string name;  // for messages
-  // The radii of profiles in increasing order, above 0. Empty for BRDFs: their samples are at the directions
-  // of half_vector_quadrature().
+  // These are the radii of profiles in increasing order, above 0. For BRDFs there are none: their samples are
+  // at the directions of half_vector_quadrature().
   std::vector<double> radii;
   Eigen::MatrixXf samples;             // red, then green, then blue; one column per entry; finite, at least 0
   std::vector<std::uint32_t> entries;  // of each texel, row-major; a texel without a column is skipped
 };
 
-// A reference to a material of either kind, which must outlive it.
+// A MaterialRef refers to a material of either kind, which must outlive it.
 class MaterialRef {
  public:
   MaterialRef(const WarpMaterial& material) noexcept : parametric_(&material) {}      // NOLINT: both are one
@@ -44,12 +44,12 @@ class MaterialRef {
   std::size_t texel_count() const noexcept {
     return parametric_ ? parametric_->texels.size() : tabulated_->entries.size();
   }
-  // Whether a texel is used: all of its values are finite, or it is an entry of the table.
+  // Returns true if a texel is used: all of its values are finite, or it is an entry of the table.
   bool takes_part(std::size_t texel) const noexcept;
-  // Whether reflectance is linear in all parameters except alpha.
+  // Returns true if reflectance is linear in all parameters except alpha.
   bool is_separable() const noexcept { return parametric_ != nullptr && !parametric_->is_dielectric; }
   bool is_profiles() const noexcept { return tabulated_ != nullptr && !tabulated_->radii.empty(); }
-  // Null for a material of the other kind.
+  // These return null for a material of the other kind.
   const WarpMaterial* parametric() const noexcept { return parametric_; }
   const TabulatedMaterial* tabulated() const noexcept { return tabulated_; }
 
@@ -58,7 +58,7 @@ class MaterialRef {
   const TabulatedMaterial* tabulated_ = nullptr;
 };
 
-// The size of the map that the texels of a material form, row-major from the top.
+// A MapFrame is the size of the map that the texels of a material form, row-major from the top.
 struct MapFrame {
   std::string name;  // of the material, for messages
   std::size_t width = 0, height = 0;
@@ -68,26 +68,25 @@ struct MapFrame {
 // columns of a map.
 std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_t limit);
 
-// A region that is marked in both materials: indices of texels.
+// A StrokePair is a region that is marked in both materials: indices of texels.
 struct StrokePair {
   std::vector<std::uint32_t> source, target;  // `target`: in the template
   std::string color = {};                     // `#rrggbb` if the strokes were painted in colors; for messages
 };
-// `stroke 2`, or `stroke #ff0000`.
+// Returns `stroke 2`, or `stroke #ff0000`.
 std::string stroke_name(const std::vector<StrokePair>& strokes, std::size_t stroke);
 
-// The share of a stroke that another stroke covers.
+// An Overlap is the fraction of a stroke that another stroke covers.
 struct Overlap {
   std::size_t other = 0;  // index of that stroke
   double share = 0.0;     // of the texels, 0 to 1
 };
-// Finds the stroke that covers the largest share of `stroke` on one side. Texel indices are below
-// `texel_count`.
+// Finds the stroke that covers most of `stroke` on one side. Indices are below `texel_count`.
 Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,
                         std::size_t stroke, std::size_t texel_count);
 
 // Throws kInput for a material without used texels, a stroke without used texels, an index out of range and a
-// stroke that lies within another, and kUsage without strokes. Strokes may overlap partly.
+// stroke that lies within another. Throws kUsage without strokes. Strokes may overlap partly.
 void require_valid(const MaterialRef& source, const MaterialRef& target,
                    const std::vector<StrokePair>& strokes);
 

@@ -1,5 +1,5 @@
-// Reads measured BRDFs of the MERL database (Matusik et al. 2003): three 32-bit counts (90 half angles, 90
-// difference angles, 180 azimuths), then as many 64-bit values of red, of green and of blue, all
+// This file reads measured BRDFs of the MERL database (Matusik et al. 2003): three 32-bit counts (90 half
+// angles, 90 difference angles, 180 azimuths), then as many 64-bit values of red, of green and of blue, all
 // little-endian.
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ std::size_t cell(double share, std::int32_t count) {
   return static_cast<std::size_t>(std::clamp(static_cast<std::int32_t>(share * count), 0, count - 1));
 }
 
-// The grid of half angles is uniform in their square root.
+// Returns a cell. The grid of half angles is uniform in their square root.
 std::size_t cell_of(const QuadratureDirection& direction) {
   const std::size_t half = cell(std::sqrt(direction.half_angle / (pi / 2.0)), kCounts[0]),
                     difference = cell(direction.difference_angle / (pi / 2.0), kCounts[1]),

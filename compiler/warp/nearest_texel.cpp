@@ -8,7 +8,7 @@
 namespace remap {
 namespace {
 
-// The interface that nanoflann requires of a list of points.
+// This is the interface that nanoflann requires of a list of points.
 template <std::size_t kDimension>
 struct PointList {
   std::vector<std::array<float, kDimension>> points;

@@ -1,5 +1,5 @@
-// Finds the template texel nearest to a position. All results are reflectances of the template (An et al.
-// 2011, principle 5).
+// This file finds the template texel closest to a position. All results are reflectances of the template (An
+// et al. 2011, principle 5).
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace remap {
 
 class NearestTexel {
  public:
-  // Rows with NaN are ignored; at least one row must be finite.
+  // Ignores rows with NaN; at least one row must be finite.
   explicit NearestTexel(const Points& positions);
 
-  // Returns the index of the nearest row of `positions` for each point.
+  // Returns the index of the closest row of `positions` for each point.
   std::vector<std::uint32_t> find(const Points& points) const { return find_(points); }
 
  private:

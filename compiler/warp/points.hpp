@@ -1,5 +1,5 @@
-// Occupancy: represents all texels of a material by a few hundred points, so that a rare appearance counts as
-// much as a frequent one (An et al. 2011, section 3.2).
+// This file computes occupancy. It represents all texels of a material by a few hundred points, so that a
+// rare appearance counts as much as a frequent one (An et al. 2011, section 3.2).
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace remap {
 
-// The least and the largest coordinate along an axis, ignoring NaN.
+// An Extent is the least and the largest coordinate along an axis, ignoring NaN.
 struct Extent {
   double low = 0.0, high = 0.0;
 };
 Extent extent_of(const Points& positions, Eigen::Index axis);
 
-// The mean position of `texels`, ignoring those that are not finite; the origin if there are none.
+// Returns the mean position of the finite ones of `texels`, or the origin if there are none.
 Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels);
 
 struct Occupancy {
@@ -26,17 +26,17 @@ struct Occupancy {
 };
 
 // Searches the width of the bins so that about 350 bins contain at least four texels. Any number from 300 to
-// 1200 points gives results within one percentage point of error. `positions` are those of texels; NaN is
+// 1200 points gives results within one percentage point of error. `positions` belong to texels; NaN is
 // ignored. `strokes` are indices of texels. If all texels of a stroke are in sparse bins, the stroke gets the
 // point closest to its centre.
 Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
 
-// The grid of `occupancy_of`: finds the bin of a position.
+// A BinGrid is the grid of `occupancy_of`. It finds the bin of a position.
 class BinGrid {
  public:
   BinGrid(const Points& positions, double spacing);
   std::size_t size() const noexcept { return size_; }
-  // The index of the bin, or -1 for NaN.
+  // Returns the index of the bin, or -1 for NaN.
   long bin_of(const Points& positions, Eigen::Index i) const noexcept;
 
  private:

@@ -14,7 +14,7 @@ constexpr std::size_t kHalfAngles = 20, kAzimuths = 5;
 constexpr double kLeastTangent = 0.004, kLargestHalfAngle = 86.0 / 180.0 * pi;
 constexpr double kLeastCosine = 0.05;
 
-// Gauss-Legendre nodes and weights on [-1, 1] (Abramowitz and Stegun 1964, table 25.4).
+// These are Gauss-Legendre nodes and weights on [-1, 1] (Abramowitz and Stegun 1964, table 25.4).
 constexpr std::array<double, 5> kGaussNodes = {-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
                                                0.906179845938664};
 constexpr std::array<double, 5> kGaussWeights = {0.236926885056189, 0.478628670499366, 0.568888888888889,

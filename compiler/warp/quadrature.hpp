@@ -1,4 +1,4 @@
-// The directions at which reflectances are compared.
+// This file gives the directions at which reflectances are compared.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,17 @@
 namespace remap {
 
 struct QuadratureDirection {
-  // Angles of the half vector and the difference vector in radians: 0 to pi / 2, 0 to pi / 2, 0 to pi.
+  // Angles of half vector and difference vector are in radians: 0 to pi / 2, 0 to pi / 2, 0 to pi.
   double half_angle = 0.0, difference_angle = 0.0, azimuth = 0.0;
   LocalGeometry geometry{};
   double weight =
       0.0;  // solid angles of both directions times the cosine of the light, up to a constant factor
 };
 
-// 349 pairs of directions in the coordinates of half and difference vector (Rusinkiewicz 1998), which resolve
-// highlights of any width: 20 half angles, uniform in log(tan) from 0.004 to 86 degrees, five Gauss nodes of
-// the difference angle and five of its azimuth. Pairs with a cosine below 0.05 are excluded.
+// Returns 349 pairs of directions in coordinates of half and difference vector (Rusinkiewicz 1998), which
+// resolve highlights of any width. They use 20 half angles, uniform in log(tan) from 0.004 to 86 degrees,
+// five Gauss nodes of the difference angle and five of its azimuth. Pairs with a cosine below 0.05 are
+// excluded.
 std::vector<QuadratureDirection> half_vector_quadrature();
 
 }  // namespace remap

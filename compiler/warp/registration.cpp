@@ -18,7 +18,7 @@ constexpr double kStrokeWeight = 1.5;
 constexpr double kBending = 10.0;
 constexpr double kPrior = 0.3;
 
-// Farthest point sampling: the first point is the farthest from the mean, each further point the farthest
+// Samples the farthest points: the first point is the farthest from the mean, each further point the farthest
 // from all previous ones.
 Points farthest_points(const Points& points, Eigen::Index wanted) {
   const Eigen::Index count = std::min(wanted, points.rows());
@@ -36,8 +36,9 @@ Points farthest_points(const Points& points, Eigen::Index wanted) {
 
 Points rows_of(const Points& points, const std::vector<int>& rows) { return points(rows, Eigen::all); }
 
-// Soft matches between two sets of points by unbalanced Sinkhorn scaling (Chizat et al. 2018). `mass`: the
-// degree to which each moved point is matched (about 1 / count); `target`: the matched position.
+// A SoftMatch holds soft matches between two sets of points by unbalanced Sinkhorn scaling (Chizat et al.
+// 2018). `mass` is the degree to which each moved point is matched (about 1 / count), and `target` the
+// matched position.
 struct SoftMatch {
   Eigen::VectorXd mass;
   Points target;
@@ -62,14 +63,14 @@ SoftMatch match_softly(const Points& moved, const Points& goal, double sigma) {
   return match;
 }
 
-// The attraction of each point: the sums of weights and of weighted targets.
+// A Pull is the attraction of each point: the sums of weights and of weighted targets.
 struct Pull {
   Eigen::VectorXd weight;
   Points weighted;
 };
 
-// All points of strokes have the same weight. The masses are not normalised, so that strokes far from their
-// partners and points without a match have less effect.
+// Computes the pull. All points of strokes have the same weight. The masses are not normalised, so that
+// strokes far from their partners and points without a match have less effect.
 Pull pull_of(const PointSets& sets, const Points& moved, double sigma) {
   const SoftMatch all = match_softly(moved, sets.target.points, sigma);
   Pull pull{all.mass, all.mass.asDiagonal() * all.target};

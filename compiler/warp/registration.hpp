@@ -1,5 +1,5 @@
-// Computes the warp from strokes and occupancy: an affine map from the strokes, then an annealed registration
-// of both point sets with a bending prior.
+// This file computes the warp from strokes and occupancy: an affine map from the strokes, then an annealed
+// registration of both point sets with a bending prior.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// Both materials as points. `common_axes` maps each axis of the source to the direction in which the template
-// has the same change of reflectance: it is the rotation (or reflection) nearest to V_S^T V_T.
+// A PointSets holds both materials as points. `common_axes` maps each source axis to the direction of the
+// same change of reflectance in the template. It is the rotation (or reflection) next to V_S^T V_T.
 struct PointSets {
   Occupancy source, target;
   Eigen::MatrixXd common_axes;  // dimension x dimension
@@ -20,18 +20,19 @@ struct PointSets {
 
 Eigen::MatrixXd common_axes(const AppearanceSpace& source, const AppearanceSpace& target, int dimension);
 
-// The mean position of the finite texels of each stroke, one row per stroke.
+// Returns the mean position of the finite texels of each stroke, one row per stroke.
 Points stroke_centres(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
 
-// Least squares over the centres of strokes plus a prior times |linear - common axes|^2, which determines
-// directions that the strokes do not fix. The prior of 0.3 is strong, so that a registration starts near the
-// common axes.
+// Solves least squares over the centres of strokes plus a prior times |linear - common axes|^2. The prior
+// determines directions that the strokes do not fix. It is strong (0.3), so that a registration starts close
+// to the common axes.
 AffineMap affine_from_strokes(const PointSets& sets);
 
 // Computes a SmoothWarp with 80 centres of width 1.2 in 25 steps with sigma from 0.4 to 0.05. Each step
-// matches all points softly, and separately the points of every stroke pair with 1.5 times the weight, and
-// solves one linear least squares problem with the bending prior 10 sigma^2 / 0.05 w' K w / 80. The optimum
-// is flat: half or twice any of these numbers changes the error by about one percentage point. Deterministic.
+// matches all points softly, and separately the points of every stroke pair with 1.5 times the weight. Then
+// it solves one linear least squares problem with the bending prior 10 sigma^2 / 0.05 w' K w / 80. The
+// optimum is flat: half or twice any of these numbers changes the error by about one percentage point.
+// Deterministic.
 SmoothWarp register_points(const PointSets& sets, const AffineMap& start);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// Features by samples, for every model and table without a closed form.
+// This file computes features by samples, for every model and table without a closed form.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,7 +16,7 @@ constexpr double kLeastShare = 1e-9;       // relative to the largest eigenvalue
 constexpr Eigen::Index kLargestBasis = 64;
 constexpr double kLargestF0 = 0.999;
 
-// The radii of both materials in increasing order, without duplicates.
+// Returns the radii of both materials in increasing order, without duplicates.
 std::vector<double> merged_radii(const TabulatedMaterial& a, const TabulatedMaterial& b) {
   std::vector<double> radii = a.radii;
   radii.insert(radii.end(), b.radii.begin(), b.radii.end());
@@ -25,7 +25,7 @@ std::vector<double> merged_radii(const TabulatedMaterial& a, const TabulatedMate
   return radii;
 }
 
-// r dr of equation (5) of An et al. 2011, by trapezoids.
+// Returns r dr of equation (5) of An et al. 2011, by trapezoids.
 Eigen::VectorXd radial_measure(const std::vector<double>& radii) {
   Eigen::VectorXd measure(static_cast<Eigen::Index>(radii.size()));
   for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -36,7 +36,7 @@ Eigen::VectorXd radial_measure(const std::vector<double>& radii) {
   return measure;
 }
 
-// One channel of a profile at a radius: linear between samples, constant up to the first, 0 beyond the last.
+// Returns one channel of a profile at a radius: linear, constant up to the first sample, 0 beyond the last.
 double profile_at(const std::vector<double>& radii, const float* samples, double radius) {
   const auto above = std::lower_bound(radii.begin(), radii.end(), radius);
   if (above == radii.end()) return 0.0;
@@ -69,7 +69,7 @@ Eigen::VectorXd weighted(const SampledFeatures& features, Eigen::VectorXd sample
   return samples;
 }
 
-// The exact Fresnel reflectance of a dielectric with this F0, or of a mirror if F0 is almost 1.
+// Returns the exact Fresnel reflectance of a dielectric with this F0, or of a mirror if F0 is almost 1.
 Eigen::VectorXd dielectric_reflectance(const Eigen::VectorXd& cosines, double f0) {
   const double ior = ior_of_reflectance(std::min(f0, kLargestF0));
   return cosines.unaryExpr([&](double cosine) { return fresnel_dielectric(cosine, ior).mean(); });
@@ -85,8 +85,8 @@ void add_lobes(const WarpMaterial& material, SampledFeatures* features) {
     features->cosines[static_cast<Eigen::Index>(i)] = directions[i].geometry.cos_light_half;
 }
 
-// An orthonormal basis of the space that some texels of both materials span: the principal directions about
-// the origin.
+// Returns an orthonormal basis of the space that some texels of both materials span: the principal directions
+// about the origin.
 Eigen::MatrixXd basis_of(const SampledFeatures& source, const MaterialRef& source_material,
                          const SampledFeatures& target, const MaterialRef& target_material) {
   const auto from = sample_texels(source_material, kBasisTexels),

@@ -1,4 +1,4 @@
-// Strokes in two painted images, with one color for each pair.
+// This file reads strokes from two painted images, with one color for each pair.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 using Color = std::uint32_t;  // 0xRRGGBB
 constexpr Color kTransparent = Color{1} << 24;
 
-constexpr double kColorRadius = 40.0;         // colors within it count as one
+constexpr double kColorRadius = 40.0;         // colors within it are treated as one
 constexpr double kPairRadius = 48.0;          // colors of two images match within this distance
 constexpr double kShadeRadius = 80.0;         // for shades of the background next to strokes, from JPEG
 constexpr double kBlendRadius = 60.0;         // from the line between two colors to their blend
-constexpr double kMostBlends = 0.4;           // share of the texels; thin strokes have long edges
+constexpr double kMostBlends = 0.4;           // fraction of the texels; thin strokes have long edges
 constexpr double kLeastColorShare = 2e-5;     // of the texels, for a color
 constexpr std::size_t kLeastColorTexels = 8;  // for a color
 constexpr std::size_t kMostColors = 33;       // including the background
@@ -37,7 +37,7 @@ double distance(Color a, Color b) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-// The distance of `color` to the line segment between two others.
+// Returns the distance of `color` to the line segment between two others.
 double distance_to_blends(Color color, Color a, Color b) {
   const Point p = point_of(color), q = point_of(a), r = point_of(b);
   double along = 0.0, length = 0.0, square = 0.0;
@@ -56,7 +56,7 @@ std::string text_of(Color color) {
   return text.data();
 }
 
-// The texels of an image as 8-bit colors.
+// A Painting holds the texels of an image as 8-bit colors.
 struct Painting {
   fs::path path;
   std::size_t width = 0;
@@ -70,7 +70,7 @@ Painting read_painting(const fs::path& path, const MapFrame& material) {
   read_stroke_image(path, material, [&](const std::vector<float>& values, bool is_alpha) {
     if (!is_alpha && ++colors > 3) return;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const float value = values[i] > 0.0f ? std::min(values[i], 1.0f) : 0.0f;  // NaN counts as black
+      const float value = values[i] > 0.0f ? std::min(values[i], 1.0f) : 0.0f;  // NaN becomes black
       if (is_alpha)
         is_transparent[i] = value < 0.5f ? 1 : 0;
       else
@@ -84,7 +84,7 @@ Painting read_painting(const fs::path& path, const MapFrame& material) {
   return painting;
 }
 
-// One color, or the most frequent of the colors that count as one.
+// A ColorCount is one color, or the most frequent of the colors that are treated as one.
 struct ColorCount {
   Color color = 0;
   std::size_t texels = 0;
@@ -92,7 +92,7 @@ struct ColorCount {
 
 bool is_more_frequent(const ColorCount& a, const ColorCount& b) { return a.texels > b.texels; }
 
-// The colors of the image, the most frequent first.
+// Returns the colors of the image, the most frequent first.
 std::vector<ColorCount> frequencies(const Painting& painting) {
   std::vector<std::uint32_t> counts(kTransparent + 1, 0);
   for (const Color color : painting.texels) ++counts[color];
@@ -125,7 +125,7 @@ std::vector<ColorCount> clusters_of(const std::vector<ColorCount>& colors, std::
 
 constexpr std::uint8_t kNoCluster = 255;
 
-// The index of the nearest cluster for each texel, or kNoCluster.
+// Returns the index of the closest cluster for each texel, or kNoCluster.
 std::vector<std::uint8_t> labels_of(const Painting& painting, const std::vector<ColorCount>& colors,
                                     const std::vector<ColorCount>& clusters) {
   std::vector<std::uint8_t> label_of_color(kTransparent + 1, kNoCluster);
@@ -143,7 +143,7 @@ std::vector<std::uint8_t> labels_of(const Painting& painting, const std::vector<
   return labels;
 }
 
-// Statistics of the surroundings of the texels of one cluster.
+// A Surroundings holds statistics of the surroundings of the texels of one cluster.
 struct Surroundings {
   double count = 0.0;
   double flat = 0.0;    // texels with three or more neighbors of the same cluster
@@ -185,8 +185,8 @@ void look_around(const std::vector<std::uint8_t>& labels, std::size_t width, std
   ++found.rims[larger];
 }
 
-// Whether a cluster is the edge of a larger stroke (thin or a blend with the background, along the whole
-// stroke), or a shade of the background next to strokes, as JPEG produces it.
+// Returns true if a cluster is the edge of a larger stroke: thin, or a blend with the background, along the
+// whole stroke. Also returns true for a shade of the background next to strokes, as JPEG produces it.
 bool is_rim(const std::vector<ColorCount>& clusters, std::size_t index, const Surroundings& around,
             std::size_t first_stroke) {
   if (around.close > 0.75 * around.count && around.flat < 0.4 * around.count) return true;
@@ -209,8 +209,7 @@ struct ColorStroke {
                     "without a picture below)");
 }
 
-// Removes the clusters that are edges of strokes. `first_stroke`: the index of the first cluster after the
-// background.
+// Removes the clusters that are edges of strokes. `first_stroke` is the first cluster after the background.
 std::vector<ColorCount> without_rims(const std::vector<ColorCount>& clusters, const Painting& painting,
                                      const std::vector<std::uint8_t>& labels, std::size_t first_stroke) {
   std::vector<Surroundings> around(clusters.size());
@@ -223,7 +222,7 @@ std::vector<ColorCount> without_rims(const std::vector<ColorCount>& clusters, co
   return kept;
 }
 
-// The strokes of an image, in the order of their first texels.
+// Returns the strokes of an image, in the order of their first texels.
 std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& material) {
   const auto count = static_cast<double>(painting.texels.size());
   const auto transparent =
@@ -255,7 +254,7 @@ std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& ma
   return strokes;
 }
 
-// The index of the stroke with the nearest color.
+// Returns the index of the stroke with the closest color.
 std::size_t nearest_stroke(const std::vector<ColorStroke>& strokes, Color color) {
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < strokes.size(); ++k)

@@ -1,4 +1,4 @@
-// Strokes in masks and boxes, and the images of strokes.
+// This file reads strokes from masks and boxes, and images of strokes.
 #include "warp/strokes.hpp"
 
 #include <sstream>
@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// For example `96x64`.
+// Returns for example `96x64`.
 std::string size_text(std::size_t width, std::size_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }

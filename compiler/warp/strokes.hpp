@@ -1,5 +1,5 @@
-// Reads strokes, which mark corresponding regions of two materials: from masks, boxes or paintings. Images of
-// strokes must have the size of the material's maps.
+// This file reads strokes, which mark corresponding regions of two materials, from masks, boxes or paintings.
+// Images of strokes must have the size of the material's maps.
 #pragma once
 
 #include <filesystem>
@@ -20,21 +20,21 @@ std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const 
 std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material);
 
 // Returns one pair for each color except the background, in the row-major order of their first texels in the
-// source's image. The background is transparent (alpha below 0.5) if at least 1 % of the texels are;
-// otherwise it is the most frequent color. Colors within 40 of 255 (Euclidean, stored values) count as one
-// color, because JPEG and soft brushes vary colors; colors of the two images match within 48. Texels at the
-// edges of strokes, where colors blend, and colors of less than eight texels or 0.002 % are ignored. Throws
-// kInput for an image without strokes or without flat colors and for a color in only one of the images, and
-// the errors of read_stroke_image() and require_background().
+// source's image. The background is transparent (alpha below 0.5) if at least 1 % of the texels are.
+// Otherwise it is the most frequent color. Colors within 40 of 255 (Euclidean, stored values) are treated as
+// one color, because JPEG and soft brushes vary colors. Colors of the two images match within 48. Texels at
+// the edges of strokes, where colors blend, and colors of less than eight texels or 0.002 % are ignored.
+// Throws kInput for an image without strokes or without flat colors and for a color in only one of the
+// images. Also throws the errors of read_stroke_image() and require_background().
 std::vector<StrokePair> read_color_strokes(const std::filesystem::path& source_image, const MapFrame& source,
                                            const std::filesystem::path& template_image,
                                            const MapFrame& target);
 
-// Receives one channel: its stored values, row-major from the top; integers are scaled to 0 to 1.
+// A StrokeChannel receives one channel: stored values, row-major from the top, integers as 0 to 1.
 using StrokeChannel = std::function<void(const std::vector<float>& values, bool is_alpha)>;
 
 // Calls `use` for each channel in the order of the file. Throws kInput if the image cannot be read or its
-// size differs from that of the material.
+// size differs from the material's.
 void read_stroke_image(const std::filesystem::path& image, const MapFrame& material,
                        const StrokeChannel& use);
 

@@ -17,7 +17,7 @@
 namespace remap {
 namespace {
 
-// A file has 33 MB on disk; the database has 100 of them.
+// This many BRDFs suffice: a file has 33 MB on disk, and the database has 100 of them.
 constexpr std::size_t kMostBrdfs = 10'000;
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ std::optional<fs::path> table_in(const fs::path& folder) {
   return std::nullopt;
 }
 
-// A color channel and radius, and the index of its column or channel in the file.
+// A ProfileColumn is a color channel and radius, and the index of its column or channel in the file.
 struct ProfileColumn {
   char channel = 'Y';
   double radius = 0.0;
@@ -47,7 +47,7 @@ std::optional<ProfileColumn> profile_column(std::string_view name, std::size_t c
   return ProfileColumn{name[0], *radius, column};
 }
 
-// The radii of a table, and the column of each sample of red, green and blue.
+// A ProfileLayout holds the radii of a table, and the column of each sample of red, green and blue.
 struct ProfileLayout {
   std::vector<double> radii;
   std::vector<std::size_t> columns;  // 3 x radii

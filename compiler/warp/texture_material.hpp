@@ -1,4 +1,4 @@
-// Reads texture sets as materials of a warp.
+// This file reads texture sets as materials of a warp.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,22 @@ namespace remap {
 struct TextureMaterial {
   WarpMaterial material;  // row-major
   std::size_t width = 0, height = 0;
-  bool is_albedo = false;  // from a diffuse map alone
+  bool is_albedo = false;  // from only a diffuse map
 
   MapFrame frame() const { return {material.name, width, height}; }
 };
 
-// How to read a folder that has neither roughness nor specular.
+// An AlbedoAlone decides how to read a folder that has neither roughness nor specular.
 enum class AlbedoAlone {
   kRefuse,
   kEnrich,  // diffuse or base color with specular 0 and alpha 1 (An et al. 2011, section 4)
 };
 
-// Reads the only set of `folder`, found by the names of its maps (runtime/sets): diffuse, specular (F0
-// or scale of `model`), and roughness, glossiness or alpha, which are converted to alpha; or base color and
-// metallic, which are converted by equation (2). All maps must have the same size. Throws kInput for missing
-// and ambiguous maps, kUsage for a model that the built-in renderer does not support.
+// Reads the only set of `folder`, found by the names of its maps (runtime/sets). The maps are diffuse,
+// specular (F0 or scale of `model`), and roughness, glossiness or alpha, which are converted to alpha. Or
+// they are base color and metallic, which are converted by equation (2). All maps must have the same size.
+// Throws kInput for missing and ambiguous maps, and kUsage for a model that the built-in renderer does not
+// support.
 TextureMaterial read_texture_material(const std::filesystem::path& folder, const std::string& model,
                                       AlbedoAlone albedo = AlbedoAlone::kRefuse);
 

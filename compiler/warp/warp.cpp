@@ -12,15 +12,15 @@
 namespace remap {
 namespace {
 
-// The source is only used for points; results are texels of the template, so more of them are kept.
+// The source is only used for points. Results are texels of the template, so more of them are kept.
 constexpr std::size_t kMostSources = std::size_t{1} << 16, kMostTargets = std::size_t{1} << 18;
 
-// Limits of copy_rms_error().
+// These are limits of copy_rms_error().
 constexpr std::size_t kMostSampledSources = std::size_t{1} << 14, kMostCopies = std::size_t{1} << 18;
 
 using StrokeTexels = std::vector<std::vector<std::uint32_t>>;
 
-// The texels that are used for the match, and strokes as indices into them.
+// A Selection holds the texels that are used for the match, and strokes as indices into them.
 struct Selection {
   std::vector<std::uint32_t> texels;
   StrokeTexels strokes;
@@ -54,7 +54,7 @@ Selection selection_of(const MaterialRef& material, const std::vector<StrokePair
   return result;
 }
 
-// The number of directions along which the centres of the strokes differ by more than a tenth of the radius.
+// Returns the number of directions in which the strokes' centres differ by over a tenth of the radius.
 int fixed_directions(const Points& centres) {
   const Points centred = centres.rowwise() - centres.colwise().mean();
   const Eigen::VectorXd squares = symmetric_eigen(centred.transpose() * centred).values;
@@ -69,7 +69,7 @@ double rms_distance(const Points& a, const Points& b, std::size_t* worst = nullp
   return std::sqrt(squares.mean());
 }
 
-// The share of template points that have the image of a source point within one bin.
+// Returns the fraction of template points that have the image of a source point within one bin.
 double coverage_of(const SmoothWarp& warp, const PointSets& sets) {
   const Points images = images_of(warp, sets.source.points);
   const Points& goal = sets.target.points;
@@ -94,7 +94,7 @@ WarpDiagnostics::SharedStroke most_shared(const MaterialRef& source, const Mater
   return most;
 }
 
-// A match and the data that it was computed from.
+// A Matched holds a match and the data that it was computed from.
 struct Matched {
   Selection source, target;
   Points source_positions, target_positions;
@@ -152,7 +152,7 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
   return result;
 }
 
-// The material with these texels only, all of them in 0 to 1.
+// Returns the material with only these texels, all of them in 0 to 1.
 WarpMaterial reduced(const WarpMaterial& material, const std::vector<std::uint32_t>& texels) {
   WarpMaterial result{material.name, material.model, {}, material.is_dielectric};
   result.texels.reserve(texels.size());

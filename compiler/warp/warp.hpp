@@ -1,5 +1,6 @@
-// Appearance warps after An et al. 2011: computes from two materials and strokes a converter that gives the
-// source the reflectance of the template. The steps are features, coordinates, points, registration, table.
+// This file computes appearance warps after An et al. 2011. From two materials and strokes it makes a
+// converter that gives the source the reflectance of the template. The steps are features, coordinates,
+// points, registration, table.
 #pragma once
 
 #include <string>
@@ -15,23 +16,23 @@ struct WarpOptions {
   bool exact = false;  // results are texels of the template, not blends
 };
 
-// Figures that help a user to improve strokes.
+// A WarpDiagnostics holds figures that help a user to improve strokes.
 struct WarpDiagnostics {
   int source_dimensions = 0, target_dimensions = 0;  // that each material needs
   int dimensions = 0;                                // of the warp
   double source_stress = 0.0, target_stress = 0.0;   // at `dimensions`
   double coordinates_error = 0.0;                    // the larger Placement::fit_error, in radii
   int fixed_directions = 0;  // dimensions that strokes determine; the others follow the prior
-  double fold_share = 0.0;   // share of source texels where the warp folds
-  double coverage = 0.0;     // share of the template's occupied bins that the result uses
-  // RMS distance from the image of a source stroke's centre to the template stroke's centre, in template
-  // radii: after the warp, and after the affine map of the strokes alone.
+  double fold_share = 0.0;   // fraction of source texels where the warp folds
+  double coverage = 0.0;     // fraction of the template's occupied bins that the result uses
+  // This is the RMS distance from the image of a source stroke's centre to the template stroke's centre, in
+  // template radii: after the warp, and after only the affine map of the strokes.
   double stroke_distance = 0.0;
   double stroke_contradiction = 0.0;
   std::size_t worst_stroke = 0;                          // index of the stroke with the largest distance
   std::vector<std::string> strokes;                      // their names, for messages
   std::size_t source_left_out = 0, target_left_out = 0;  // texels that are not finite
-  // The stroke of which the largest share is covered by another stroke, in either material.
+  // A SharedStroke is the stroke that another stroke covers most, in either material.
   struct SharedStroke {
     std::size_t stroke = 0;  // index
     Overlap overlap;
@@ -39,7 +40,7 @@ struct WarpDiagnostics {
   } shared;
 };
 
-// The positions of the texels of both materials, and the warp between the positions.
+// An AppearanceMatch holds the positions of the texels of both materials, and the warp between the positions.
 struct AppearanceMatch {
   WarpDiagnostics diagnostics;
   Placement source, target;
@@ -47,13 +48,13 @@ struct AppearanceMatch {
   double target_radius = 0.0;  // RMS spread of the template, in features
 };
 
-// Deterministic, single-threaded. Uses at most 2^16 texels of the source and 2^18 of the template, evenly
-// spread, and all texels of strokes. Throws the errors of require_valid(), appearance_features() and
-// appearance_space().
+// Matches two materials. Deterministic, single-threaded. Uses at most 2^16 texels of the source and 2^18 of
+// the template, evenly spread, and all texels of strokes. Throws the errors of require_valid(),
+// appearance_features() and appearance_space().
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
                                   const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
 
-// A match of two parametric materials with its compiled converter.
+// A WarpFit is a match of two parametric materials with its compiled converter.
 struct WarpFit : AppearanceMatch {
   CompiledWarp compiled;
   const AppearanceCoordinates& target_coordinates() const {
@@ -65,18 +66,18 @@ struct WarpFit : AppearanceMatch {
 WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
                  const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
 
-// Returns for every source texel the template texel that is nearest to its image (for `--copy` and tests).
+// Returns for every source texel the template texel that is closest to its image (for `--copy` and tests).
 // Texels that are not finite get kNoTexel.
 inline constexpr std::uint32_t kNoTexel = ~std::uint32_t{0};
 std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const MaterialRef& source,
                                         const MaterialRef& target);
 
-// RMS distance in the template's appearance space between the results of the compiled converter and of
-// copy_exactly(), relative to the template's spread. Uses at most 2^14 source texels and 2^18 template
+// Returns the RMS distance in the template's appearance space between the results of the compiled converter
+// and of copy_exactly(), relative to the template's spread. Uses at most 2^14 source texels and 2^18 template
 // texels, both evenly spread.
 double copy_rms_error(const WarpFit& fit, const WarpMaterial& source, const WarpMaterial& target);
 
-// Warnings about diagnostics that the user should act on, one line each, without the place.
+// Returns warnings about diagnostics that the user should act on, one line each, without the place.
 std::vector<std::string> warnings_of(const WarpDiagnostics& diagnostics);
 
 }  // namespace remap

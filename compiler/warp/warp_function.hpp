@@ -1,4 +1,4 @@
-// Maps from the source's appearance space to the template's.
+// This file holds maps from the source's appearance space to the template's.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,13 +7,13 @@
 
 namespace remap {
 
-// F(x) = x linear + offset, where rows are points.
+// An AffineMap is F(x) = x linear + offset, where rows are points.
 struct AffineMap {
   Eigen::MatrixXd linear;     // dimension x dimension
   Eigen::RowVectorXd offset;  // dimension
 };
 
-// F(x) = x linear + offset + sum_c weights_c exp(-|x - centre_c|^2 / (2 width^2)).
+// A SmoothWarp is F(x) = x linear + offset + sum_c weights_c exp(-|x - centre_c|^2 / (2 width^2)).
 struct SmoothWarp {
   AffineMap affine;
   Points centres;
@@ -21,15 +21,15 @@ struct SmoothWarp {
   double width = 1.0;
 };
 
-// The images of points, one row per point. NaN gives NaN.
+// Return the images of points, one row per point. NaN gives NaN.
 Points images_of(const AffineMap& map, const Points& points);
 Points images_of(const SmoothWarp& warp, const Points& points);
 
-// The factors exp(...) of a SmoothWarp: points x centres.
+// Returns the factors exp(...) of a SmoothWarp: points x centres.
 Eigen::MatrixXd gaussians(const Points& points, const Points& centres, double width);
 
-// The share of `weights` at points where the warp folds: where its orientation (the sign of the determinant
-// of its Jacobian, by central differences) differs from that of the majority.
+// Returns the fraction of `weights` at points where the warp folds. There its orientation (the sign of the
+// determinant of its Jacobian, by central differences) differs from most points.
 double fold_share(const SmoothWarp& warp, const Points& points, const Eigen::VectorXd& weights);
 
 }  // namespace remap

@@ -21,14 +21,14 @@ void set_box(ParameterTable& table, const Points& positions) {
   }
 }
 
-// The number of nodes in the whole box.
+// Returns the number of nodes in the whole box.
 std::size_t node_count(const ParameterTable& table) {
   std::size_t count = 1;
   for (std::size_t k = 0; k < table.low.size(); ++k) count *= table.nodes;
   return count;
 }
 
-// The positions of the nodes along one axis.
+// Returns the positions of the nodes along one axis.
 Eigen::VectorXd axis_nodes(const ParameterTable& table, std::size_t axis) {
   return Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(table.nodes),
                                     static_cast<double>(table.low[axis]),
@@ -108,8 +108,8 @@ CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const WarpMat
 
 constexpr std::uint32_t kUnknown = ~std::uint32_t{0};
 
-// The nodes around every position and their neighbors, in increasing order: the nodes that source texels look
-// up, also if `positions` are a sample of them.
+// Returns the nodes around every position and their neighbors, in increasing order. These are the nodes that
+// source texels look up, even if `positions` are only a sample of them.
 std::vector<std::uint32_t> nodes_around(const Points& positions, const ParameterTable& table) {
   const std::size_t dimension = table.low.size(), nodes = table.nodes, count = node_count(table);
   std::vector<char> is_near(count, 0);
@@ -161,8 +161,8 @@ void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front
   }
 }
 
-// Finds the nearest texel to the image of every node that source texels look up. The other nodes, often most
-// of the box, copy the nearest such node, because the warp is undefined far from the source.
+// Finds the texel closest to the image of every node that source texels look up. The other nodes, often most
+// of the box, copy the closest such node, because the warp is undefined far from the source.
 std::vector<std::uint32_t> node_texels(const Points& positions, const ParameterTable& table,
                                        const Points& images, const NearestTexel& nearest) {
   const std::vector<std::uint32_t> near = nodes_around(positions, table);

@@ -1,5 +1,5 @@
-// Each child has a thread that forks it, reads its output and reaps it. The kernel signals the death of a
-// parent when the thread that forked dies, so that thread must live as long as the child.
+// Each child process has a thread that forks it, reads its output and reaps it. The kernel signals the death
+// of a parent when the thread that forked dies, so that thread must live as long as the child.
 #include "worker/child_process.hpp"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ namespace {
 constexpr std::size_t kMostLog = 8192;          // bytes of standard error that are kept
 constexpr std::size_t kShownLogLines = 4;       // lines of the log in a message
 constexpr std::size_t kLongestLine = 16 << 20;  // far above an answer of a few kilobytes
-constexpr std::size_t kMostUnread = 64 << 20;   // bytes of lines that wait for a reader
-constexpr int kWatchMilliseconds = 20;          // delay at most until the end of a process is noticed
+constexpr std::size_t kMostUnread = 64 << 20;   // bytes of lines that wait to be read
+constexpr int kWatchMilliseconds = 20;          // longest delay until the end of a process is noticed
 
 struct Pipe {
   int read = -1, write = -1;
@@ -45,10 +45,10 @@ void close_end(int* end) {
   *end = -1;
 }
 
-// The memory of a waiting line. Empty lines take memory, too.
+// Returns the memory of a waiting line. Empty lines take memory, too.
 std::size_t bytes_of(const std::string& line) { return sizeof line + line.size(); }
 
-// Runs between fork and exec, so it makes async-signal-safe calls only.
+// Runs between fork and exec, so it makes only async-signal-safe calls.
 [[noreturn]] void become(pid_t parent, char* const* arguments, int input, int output, int errors) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -63,13 +63,13 @@ std::size_t bytes_of(const std::string& line) { return sizeof line + line.size()
   ::_exit(127);
 }
 
-// `REMAP_CHILD=5d1c09e4-421-1`, for the first child of this process.
+// Returns `REMAP_CHILD=5d1c09e4-421-1` for the first child of this process.
 std::string new_mark() {
   static std::atomic<unsigned> count{0};
   return "REMAP_CHILD=" + owner_tag() + "-" + std::to_string(++count);
 }
 
-// Whether the environment that a process began with holds `entry`; false if it cannot be read.
+// Returns true if the environment that a process began with holds `entry`, and false if it cannot be read.
 bool has_in_environment(const std::filesystem::path& process, const std::string& entry) {
   try {
     const std::vector<std::string> entries = parts_between(read_file(process / "environ"), '\0');
@@ -79,7 +79,7 @@ bool has_in_environment(const std::filesystem::path& process, const std::string&
   }
 }
 
-// Processes whose names under /proc are numbers, and which have `mark`.
+// Returns processes that have `mark` and whose names under /proc are numbers.
 std::vector<pid_t> marked_processes(const std::string& mark) {
   std::vector<pid_t> found;
   std::error_code ignored;
@@ -91,8 +91,8 @@ std::vector<pid_t> marked_processes(const std::string& mark) {
   return found;
 }
 
-// Kills what a process has started outside of its group (setsid), again while it starts more. The dead and
-// those that have become zombies have no environment.
+// Kills what a process has started outside of its group (setsid), and repeats this while it starts more. Dead
+// processes and zombies have no environment.
 void kill_marked(const std::string& mark) {
   constexpr int kMostRounds = 100;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -103,8 +103,8 @@ void kill_marked(const std::string& mark) {
   }
 }
 
-// Writing to a process that has ended raises SIGPIPE, which would end this program. The signal is blocked and
-// consumed.
+// A PipeSignalBlocked blocks and consumes SIGPIPE. Writing to a process that has ended raises this signal,
+// which would end this program.
 class PipeSignalBlocked {
  public:
   PipeSignalBlocked() {
@@ -199,7 +199,7 @@ void ChildProcess::watch() {
         stream.fd = -1;  // poll ignores negative descriptors
       }
     }
-    // All output before its end has been read, or none of it counts.
+    // Stop once all output before its end has been read, or a fault makes it useless.
     if (gone && (!read_something || fault_ != nullptr)) break;
     siginfo_t info{};
     gone = ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
@@ -250,7 +250,7 @@ void ChildProcess::take_output(std::string_view bytes) {
   changed_.notify_all();
 }
 
-// Its output is dropped from here on: what the process has started may go on writing.
+// Drops its output from here on, because the processes that it has started may still write.
 void ChildProcess::stop_for(const char* fault) {
   fault_ = fault;
   lines_.clear();

@@ -1,5 +1,5 @@
-// Runs a program next to this one: exchanges lines with it, keeps the end of its log, and never leaves it
-// running.
+// This file runs a program next to this one. It exchanges lines with it, keeps the end of its log, and never
+// leaves it running.
 #pragma once
 
 #include <chrono>
@@ -24,14 +24,13 @@ class ChildProcess {
   };
 
   // Starts `script` by /bin/sh, in its own process group, so that a Ctrl-C at the terminal does not reach it.
-  // The kernel kills the process when this program ends in any way. The process and all that it starts have
-  // the variable REMAP_CHILD of its environment in common, by which those are found that have left the group.
-  // Throws kInput if it cannot be started.
+  // The kernel kills the process when this program ends in any way. The process and everything that it starts
+  // share the environment variable REMAP_CHILD, which identifies processes that have left the group. Throws
+  // kInput if it cannot be started.
   explicit ChildProcess(std::string script);
 
-  // Closes its input, waits `kGrace` for it to end, then ends it as end() does.
-  // Out of reach are only descendants that clear their environment, and, where this program is killed itself,
-  // all but the process.
+  // Closes its input, waits `kGrace` for it to end, then ends it like end(). It cannot reach descendants that
+  // clear their environment. If this program is killed itself, only the process itself ends.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -45,15 +44,14 @@ class ChildProcess {
   // Adds a line of output that is not an answer to the log.
   void note(const std::string& line);
 
-  // Describes how it ended: `died with signal 9`, `ended with exit code 3`; `closed its input` if it still
-  // runs.
+  // Describes how it ended: `died with signal 9`, `ended with exit code 3`, or, running, `closed its input`.
   std::string ending();
 
-  // Returns the last lines of its standard error, `A | B | C`; empty if there are none.
+  // Returns the last lines of its standard error, `A | B | C`, or an empty text if there are none.
   std::string log_end();
 
-  // Asks the group to end (SIGTERM), so that a program like srun ends what it runs elsewhere, and kills it
-  // `kGrace` later, with whatever else the process has started. Does not wait.
+  // Asks the group to end (SIGTERM), so that a program like srun ends what it runs elsewhere. Kills it
+  // `kGrace` later, with everything else that the process has started. Does not wait.
   void end();
 
   static constexpr std::chrono::milliseconds kGrace{2000};
@@ -85,7 +83,7 @@ class ChildProcess {
   std::size_t unread_ = 0;  // bytes that these lines take
   std::string part_of_line_, log_;
   bool ended_ = false, asked_ = false;
-  const char* fault_ = nullptr;  // of its output, for which it was killed
+  const char* fault_ = nullptr;  // fault of its output, for which it was killed
   int status_ = 0;
   Clock::time_point leave_by_ = Clock::time_point::max();
 };

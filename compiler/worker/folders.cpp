@@ -24,7 +24,7 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// A folder of the XDG base directory specification.
+// Returns a folder of the XDG base directory specification.
 fs::path user_folder(const char* name, const char* below_home) {
   // The specification requires that relative paths are ignored.
   if (const fs::path folder = variable(name); folder.is_absolute()) return folder;
@@ -41,7 +41,7 @@ fs::path folder_in_memory() {
   return is_writable_folder(memory) ? memory : fs::temp_directory_path();
 }
 
-// The mark of the process in the name of a private folder, before the six letters that make it unique.
+// Returns the process's mark in a private folder's name, before the six letters that make it unique.
 std::string_view mark_in(std::string_view name) {
   const std::size_t end = name.rfind('-');
   if (!name.starts_with(kPrefix) || end == std::string_view::npos || end <= kPrefix.size()) return {};
@@ -82,7 +82,7 @@ PrivateFolder::PrivateFolder(const fs::path& given) {
   path_ = name;
 }
 
-// A process on another machine may write a last file meanwhile.
+// Deletes the folder repeatedly, because a process on another machine may write a last file meanwhile.
 PrivateFolder::~PrivateFolder() {
   constexpr int kTries = 10;
   std::error_code failure;

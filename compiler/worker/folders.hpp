@@ -1,26 +1,27 @@
-// The folders of workers, renderers and pictures.
+// This file gives the folders of workers, renderers and pictures.
 #pragma once
 
 #include <filesystem>
 
 namespace remap {
 
-// Where scripts/renderers installs: `REMAP_RENDERERS`, else `remap/renderers` in the user's data folder.
+// Returns where scripts/renderers installs: `REMAP_RENDERERS`, or `remap/renderers` in the user's data
+// folder.
 std::filesystem::path renderers_folder();
 
-// The picture cache: `remap/pictures` in the user's cache folder (`XDG_CACHE_HOME`, `~/.cache`).
+// Returns the picture cache: `remap/pictures` in the user's cache folder (`XDG_CACHE_HOME`, `~/.cache`).
 std::filesystem::path default_cache_folder();
 
-// The user's own list of workers: `REMAP_WORKERS`, else `remap/workers.json` in the user's configuration
-// folder. The file may be missing.
+// Returns the user's own list of workers: `REMAP_WORKERS`, otherwise `remap/workers.json` in the user's
+// configuration folder. The file may be missing.
 std::filesystem::path own_worker_list();
 
-// The list that ships with remap, found from the running program; empty where it is not installed.
+// Returns remap's own list, found from the running program, or an empty path if it is not installed.
 std::filesystem::path shipped_worker_list();
 
-// A folder of this process, deleted with the object. Its name holds the mark of this machine and process
-// (core/owner_tag.hpp), so that many may share the parent; folders of processes of this machine that have
-// ended are deleted when another one is made.
+// A PrivateFolder is a folder of this process, deleted with the object. Its name holds the mark of this
+// machine and process (core/owner_tag.hpp), so that many may share the parent. Making one also deletes the
+// folders of processes of this machine that have ended.
 class PrivateFolder {
  public:
   // Without a parent it is in memory if possible. Throws kOutput if no folder can be made.

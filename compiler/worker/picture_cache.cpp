@@ -1,7 +1,7 @@
-// A file holds one line of text, the request and the renderer's version, a line with the checksum of that
-// line and of the picture, then the picture as raw floats. Its name is a hash of the first line. Since the
-// line is compared, requests of equal hash are not confused; since every byte counts in the checksum, a
-// damaged file is not used.
+// This file stores pictures. A file holds one line of text, the request and the renderer's version. Then come
+// a line with the checksum of that line and of the picture, and the picture as raw floats. Its name is a hash
+// of the first line. The line is compared, so requests with equal hashes are not confused. The checksum
+// covers every byte, so a damaged file is not used.
 #include "worker/picture_cache.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo 1991): a single byte that changes always changes it.
+// Returns FNV-1a, 64 bits (Fowler, Noll, Vo 1991). Changing a single byte always changes it.
 std::uint64_t hash_of(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -47,7 +47,6 @@ std::string folder_name(const std::string& text) {
   return name.substr(0, 60);
 }
 
-// The size of a picture in bytes.
 std::size_t picture_bytes(const PictureRequest& request) {
   const auto side = static_cast<std::size_t>(request.resolution);
   return side * side * static_cast<std::size_t>(request.channels) * sizeof(float);
@@ -85,7 +84,7 @@ PictureCache::Found PictureCache::find(const PictureRequest& request) const {
   const std::string_view picture = std::string_view(content).substr(end + kChecksumBytes);
   if (content.compare(end, kChecksumBytes, checksum_line(content.substr(0, end), picture)) != 0)
     return damaged("its checksum does not match its content");
-  if (content.compare(0, end, line) != 0) return {};  // another request of the same hash
+  if (content.compare(0, end, line) != 0) return {};  // another request with the same hash
   if (content.size() != expected) return damaged("it has a picture of another size");
   Image image{request.resolution, request.resolution, request.channels,
               std::vector<float>(picture_bytes(request) / sizeof(float))};

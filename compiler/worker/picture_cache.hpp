@@ -1,4 +1,4 @@
-// Keeps rendered pictures on disk, so that none is rendered twice.
+// This file keeps rendered pictures on disk, so that none is rendered twice.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,15 @@
 
 namespace remap {
 
-// The pictures of one version of one renderer, in a folder of the cache named after both. Safe for many
-// threads and processes; a picture appears complete or not at all.
+// A PictureCache holds the pictures of one version of one renderer, in a folder of the cache named after
+// both. Safe for many threads and processes. A picture appears complete or not at all.
 class PictureCache {
  public:
-  // `renderer`: WorkerDescription::renderer.
+  // `renderer` is WorkerDescription::renderer.
   PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
 
-  // What the cache holds for a request. If there is a file that cannot be used, `image` is empty and `damage`
-  // says why (`FILE: its checksum does not match its content`).
+  // A Found is what the cache holds for a request. If there is a file that cannot be used, `image` is empty
+  // and `damage` has the reason (`FILE: its checksum does not match its content`).
   struct Found {
     std::optional<Image> image;
     std::string damage;

@@ -8,7 +8,7 @@
 namespace remap {
 namespace {
 
-// The fault of one value; null if there is none.
+// Returns the fault of one value, or null.
 const char* rule_against(float value, float least) {
   if (!std::isfinite(value)) return "values must be finite";
   if (value > kBrightestPixel) return "values must not be above 1e18";

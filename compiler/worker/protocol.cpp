@@ -15,7 +15,7 @@
 namespace remap {
 namespace {
 
-// Limits of one renderer; models are listed, and parameters are options.
+// These limit one renderer. Models are listed, and parameters are options.
 constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
@@ -121,7 +121,7 @@ Json parse_answer(const std::string& line, std::int64_t id, const std::string& c
   return answer;
 }
 
-// The error text of the worker, on one line and truncated.
+// Returns the error text of the worker, on one line and truncated.
 std::optional<std::string> complaint_of(const Json& answer, const std::string& context) {
   if (!answer.contains("error")) return std::nullopt;
   std::string complaint = Field(answer, context)["error"].any_text();

@@ -1,5 +1,5 @@
-// Formats the requests to a worker and parses its answers (compiler/adapters/PROTOCOL.md). Only this file
-// knows their JSON.
+// This file formats the requests to a worker and parses its answers (compiler/adapters/PROTOCOL.md). Only
+// this file knows their JSON.
 #pragma once
 
 #include <cstdint>
@@ -14,37 +14,37 @@ namespace remap {
 
 inline constexpr int kWorkerProtocol = 1;
 
-// The answer to `describe`.
+// A WorkerDescription is the answer to `describe`.
 struct WorkerDescription {
   std::string renderer;  // name and version of the renderer
   std::vector<ModelDescription> models;
   bool meshes = false;  // accepts shapes other than the sphere, as files
 };
 
-// The request for one picture, without what differs from run to run: the key of a cache.
+// A PictureRequest is the request for one picture, the same in every run. It is the key of a cache.
 struct PictureRequest {
   std::string text;   // JSON: model, parameters, scene, seed, channels
   std::string shown;  // `mitsuba3/ggx alpha 0.2, specular 0.5, light 60, 256 x 256`
   int resolution = 0;
   Shape shape = Shape::kSphere;
-  int channels = 1;  // 1 if every parameter is grey, else 3
+  int channels = 1;  // 1 if every parameter is grey, otherwise 3
 };
 PictureRequest picture_request(const Material& material, const Scene& scene);
 
-// Lines for a worker's standard input, without the line break.
+// Return lines for a worker's standard input, without the line break.
 std::string describe_line(std::int64_t id, unsigned threads);
-// `mesh`: the file of the shape; unused for the sphere.
+// `mesh` is the file of the shape, unused for the sphere.
 std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
                         const std::filesystem::path& mesh);
 std::string quit_line(std::int64_t id);
 
-// Whether a line is meant as an answer; lines before the first answer are banners.
+// Returns true if a line is meant as an answer. Lines before the first answer are banners.
 bool is_answer(const std::string& line);
 
-// Returns the error that an answer reports, if it does. Throws kInput, opened by `context`, if the line is
-// not the answer to request `id`.
+// Returns the error that an answer reports, if it does. Throws kInput, beginning with `context`, if the line
+// is not the answer to request `id`.
 std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& context);
-// `prefix`: the part of every model's name before the `/`; empty accepts any.
+// `prefix` is the part of every model's name before the `/`; an empty prefix accepts any.
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& context);
 

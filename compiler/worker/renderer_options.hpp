@@ -1,5 +1,5 @@
-// The options of commands that use models of external renderers: their workers and the cache of their
-// pictures.
+// This file holds the options of commands that use models of external renderers: their workers and the cache
+// of their pictures.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace remap {
 
 struct RendererOptions {
   std::vector<std::string> workers;  // NAME=COMMAND
-  std::filesystem::path cache;       // empty: the default folder
+  std::filesystem::path cache;       // if empty, the default folder
   bool no_cache = false;
   WorkerSettings settings;  // without the cache
 };
@@ -24,7 +24,7 @@ void add_renderer_options(Command& app, RendererOptions& options);
 
 WorkerSettings worker_settings(const RendererOptions& options);
 
-// The built-in renderer and all known workers. Throws as known_workers() does.
+// Returns the built-in renderer and all known workers. Throws like known_workers().
 std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options);
 
 }  // namespace remap

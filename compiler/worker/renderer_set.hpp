@@ -1,5 +1,5 @@
-// Combines all renderers: the built-in one, and workers, which are started when a model with their prefix is
-// first requested. The workers are those of the command line, the user's own, and those that ship.
+// This file combines all renderers: the built-in one and workers. A worker is started when a model with its
+// prefix is first requested. Workers come from the command line, the user's list, and the shipped list.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ class RendererSet final : public Renderer {
   // Names the built-in renderer and the workers that have been started.
   std::string version() const override;
   std::string version_of(const std::string& model) const override;
-  // Returns the built-in models and those of workers that have been started; starts none.
+  // Returns the built-in models and the models of started workers; starts none.
   std::vector<ModelDescription> models() const override;
   ModelDescription model(const std::string& name) const override;
   Image render(const Material& material, const Scene& scene) const override;
@@ -34,7 +34,7 @@ class RendererSet final : public Renderer {
   std::vector<std::string> remarks() const;
 
  private:
-  // Returns the renderer of a model by its prefix; the built-in one if no worker has that prefix.
+  // Returns the renderer of a model by its prefix, or the built-in one if no worker has that prefix.
   const Renderer& renderer_of(const std::string& model) const;
   std::vector<const WorkerRenderer*> started() const;
   void tell_watcher();
@@ -54,8 +54,8 @@ std::vector<WorkerEntry> read_worker_list(const std::filesystem::path& path);
 // Parses `NAME=COMMAND` of the command line. Throws kUsage.
 WorkerEntry parse_worker(const std::string& text);
 
-// Returns all workers by name. Of workers with the same name the first counts, in the order `given`, the
-// user's list, the shipped list. Throws kInput for a list that cannot be read, kUsage for errors in `given`.
+// Returns all workers by name. If several have the same name, the first counts, in the order `given`, the
+// user's list, the shipped list. Throws kInput for an unreadable list, kUsage for errors in `given`.
 std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
 
 }  // namespace remap

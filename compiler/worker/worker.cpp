@@ -14,7 +14,7 @@ namespace {
 using std::chrono::duration;
 using std::chrono::duration_cast;
 
-// How often a wait checks for an interruption.
+// A wait checks this often for an interruption.
 constexpr std::chrono::milliseconds kGlance{100};
 
 // Quotes `text` as one word of the shell.
@@ -24,10 +24,10 @@ std::string quoted(const std::string& text) {
   return word + "'";
 }
 
-// Parts of a message, which together leave room for the place and for how to install the worker.
+// These limit parts of a message, to leave room for the place and for how to install the worker.
 constexpr std::size_t kLongestWhat = 1000, kLongestLog = 500;
 
-// The last line of a log says most.
+// Returns the last line of a log, which is the most useful.
 std::string end_of(const std::string& log) {
   return log.size() <= kLongestLog ? log : "..." + log.substr(log.size() - kLongestLog);
 }
@@ -109,15 +109,15 @@ std::string Worker::next_answer(const std::string& shown) {
 
 std::string Worker::ask(const std::string& line, const std::string& shown) {
   usable_ = false;
-  process_->write_line(line);  // if it fails, the process has ended and read_line reports how
+  process_->write_line(line);  // if this fails, the process has ended and read_line reports how
   std::string answer = next_answer(shown);
   has_answered_ = usable_ = true;
   return answer;
 }
 
 Image Worker::render(const PictureRequest& request) {
-  // A name of its own for every request: nothing else can be taken for the answer, be it what a lost worker
-  // writes late, or what a shared file system remembers of the name.
+  // Every request has its own file name. Otherwise a late file of a lost worker could be taken for the
+  // answer, or a file that a shared file system remembers.
   const std::filesystem::path picture = own_file("-" + std::to_string(++last_id_) + ".f32"),
                               mesh = own_file(".ply");
   if (request.shape != Shape::kSphere && !std::filesystem::exists(mesh)) write_mesh(request.shape, mesh);
@@ -128,7 +128,7 @@ Image Worker::render(const PictureRequest& request) {
   } catch (const Error& error) {
     fail(request.shown, without(context(request.shown) + ": ", error.what()));
   }
-  // The worker is still usable; after other faults, answers no longer match requests.
+  // The worker is still usable. After other faults, answers no longer match requests.
   if (complaint) throw input_error(message_of(request.shown, plain(*complaint, kLongestWhat)));
   Image image = read_picture(request, picture);
   std::error_code ignored;
@@ -138,7 +138,7 @@ Image Worker::render(const PictureRequest& request) {
 
 std::filesystem::path Worker::own_file(const std::string& ending) const { return files_.string() + ending; }
 
-// The file is opened before its size is asked for: then a network file system asks its server for both.
+// Opens the file before asking for its size, so that a network file system asks its server for both.
 Image Worker::read_picture(const PictureRequest& request, const std::filesystem::path& path) {
   const auto side = static_cast<std::size_t>(request.resolution);
   const auto channels = static_cast<std::size_t>(request.channels);

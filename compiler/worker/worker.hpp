@@ -1,4 +1,4 @@
-// Runs one worker process: sends a request, waits for its answer, in turn.
+// This file runs one worker process: it sends a request, waits for its answer, and repeats this.
 #pragma once
 
 #include <atomic>
@@ -14,9 +14,9 @@
 
 namespace remap {
 
-// A registered worker (compiler/adapters/PROTOCOL.md).
+// A WorkerEntry is a registered worker (compiler/adapters/PROTOCOL.md).
 struct WorkerEntry {
-  std::string name;     // prefix of its models; empty: any
+  std::string name;     // prefix of its models; if empty, any
   std::string command;  // run by the shell
   std::string folder;   // of the file that registers it: REMAP_WORKER_FOLDER
   std::string install;  // how to install it, shown if it does not start; may be empty
@@ -28,8 +28,8 @@ struct WorkerLimits {
   const std::atomic<bool>* cancelled = nullptr;  // ends a wait and throws kInterrupted
 };
 
-// The process of a worker has ended by itself, or was ended because it did not answer in time. Nothing is
-// wrong with what it was asked: another process may answer.
+// A LostWorker means that the process of a worker has ended, or was ended because it did not answer in time.
+// The request is not at fault: another process may answer it.
 class LostWorker : public Error {
  public:
   explicit LostWorker(const std::string& message) : Error(ErrorKind::kInput, message) {}
@@ -39,7 +39,7 @@ class Worker {
  public:
   // Starts the process and asks for its description. Pictures are exchanged through files whose names begin
   // with `files` and belong to this worker. Throws kInput if the process cannot be started or violates the
-  // protocol, LostWorker if it does not answer.
+  // protocol, and LostWorker if it does not answer.
   Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path files);
   ~Worker();
   Worker(const Worker&) = delete;
@@ -47,13 +47,13 @@ class Worker {
 
   const WorkerDescription& description() const { return description_; }
 
-  // Throws LostWorker if no answer comes, kInput if rendering fails, or if the picture has what no picture
-  // may have (picture_fault.hpp). After an answer with an error is_usable() stays true and the worker can be
-  // asked again.
+  // Renders a picture. Throws LostWorker if no answer comes, and kInput if rendering fails, or if the picture
+  // has forbidden values (picture_fault.hpp). After an answer with an error is_usable() stays true and the
+  // worker can be asked again.
   //
-  // Every message about a worker names it and the request, has the end of its log where it was ended, and is
-  // cut to remap::kLongestMessage: nothing that a worker writes is longer in a message, or has control
-  // characters.
+  // Every message about a worker names the worker and the request. It has the end of the worker's log if the
+  // worker was ended, and is cut to remap::kLongestMessage. So no text of a worker makes it longer, and no
+  // control character enters it.
   Image render(const PictureRequest& request);
   bool is_usable() const { return usable_; }
 

@@ -10,18 +10,17 @@
 namespace remap {
 namespace {
 
-// Processes that one picture may cost. Many may be lost at once with the machine they ran on, so the losses
-// of all together say little; a picture that ends every renderer is found by its own. The last process is
-// new: where processes end after some number of pictures, one picture could otherwise meet the end of all
-// three.
+// This many processes may be lost for one picture. A lost machine can lose many processes at once, so only
+// losses of the same picture reveal a picture that ends every renderer. The last process is new. Otherwise,
+// if processes end after a certain number of pictures, one picture could meet the end of all three.
 constexpr int kMostLosses = 3;
 
-// How often a pause checks for an interruption.
+// A pause checks this often for an interruption.
 constexpr std::chrono::milliseconds kPauseGlance{100};
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-// Replaces 0 by the numbers of processes, and of threads in each, that suit the machine.
+// Replaces 0 by numbers of processes, and of threads in each, that suit the machine.
 WorkerSettings settled(WorkerSettings settings) {
   if (settings.processes == 0) settings.processes = core_count();
   settings.limits.threads = std::max(1u, core_count() / settings.processes);
@@ -30,7 +29,7 @@ WorkerSettings settled(WorkerSettings settings) {
 
 }  // namespace
 
-// The right to render one picture: another thread that needs the same picture waits until it is done.
+// A Turn is the right to render one picture. Other threads wait for the same picture.
 class WorkerRenderer::Turn {
  public:
   Turn(const WorkerRenderer& renderer, const PictureRequest& request)
@@ -54,7 +53,7 @@ class WorkerRenderer::Turn {
   const std::string& key_;
 };
 
-// A worker for one picture: one that is idle, or a new one in its place.
+// A Lease is a worker for one picture: an idle one, or a new one if there is none.
 class WorkerRenderer::Lease {
  public:
   Lease(const WorkerRenderer& renderer, bool must_be_new)
@@ -111,7 +110,7 @@ std::unique_ptr<Worker> WorkerRenderer::idle_worker() const {
   return worker;
 }
 
-// A broken one has ended, and has returned its licence, before another can be started.
+// Returns a worker. A broken worker has ended, and has returned its licence, before another can be started.
 void WorkerRenderer::give_back(std::unique_ptr<Worker> worker) const {
   if (worker != nullptr && !worker->is_usable()) worker.reset();
   {
@@ -134,8 +133,7 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
   }
 }
 
-// Throws if it was one loss too many. Otherwise waits: a machine that is lost is known to be so a little
-// later.
+// Throws if it was one loss too many. Otherwise it waits, because a lost machine is noticed late.
 void WorkerRenderer::accept_loss(const LostWorker& lost, int losses) const {
   if (losses == kMostLosses)
     throw input_error(

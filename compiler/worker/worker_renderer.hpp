@@ -1,5 +1,5 @@
-// Makes a real renderer usable by sweeps: several processes of one worker, and a cache of the pictures that
-// they made.
+// This file makes a real renderer usable by sweeps: several processes of one worker, and a cache of the
+// pictures that they made.
 #pragma once
 
 #include <atomic>
@@ -21,22 +21,22 @@
 
 namespace remap {
 
-// How workers are run and how their pictures are kept.
+// A WorkerSettings decides how workers are run and how their pictures are kept.
 struct WorkerSettings {
-  std::optional<std::filesystem::path> cache;  // empty: every picture is rendered
-  std::filesystem::path folder;                // for pictures on their way here; empty: one in memory
+  std::optional<std::filesystem::path> cache;  // if empty, every picture is rendered
+  std::filesystem::path folder;                // for pictures in transit; if empty, one in memory
   unsigned processes = 0;                      // at most, of one worker at once; 0: one for each core
   WorkerLimits limits;
   std::function<void()> on_picture;  // called after every picture, from any thread
   std::function<void()> on_start;  // called before the first process starts, which leaves files and processes
-  // Called from any thread with what a user should know at once: the first process that is lost, the first
-  // damaged picture of the cache, and that the cache cannot be written. The run goes on.
+  // This is called from any thread with urgent warnings: the first process that is lost, the first damaged
+  // picture of the cache, and that the cache cannot be written. The run continues.
   std::function<void(const std::string&)> on_warning;
-  // Before the second process renders a picture that cost one; before the third, twice as long.
+  // This is the pause before a second process renders a picture that cost one. It doubles before the third.
   std::chrono::milliseconds pause{1000};
 };
 
-// Counts and costs of the pictures that a renderer has returned so far.
+// A PictureCount holds counts and costs of the pictures that a renderer has returned so far.
 struct PictureCount {
   std::size_t rendered = 0;
   std::size_t cached = 0;
@@ -55,8 +55,8 @@ class WorkerRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
   PictureCount pictures() const;
-  // Returns remarks for the user: pictures of other versions in the cache, and how many were damaged and how
-  // many processes lost if it was more than the one of the warning.
+  // Returns remarks for the user: pictures of other versions in the cache, and how many were damaged. They
+  // also count lost processes if there were more than the one in the warning.
   std::vector<std::string> remarks() const;
 
  private:

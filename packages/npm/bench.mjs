@@ -1,7 +1,7 @@
 #!/usr/bin/env node
-// bench.mjs MAP_SPEED [INSTRUCTIONS]: the speed of the package, as a share of one core of the C++ library, whose program this is
-// (tests/bits/map_speed.cpp), with arrays of JavaScript, and with arrays in memory of the library. Both convert the same maps in turn and must give the same bits. Times are those of the
-// processor, so that other programs disturb little.
+// bench.mjs MAP_SPEED [INSTRUCTIONS] measures the speed of the package, as a fraction of one core of the C++ library
+// (tests/bits/map_speed.cpp). It uses arrays of JavaScript, and arrays in memory of the library. Both programs convert the
+// same maps in turn and must give the same bits. Times are processor times, so that other programs disturb little.
 import { execFileSync } from 'node:child_process';
 
 import { texremap } from './tests/package.mjs';
@@ -12,7 +12,7 @@ const PASSES = 5;
 const valueAt = (i) => (Math.imul(i, 0x9e3779b1) >>> 8) * 2 ** -24;
 const roughness = Float32Array.from({ length: COUNT }, (_, i) => valueAt(i));
 const specular = Float32Array.from({ length: 3 * COUNT }, (_, i) => valueAt(i));
-// As in the program, results go to memory that is there.
+// As in the C++ program, results go to existing memory.
 const into = { roughness: new Float32Array(COUNT), specular: new Float32Array(3 * COUNT) };
 const plain = { roughness, specular, into };
 const held = inMemoryOfLibrary();
@@ -31,7 +31,7 @@ function checksumOf(arrays) {
   return (sum >>> 0).toString(16).padStart(8, '0');
 }
 
-// The fastest of several passes, in Mtexel/s, and what it made.
+// Returns the fastest of several passes, in Mtexel/s, and its result.
 function measured(source, target, maps) {
   let seconds = Infinity;
   let made;

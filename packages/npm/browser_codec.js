@@ -1,4 +1,4 @@
-// Whole image files in a browser: PNG by png.js, JPEG and WebP by the browser.
+// This file handles whole image files in a browser: PNG by png.js, JPEG and WebP by the browser.
 import { decodeByBrowser, isOfBrowser } from './browser_images.js';
 import { decodedPng, encodedPng, isPng } from './png.js';
 

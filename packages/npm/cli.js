@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// The program texremap, compiled to WebAssembly, over the files of this machine.
+// This file runs the program texremap, compiled to WebAssembly, over the files of this machine.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { hostname } from 'node:os';
@@ -7,7 +7,7 @@ import { isatty } from 'node:tty';
 
 import * as images from './images.js';
 
-// For the marks of unfinished files (runtime/core/owner_tag.hpp), and for reports.
+// The program needs these for the marks of unfinished files (runtime/core/owner_tag.hpp), and for reports.
 const processes = {
   own: process.pid,
   machine: hostname(),

@@ -1,4 +1,4 @@
-// The materials of a document of glTF-Transform, converted by the program as those of a file are.
+// This file converts the materials of a glTF-Transform document. The program treats them like the materials of a file.
 import { Document, PropertyType, WebIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 
@@ -7,7 +7,7 @@ import { startProgram } from './memory_program.js';
 import makeInstance from './program_memory.mjs';
 import { bytesOf } from './wasm_bytes.js';
 
-// Options of the command, by their names here.
+// These are options of the command, keyed by their names here.
 const COMMAND_OPTIONS = {
   from: '--from',
   to: '--to',
@@ -61,8 +61,8 @@ const keyOf = (bytes) => {
 };
 const areEqual = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
 
-// What the program, which does not wait, has for images. A codec may take its time: an image that is not decoded yet is refused, and the
-// program runs again once it is; new images are only numbered, and encoded after the run.
+// Images gives the program its images. The program cannot wait, but a codec may take time. An image that is not decoded yet
+// is refused, and the program runs again once it is ready. New images are only numbered, and encoded after the run.
 class Images {
   #codec;
   #decoded = new Map();  // by keyOf(): [{ bytes, image, failure or waiting }]
@@ -124,11 +124,11 @@ function dependenciesOf(properties) {
   const found = new Set(properties);
   for (const property of found)
     for (const child of property.getGraph().listChildren(property)) found.add(child);
-  return [...found].filter(({ propertyType }) => propertyType !== PropertyType.TEXTURE_INFO);  // which their owners copy
+  return [...found].filter(({ propertyType }) => propertyType !== PropertyType.TEXTURE_INFO);  // their owners copy these
 }
 
-// Copies properties of one document, and what they refer to, into another. `known` maps to what is there already, and gets the
-// copies; properties in `properties` themselves are copied in any case.
+// Copies properties of one document, and what they refer to, into another. `known` maps properties to existing copies, and
+// receives the new copies. Properties in `properties` are copied in any case.
 function copyInto(document, source, properties, known) {
   const all = dependenciesOf(properties);
   const missing = all.filter((property) => !known.has(property));
@@ -143,14 +143,14 @@ function copyInto(document, source, properties, known) {
 
 const isBelow = (uri) => /^[^/\\:][^\\:]*$/.test(uri) && !uri.includes('..') && !/%(?![0-9a-f]{2})/i.test(uri);
 
-// The materials and textures of the document alone, in their order.
+// Returns only the materials and textures of the document, in their order.
 function documentOfMaterials(document) {
   const small = new Document().setLogger(document.getLogger());
   const root = document.getRoot();
   copyInto(small, document, [...root.listMaterials(), ...root.listTextures()], new Map());
   for (const extension of root.listExtensionsUsed())
     if (/_texture_/.test(extension.extensionName)) small.createExtension(extension.constructor).setRequired(extension.isRequired());
-  // The program reads images in the folder of the file, each by a name of its own.
+  // The program reads images in the folder of the file, each by a separate name.
   const uris = new Set();
   for (const texture of small.getRoot().listTextures()) {
     const uri = texture.getURI();
@@ -160,7 +160,7 @@ function documentOfMaterials(document) {
   return small;
 }
 
-// What the program looks at in meshes: the materials of primitives with vertex colors.
+// Returns what the program needs of meshes: the materials of primitives with vertex colors.
 function meshesOf(document) {
   const materials = document.getRoot().listMaterials();
   const indexOf = (material) => (material ? materials.indexOf(material) : undefined);
@@ -185,7 +185,7 @@ function ioFor(document) {
   return new WebIO().setLogger(document.getLogger()).registerExtensions([...extensions, ...others]);
 }
 
-// { status, err, report, files } of the program over a file.
+// Returns { status, err, report, files } of the program over a file.
 async function converted({ json, resources }, words, module, images) {
   for (;;) {
     const program = await startProgram(makeInstance, module, images);
@@ -200,7 +200,7 @@ async function converted({ json, resources }, words, module, images) {
   }
 }
 
-// Sets the materials of the document to those of the result.
+// Sets the materials of the document to the materials of the result.
 async function carryOver(document, result, changed, images) {
   const [root, made] = [document.getRoot(), result.getRoot()];
   const known = new Map();
@@ -224,7 +224,7 @@ async function carryOver(document, result, changed, images) {
 
 const without = (start, line) => (line.startsWith(start) ? line.slice(start.length) : line);
 
-// Warnings go to the logger of the document, failures into one error.
+// Sends warnings to the logger of the document, and joins failures into one error.
 function tell(document, { status, err }) {
   const failures = [];
   for (const line of err.map((each) => without('texremap: ', each))) {

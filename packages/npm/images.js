@@ -1,10 +1,10 @@
-// Whole image files in memory, decoded and encoded without waiting: PNG by png.js, others by sharp where it is
-// installed, which works in a thread of its own while this one sleeps.
+// This file decodes and encodes whole image files in memory, without waiting. PNG uses png.js. Other formats use sharp if
+// it is installed. sharp works in a separate thread while this one sleeps.
 import { MessageChannel, Worker, receiveMessageOnPort } from 'node:worker_threads';
 
 import { decodedPng, encodedPng, isPng } from './png.js';
 
-// The thread with sharp, once it is needed.
+// Holds the thread with sharp, once it is needed.
 let thread = null;
 
 function startThread() {

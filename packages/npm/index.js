@@ -1,11 +1,11 @@
-// The library of the package: arrays in, arrays out. index.d.ts says what everything means.
+// This is the library of the package: arrays in, arrays out. index.d.ts describes all functions.
 import makeCore from './texremap.mjs';
 import { bytesOf } from './wasm_bytes.js';
 
-// Texels that are copied to the core and converted at a time: they stay in the cache of a processor.
+// So many texels are copied to the core and converted at a time, because they fit into the cache of a processor.
 const BAND = 8192;
 
-// What arrays hold: the names that the core has for them, and the largest of whole numbers.
+// These are the element types of arrays: their names in the core, and the largest value of integers.
 const ARRAYS = {
   Float32Array: { Type: Float32Array, core: 'float', highest: 1 },
   Float64Array: { Type: Float64Array, core: 'double', highest: 1 },
@@ -19,11 +19,11 @@ const OUTPUTS = {
   uint8: ARRAYS.Uint8Array,
   uint16: ARRAYS.Uint16Array,
 };
-// The name of the class of a typed array, also of one of another realm or of a class of its own, as Buffer is.
+// Returns the class name of a typed array, even from another realm or for a subclass such as Buffer.
 const nameOfArray = Object.getOwnPropertyDescriptor(Object.getPrototypeOf(Uint8Array.prototype), Symbol.toStringTag).get;
 const kindOf = (value) => ARRAYS[nameOfArray.call(value)];
 const isWhole = (kind) => kind.highest !== 1;
-// Names of parameters here, and in the core.
+// These are names of parameters here, and in the core.
 const CORE_NAMES = new Map([
   ['roughness', 'roughness'],
   ['specular', 'specular'],
@@ -66,7 +66,7 @@ export async function load(source = new URL('./texremap.wasm', import.meta.url))
     const bytes = await bytesOf(source, (text) => new RemapError(text, 'input'));
     if (!(bytes instanceof ArrayBuffer) && !ArrayBuffer.isView(bytes))
       throw new RemapError('load: expected bytes, a URL or a Response of texremap.wasm');
-    // The glue would print the reason and wait for ever.
+    // Compile first, because the glue would print an error and wait forever.
     await WebAssembly.compile(bytes);
     core = await makeCore({ wasmBinary: bytes });
   })();
@@ -95,7 +95,7 @@ function answerAt(place) {
   return answer;
 }
 
-// Maps that the core has begun, as text: it keeps them for the next call, which often is of the same.
+// Holds the maps that the core has begun, as text. The core keeps them, because the next call often has the same maps.
 let begunMaps = null;
 
 function beginMaps(request) {
@@ -127,7 +127,7 @@ const fail = (message) => {
   throw new RemapError(message);
 };
 
-// The options of `given` with these names, each read once; another name is refused.
+// Returns the options of `given` with these names, each read once. Refuses other names.
 function optionsOf(given, place, known) {
   if (given === undefined) return {};
   if (typeof given !== 'object' || given === null || ArrayBuffer.isView(given))
@@ -166,9 +166,9 @@ function checked(names) {
   return names;
 }
 
-// Maps as they are given, until their size is known.
+// The following functions hold the given maps until their size is known.
 
-// `{ constants }`, or `{ arrays, type }`: one array, or one each for red, green and blue.
+// Returns `{ constants }`, or `{ arrays, type }`: one array, or one each for red, green and blue.
 function valuesOf(name, value, isColor = COLORS.has(name)) {
   if (value instanceof HeldArray) value = value.array;
   else if (Array.isArray(value)) value = value.map((entry) => (entry instanceof HeldArray ? entry.array : entry));
@@ -194,10 +194,10 @@ function arraysInto(name, value) {
   return given.arrays ? given : fail(`into.${name}: expected a typed array, or a list of three`);
 }
 
-const SURELY_NO_FRACTION = 2;  // a number from here on
-const LOOKED_AT = 4093;  // a prime, so that no channel of interleaved values is passed over
+const SURELY_NO_FRACTION = 2;  // from here on a value is not a fraction
+const LOOKED_AT = 4093;  // a prime, so that no channel of interleaved values is skipped
 
-// Refuses what can only be per cent or 0 to 255; exponents and wide ranges of specular are neither.
+// Refuses values that can only be per cent or 0 to 255. It skips exponents and wide ranges of specular.
 function requireFractions(held, sources, encoding) {
   for (const source of sources) {
     const isExponent = source.name === 'roughness' && encoding === 'exponent';
@@ -218,7 +218,7 @@ function requireFractionNumbers(name, values) {
   fail(`${name}: ${listed(values)}: values lie between 0 and 1${highest <= whole ? ` (write ${name}: ${listed(meant)})` : ''}`);
 }
 
-// Looks at some of the values: maps of some bright texels are usual, whole maps of them are not.
+// Looks at some of the values. A few bright texels are common in maps, but not whole maps of them.
 function requireFractionArray(name, array) {
   const looked = Math.min(array.length, LOOKED_AT);
   const seen = Float64Array.from({ length: looked }, (_, k) => array[Math.floor((k * array.length) / looked)]);
@@ -230,7 +230,7 @@ function requireFractionArray(name, array) {
   fail(`${name}: half of the values are above ${Number(median.toPrecision(3))}, but they lie between 0 and 1${remedy}`);
 }
 
-// The number of texels that all maps have: that of a map of one channel, else of planes, else a third of a color.
+// Returns the number of texels of all maps. A map of one channel decides, otherwise planes, otherwise a third of a color.
 function texelCount(sources) {
   const maps = sources.filter((source) => source.arrays);
   const sure = maps.find((map) => !map.isColor || map.arrays.length === 3);
@@ -242,7 +242,7 @@ function texelCount(sources) {
   return length / 3;
 }
 
-// Values a texel of each array: 1, or 3 or 4 of an interleaved color.
+// Sets how many values a texel has in each array: 1, or 3 or 4 for an interleaved color.
 function layOut(source, count) {
   if (!source.arrays) return;
   const { name, arrays, isColor } = source;
@@ -258,14 +258,14 @@ function transferOf(options, name, kind) {
   const asked = typeof options.transfer === 'object' ? options.transfer?.[name] : options.transfer;
   if (asked !== undefined && asked !== 'linear' && asked !== 'srgb')
     fail(`transfer: expected linear or srgb, found ${String(asked)}`);
-  // As the core has it (usual_color_transfer): whole numbers in sRGB.
+  // Follows usual_color_transfer() of the core: integers are in sRGB.
   return asked ?? (isWhole(kind) ? 'srgb' : 'linear');
 }
 
-// Arrays of allocate() that are not freed: their places, and where they end.
+// Lists arrays of allocate() that are not freed: their places, and where they end.
 const ends = new Map();
 
-// What allocate() gives.
+// A HeldArray is an array from allocate().
 class HeldArray {
   #memory;
   #length;
@@ -287,11 +287,11 @@ class HeldArray {
 
 const isInCore = (array) => array.buffer === core?.HEAPU8.buffer;
 
-// Whether a view outlived its memory, which may be that of another array since.
+// Returns true if a view outlived its memory, which another array may use since.
 const isFreed = (array) => isInCore(array)
   && ![...ends].some(([place, end]) => place <= array.byteOffset && array.byteOffset + array.byteLength <= end);
 
-// Whether all arrays are in memory of the core, where they are converted without copies.
+// Returns true if all arrays are in memory of the core. They are then converted without copies.
 function areHeld(sources, targets) {
   const arrays = [...sources, ...targets].flatMap((map) => map.arrays);
   const held = arrays.filter(isInCore).length;
@@ -301,14 +301,14 @@ function areHeld(sources, targets) {
   return true;
 }
 
-// Memory of the core with an array in it: its own, or that of an array of allocate().
+// A CoreArray is memory of the core with an array in it: new memory, or an array of allocate().
 class CoreArray {
   constructor(kind, valuesATexel, texels, place = allocated(texels * valuesATexel * kind.Type.BYTES_PER_ELEMENT)) {
     this.kind = kind;
     this.values = valuesATexel;
     this.place = place;
   }
-  // Memory moves when it grows: a view is made for each use.
+  // Makes a view for each use, because memory moves when it grows.
   view(length) {
     return new this.kind.Type(core.HEAPU8.buffer, this.place, length);
   }
@@ -371,7 +371,7 @@ function convertMaps(held, maps, options) {
   const shown = (name) => (name === 'roughness' && isGlossiness ? 'glossiness' : name);
   const into = optionsOf(options.into, 'into', held.targets.map(shown));
 
-  // Each target is laid out as the source of its name, else as the first color, else as the first map.
+  // Each target has the layout of the source with its name, otherwise of the first color, otherwise of the first map.
   const inputs = sources.filter((source) => source.arrays);
   const specular = sources.find((source) => source.name === 'specular');
   const specularChannels = specular?.arrays ? (specular.values === 1 && specular.arrays.length === 1 ? 1 : 3)
@@ -443,7 +443,7 @@ function convertMaps(held, maps, options) {
       const texels = Math.min(bandTexels, count - first);
       if (!isHeld) copyIn(inputs, first, texels);
       const whole = Math.floor(texels / width);
-      // Rows without a width of their own end where the maps end.
+      // Without a given width, rows end where the maps end.
       const size = whole > 0 ? [width, whole] : [texels, 1];
       convertBand(...size, firstRow + Math.floor(first / width));
       if (!isHeld) copyOut(targets, first, texels);
@@ -462,7 +462,7 @@ function convertMaps(held, maps, options) {
   return result;
 }
 
-// JSON has no infinity and no NaN.
+// Replaces infinity and NaN, which JSON lacks.
 function toCore(value) {
   return Number.isFinite(value) ? value : fail(`constants must be finite, found ${value}`);
 }
@@ -482,7 +482,7 @@ function keepOpacity(array, band, first) {
 const registry = typeof FinalizationRegistry === 'undefined' ? null
   : new FinalizationRegistry(closeConverter);
 
-// `roughness` is roughness even where a model takes glossiness, as for the program; glossiness has a name of its own.
+// `roughness` means roughness even if a model uses glossiness, as in the program. `glossiness` is a separate name.
 function widthNamed(options, info) {
   const { glossiness, ...others } = options;
   if (glossiness !== undefined) {
@@ -535,7 +535,7 @@ function publicOf(held) {
   });
 }
 
-// The converters of the last calls of convert().
+// Keeps the converters of the last calls of convert().
 const recent = new Map();
 const MOST_RECENT = 16;
 

@@ -1,6 +1,6 @@
-// One instance of the program texremap over files in memory, for pages, workers and node alike.
+// This file makes one instance of the program texremap over files in memory, for pages, workers and node.
 
-const MOST_LINES = 1000;  // of what the program says in words
+const MOST_LINES = 1000;  // limit for the program's messages
 
 /** `makeInstance` and `module`: its glue and its WebAssembly, compiled; `images` decodes and encodes whole files (images.js). */
 export async function startProgram(makeInstance, module, images) {

@@ -1,5 +1,5 @@
-// Images in files for the commands of texremap in node: JavaScript decodes and encodes whole files in memory
-// (images.js); what is around the pixels of PNG files is read and written here.
+// This file reads and writes images in files for the commands of texremap in node. JavaScript decodes and
+// encodes whole files in memory (images.js). This file handles the other chunks of PNG files.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include "core/read_file.hpp"
 #include "texture/image_library.hpp"
 
-// What messages call the program that is built.
+// Messages use this name for the program.
 #ifndef REMAP_IMAGE_HOST
 #define REMAP_IMAGE_HOST "the package for node"
 #endif
@@ -22,7 +22,7 @@
 namespace remap::node {
 namespace {
 
-// What JavaScript answers to a request to decode; `bytes` are from malloc.
+// A DecodedByHost is JavaScript's answer to a request to decode; `bytes` are from malloc.
 struct DecodedByHost {
   std::int32_t width, height, channels, bits, bytes, byte_count;
 };
@@ -62,7 +62,7 @@ EM_JS(char*, remap_host_encode, (const char* format, const void* texels, int cou
 });
 // clang-format on
 
-// The text of a message, which is freed.
+// Returns the text of a message, and frees the message.
 std::string taken(char* message) {
   std::string text = message;
   std::free(message);
@@ -76,7 +76,7 @@ std::string taken(std::int32_t bytes, std::int32_t count) {
   return text;
 }
 
-// An image says its size before its texels are read. More is a mistake or an attack.
+// An image states its size before its texels are read. A larger size is a mistake or an attack.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 28;
 
 ImagePixels decoded(std::string_view bytes, const std::string& context) {
@@ -97,7 +97,7 @@ ImagePixels decoded(std::string_view bytes, const std::string& context) {
   return pixels;
 }
 
-// `setting`: the level of PNG, the quality of JPEG.
+// `setting` is the level of PNG, or the quality of JPEG.
 std::string encoded(const std::string& format, const ImagePixels& pixels, int setting,
                     const std::string& context) {
   EncodedByHost file{};
@@ -113,7 +113,7 @@ std::string_view part_of(std::string_view bytes, std::size_t begin, std::size_t 
   return bytes.size() < begin ? std::string_view() : bytes.substr(begin, count);
 }
 
-// The name of the format of a file, as OpenImageIO has it; empty for others.
+// Returns the name of the format of a file as in OpenImageIO, or an empty text for others.
 std::string format_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "png";
   if (bytes.starts_with("\xff\xd8")) return "jpeg";
@@ -123,7 +123,7 @@ std::string format_of(std::string_view bytes) {
   return "";
 }
 
-// What is said of formats that other packages read.
+// Returns the message about formats that other packages read.
 std::string refusal_of(std::string_view bytes) {
   const auto elsewhere = [](const std::string& name) {
     return name + " is not read by " REMAP_IMAGE_HOST " (use the Debian or the Python package)";
@@ -137,7 +137,7 @@ std::string refusal_of(std::string_view bytes) {
   return "is no image of a known format (PNG, JPEG, WebP and TIFF are read)";
 }
 
-// Files are held whole in memory, of which WebAssembly has 2 GB.
+// Limits files, because they are held whole in memory, of which WebAssembly has 2 GB.
 constexpr std::uintmax_t kLargestImageFile = std::uintmax_t{512} << 20;
 
 std::string image_file(const std::filesystem::path& path) {
@@ -150,7 +150,7 @@ std::string image_file(const std::filesystem::path& path) {
   return read_file(path, kLargestImageFile);
 }
 
-// The chunks of PNG files.
+// The following functions handle the chunks of PNG files.
 
 struct PngChunk {
   std::string name, data;
@@ -189,7 +189,7 @@ const PngChunk* find_chunk(const std::vector<PngChunk>& chunks, std::string_view
   return found == chunks.end() ? nullptr : &*found;
 }
 
-// CRC-32 of ISO 3309, as PNG (annex D) has it.
+// Returns the CRC-32 of ISO 3309, as PNG (annex D) defines it.
 std::uint32_t checksum(std::string_view bytes) {
   std::uint32_t sum = ~0u;
   for (const char byte : bytes) {
@@ -206,18 +206,18 @@ std::string chunk_text(const PngChunk& chunk) {
 
 constexpr std::uint32_t kLinearGamma = 100000, kGammaTolerance = 1000, kSrgbGamma = 45455;
 constexpr char kIntentOfLibpng = 3;
-// The white and the primaries of sRGB, in units of 1e-5.
+// These are the white and the primaries of sRGB, in units of 1e-5.
 constexpr std::array<std::uint32_t, 8> kSrgbChromaticities = {31270, 32900, 64000, 33000,
                                                               30000, 60000, 15000, 6000};
 
-// The chunks by which libpng tags a file as sRGB.
+// Returns the chunks by which libpng tags a file as sRGB.
 std::vector<PngChunk> srgb_chunks() {
   std::string chromaticities;
   for (const std::uint32_t value : kSrgbChromaticities) chromaticities += big_endian(value);
   return {{"gAMA", big_endian(kSrgbGamma)}, {"sRGB", {kIntentOfLibpng}}, {"cHRM", chromaticities}};
 }
 
-// Gamma curves are read as sRGB, as the programs do.
+// Returns the curve. Gamma curves are read as sRGB, as in the programs.
 std::optional<Transfer> transfer_of(const std::vector<PngChunk>& chunks) {
   if (find_chunk(chunks, "sRGB") != nullptr) return Transfer::kSrgb;
   const PngChunk* gamma = find_chunk(chunks, "gAMA");
@@ -238,7 +238,7 @@ void set_channels(ImageLayout& layout, const std::vector<std::string>& names, Pi
   layout.alpha_channel = alpha == names.end() ? -1 : static_cast<int>(alpha - names.begin());
 }
 
-// The names that OpenImageIO gives.
+// Returns the names that OpenImageIO gives.
 std::vector<std::string> usual_names(std::size_t count) {
   std::vector<std::string> names = {"R", "G", "B"};
   if (count < 3) names = {"Y"};
@@ -246,7 +246,7 @@ std::vector<std::string> usual_names(std::size_t count) {
   return names;
 }
 
-// Size and channels of a PNG file by its header.
+// Reads size and channels of a PNG file from its header.
 void read_png_header(std::string_view file, const std::vector<PngChunk>& chunks, const std::string& context,
                      ImageLayout& layout) {
   const PngChunk* header = find_chunk(chunks, "IHDR");
@@ -330,7 +330,7 @@ class StoredByNode final : public StoredImage {
   std::filesystem::path path_;
   std::string file_;
   std::vector<PngChunk> chunks_;
-  std::optional<ImagePixels> pixels_;  // once they are needed
+  std::optional<ImagePixels> pixels_;  // decoded on demand
   ImageLayout layout_;
   int followed_width_ = 0, followed_height_ = 0;
 };
@@ -483,7 +483,7 @@ class NodeImages final : public ImageLibrary {
   }
   const ImageCodec& codec() const override { return codec_; }
 
-  // Of remapc alone.
+  // Only remapc needs these.
   Picture read_picture(const std::filesystem::path& path) const override { refuse(path); }
   void write_exr(const std::filesystem::path& path, const Picture&,
                  const std::map<std::string, std::string>&) const override {

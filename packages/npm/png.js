@@ -1,4 +1,4 @@
-// PNG files in memory by fast-png, without waiting, for node and for pages.
+// This file reads and writes PNG files in memory by fast-png, without waiting, for node and for pages.
 import { decode, encode } from 'fast-png';
 
 export const isPng = (bytes) => bytes[0] === 0x89 && bytes[1] === 0x50;
@@ -7,7 +7,7 @@ const MOST_TEXELS = 2 ** 30;
 const MOST_BYTES_OF_A_BYTE = 1e6;  // no format packs more
 const SIGNATURE = 8, CHUNK = 12;  // sizes of the signature, and of a chunk without data
 const IHDR = 0x49484452, IEND = 0x49454e44;
-const CHANNELS = [1, 1, 3, 1, 2, 2, 4];  // by the kind of colors
+const CHANNELS = [1, 1, 3, 1, 2, 2, 4];  // by the color type
 
 /** Refuses an image of `size` bytes that claims more texels than any is decoded with, or than its bytes can hold. */
 export function requirePlausible(width, height, texelBytes, size) {
@@ -16,7 +16,7 @@ export function requirePlausible(width, height, texelBytes, size) {
     throw new Error(`is damaged: claims ${width}x${height} texels in ${size} bytes`);
 }
 
-// fast-png makes room for what the file claims, by the last of its headers.
+// Checks the headers, because fast-png allocates what the file claims in its last header.
 function examine(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   for (let at = SIGNATURE, end; at + CHUNK <= bytes.length; at = end) {
@@ -31,7 +31,7 @@ function examine(bytes) {
   }
 }
 
-// Samples of fewer than 8 bits, which fast-png leaves packed, a row at a time.
+// Unpacks samples of fewer than 8 bits, which fast-png leaves packed, one row at a time.
 function unpacked({ width, height, data, depth }) {
   const samples = new Uint8Array(width * height);
   const rowBytes = Math.ceil((width * depth) / 8);
@@ -44,7 +44,7 @@ function unpacked({ width, height, data, depth }) {
   return samples;
 }
 
-// As libpng expands: palettes to RGB, fewer bits than 8 to 8, a color that counts as transparent to opacity.
+// Expands like libpng: palettes to RGB, fewer bits than 8 to 8, and a transparent color to opacity.
 export function decodedPng(bytes) {
   examine(bytes);
   const png = decode(bytes, { checkCrc: true });

@@ -1,4 +1,4 @@
-// Decodes and encodes by sharp; who asks sleeps until the flag is set (images.js).
+// This file decodes and encodes by sharp. The caller sleeps until the flag is set (images.js).
 import { workerData } from 'node:worker_threads';
 
 import { requirePlausible } from './png.js';

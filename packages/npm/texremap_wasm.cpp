@@ -1,6 +1,6 @@
-// What JavaScript calls of the library: a function that takes a request as JSON and gives an answer as JSON,
-// and one for the bands of maps. Maps stay in memory, and requests name their places; index.js alone writes
-// requests.
+// This file is the library for JavaScript. One function gets a request as JSON and returns an answer as JSON.
+// Another function converts bands of maps. Maps stay in memory, and requests give their places. Only index.js
+// writes requests.
 #include <cstdint>
 #include <emscripten.h>
 #include <map>
@@ -24,11 +24,12 @@
 namespace remap {
 namespace {
 
-// A converter that JavaScript holds, by its number.
+// A HeldConverter is a converter that JavaScript refers to by its number.
 struct HeldConverter {
   BuiltConversion conversion;         // by names
-  std::unique_ptr<Converter> of_fit;  // of the text of a fit
-  // Of the roughness of maps, unless they say otherwise: a converter of materials may have another inside.
+  std::unique_ptr<Converter> of_fit;  // from the text of a fit
+  // These are the default encodings of the roughness of maps. A converter of materials may use another
+  // inside.
   RoughnessEncoding source = RoughnessEncoding::kAlpha, target = RoughnessEncoding::kAlpha;
   const Converter& converter() const { return of_fit ? *of_fit : conversion.converter(); }
 };
@@ -63,7 +64,7 @@ Parameter parameter_named(const Field& field) {
   field.fail("unknown parameter");
 }
 
-// The places of a message as JavaScript has them.
+// Returns a request. Its messages use the names of JavaScript.
 ConversionRequest request_of(const Field& field) {
   ConversionRequest request;
   request.source = model_named(field["source"].text());
@@ -113,7 +114,7 @@ Json conversion_json(const HeldConverter& held, const ConverterInfo& domain) {
           {"domain", domain_json(domain)}};
 }
 
-// By names, or of a fit whose text is given.
+// Opens a converter by names, or from the text of a fit.
 Json open_converter(const Field& request) {
   HeldConverter held;
   Json answer;
@@ -199,7 +200,8 @@ Json counts_json(const MapStatistics& counts) {
           {"aboveOne", counts.above_one_count}};
 }
 
-// Maps that are converted a band of rows at a time, all at the same places. They stay for further calls.
+// A BegunMaps holds maps that are converted one band of rows at a time, all at the same places. They stay for
+// further calls.
 struct BegunMaps {
   const Converter& converter;
   MapConversion maps;
@@ -257,7 +259,7 @@ std::string failure(std::string_view kind, const std::string& message) {
   return Json{{"failure", message}, {"kind", kind}}.dump();
 }
 
-// Answers what `answer` gives; null for an empty answer. The text lives until the next call.
+// Returns the result of `answer` as text, or null for an empty answer. The text lives until the next call.
 template <typename Answer>
 const char* answered(const Answer& answer) {
   static std::string text;
@@ -284,8 +286,8 @@ extern "C" EMSCRIPTEN_KEEPALIVE const char* texremap_call(const char* request) {
   });
 }
 
-// A band of the maps that were begun: null, or a failure. Without JSON, which would take as long as thousands
-// of texels.
+// Converts a band of the maps that were begun. Returns null, or a failure. It uses no JSON, which would take
+// as long as thousands of texels.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* texremap_convert_band(std::size_t width, std::size_t height,
                                                                   double first_row) {
   return remap::answered([&] {

@@ -1,4 +1,4 @@
-// The bytes of a .wasm file, wherever it is.
+// This file reads the bytes of a .wasm file, wherever it is.
 
 /** Of bytes, a URL or a Response. `fail` makes the error of an address that cannot be read. */
 export async function bytesOf(source, fail) {

@@ -84,7 +84,7 @@ class Inputs:
         self.png("specgloss/tin_diffuse.png", 16, 16, 3)
         self.png("specgloss/tin_specular.png", 16, 16, 3)
         self.png("specgloss/tin_glossiness.png", 16, 16, 1)
-        # As programs for pictures save every PNG, and as a renderer of linear colors does.
+        # Write the tags of every PNG from picture editors, and of a renderer of linear colors.
         tags = {"srgb": (b"sRGB", b"\0"), "gamma": (b"gAMA", struct.pack(">I", 45455)), "linear": (b"gAMA", struct.pack(">I", 100000))}
         for name, tag in tags.items():
             self.png(f"tagged/{name}/{name}_roughness.png", 16, 16, 1, low=0.1, tags=[tag])

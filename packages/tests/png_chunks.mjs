@@ -1,4 +1,5 @@
-// The chunks of a PNG that a picture needs, and those that say how colors are to be read, with their bytes; null for another file.
+// Returns the chunks of a PNG that a picture needs, and the chunks that define how colors are read, with their bytes.
+// Returns null for another file.
 const COMPARED = new Set(['IHDR', 'PLTE', 'cHRM', 'cICP', 'gAMA', 'iCCP', 'IDAT', 'IEND', 'sRGB']);
 const COMPRESSED = new Set(['iCCP', 'IDAT']);
 

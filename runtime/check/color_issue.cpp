@@ -9,7 +9,7 @@ namespace {
 
 using Rows = std::vector<std::vector<float>>;
 
-// The largest channel of each texel.
+// Returns the largest channel of each texel.
 std::vector<float> largest_of(const Rows& rows) {
   std::vector<float> largest = rows.front();
   for (const std::vector<float>& row : rows)
@@ -43,7 +43,7 @@ std::optional<ColorIssue> transfer_issue(Transfer transfer, const Rows& linear) 
                     is_srgb ? Transfer::kLinear : Transfer::kSrgb};
 }
 
-// As color_issue(), without the curve in its text.
+// Finds the same issues as color_issue(). Its text omits the curve.
 std::optional<ColorIssue> issue_of(Role role, Transfer transfer, const Rows& linear) {
   const bool is_specular = role == Role::kSpecular;
   if (!is_specular && role != Role::kDiffuse && role != Role::kBaseColor) return std::nullopt;

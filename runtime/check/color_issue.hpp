@@ -1,4 +1,4 @@
-// Finds colors whose values contradict the way they are read. `check` and `convert` use it.
+// This file finds colors whose values contradict the way they are read. `check` and `convert` use it.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace remap {
 
 struct ColorIssue {
-  // `read as linear, is 0.19 to 0.26 in 80 % of the texels, like F0 0.04 stored in sRGB`
+  // For example: `read as linear, is 0.19 to 0.26 in 80 % of the texels, like F0 0.04 stored in sRGB`.
   std::string text;
   std::optional<Transfer> transfer;  // the curve with which the values would be usual
 };

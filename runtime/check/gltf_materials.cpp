@@ -1,4 +1,4 @@
-// Materials of glTF 2.0 files (.gltf, .glb), with the extensions of Khronos that say what a surface reflects.
+// This file reads materials of glTF 2.0 files (.gltf, .glb), with Khronos extensions for reflection.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -30,13 +30,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kUsualIor = 1.5;
-constexpr std::uintmax_t kLargestAsset = std::uintmax_t{4} << 30;  // as much as a glb can say
+constexpr std::uintmax_t kLargestAsset = std::uintmax_t{4} << 30;  // the limit of the glb format
 
-// The role of an input.
 struct InputRole {
   GltfInput input;
   Role role;
-  bool is_off_at_zero = false;  // a factor of 0 means that nothing reads the texture, not that it is lost
+  bool is_off_at_zero = false;  // with a factor of 0 the texture is unused, not lost
 };
 
 constexpr std::array<InputRole, 16> kRoles = {{
@@ -64,7 +63,7 @@ Channels channels_of(GltfInput input) {
   return info.count > 1 || input == GltfInput::kNormal ? Channels::kRgb : kSingle[info.channel];
 }
 
-// An extension whose strength is a factor of 0 adds nothing to the material.
+// A Strength is a factor of an extension. If it is 0, the extension adds nothing to the material.
 struct Strength {
   std::string_view extension, factor;
   double by_default = 0.0;
@@ -81,7 +80,7 @@ constexpr std::array<Strength, 9> kStrengths = {{
     {"KHR_materials_volume", "thicknessFactor"},
 }};
 
-// A number, or up to three of a color; empty for none.
+// Returns a number, or up to three numbers of a color. Returns nothing if there are none.
 std::vector<double> numbers_of(SpanValue value) {
   if (const auto number = value.number()) return {*number};
   std::vector<double> numbers;
@@ -94,7 +93,7 @@ bool all_are(double wanted, const std::vector<double>& numbers) {
   return std::ranges::all_of(numbers, [&](double number) { return number == wanted; });
 }
 
-// Whether nothing that the extension says can be seen, whatever its textures hold.
+// Returns true if the extension has no visible effect, whatever its textures hold.
 bool is_off(std::string_view extension, SpanValue value) {
   const auto strength = std::ranges::find(kStrengths, extension, &Strength::extension);
   if (strength == kStrengths.end()) return false;
@@ -102,7 +101,7 @@ bool is_off(std::string_view extension, SpanValue value) {
   return numbers.empty() ? strength->by_default == 0.0 : all_are(0.0, numbers);
 }
 
-// Whether a material looks the same without the extension.
+// Returns true if a material looks the same without the extension.
 bool changes_nothing(std::string_view extension, SpanValue extensions) {
   const SpanValue value = extensions[extension];
   if (extension == kIorExtension) return value["ior"].number().value_or(kUsualIor) == kUsualIor;
@@ -113,14 +112,14 @@ bool changes_nothing(std::string_view extension, SpanValue extensions) {
   const auto transmits = [&](std::string_view name) {
     return extensions[name].is(SpanKind::kObject) && !is_off(name, extensions[name]);
   };
-  // A volume is seen through its surface.
+  // A volume is visible only through its surface.
   if ((extension == "KHR_materials_volume" || extension == "KHR_materials_dispersion") &&
       !transmits("KHR_materials_transmission") && !transmits("KHR_materials_diffuse_transmission"))
     return true;
   return is_off(extension, value);
 }
 
-// A whole file in memory.
+// A WholeFile holds a whole file in memory.
 class WholeFile final : public ByteSource {
  public:
   explicit WholeFile(const fs::path& file) : bytes_(read_file(file, kLargestAsset)) {}
@@ -180,7 +179,7 @@ class GltfMaterials {
     }
     const SpanValue extensions = entry["extensions"];
     const bool is_unlit = extensions[kUnlitExtension].is(SpanKind::kObject);
-    // Readers of these read no other extension of the surface.
+    // Programs that read these two ignore every other extension of the surface.
     const bool is_alone = is_unlit || extensions[kSpecGlossExtension].is(SpanKind::kObject);
     if (extensions.is(SpanKind::kObject))
       for (const SpanValue& extension : extensions.children())
@@ -190,7 +189,7 @@ class GltfMaterials {
     material.gltf.metallic_factor = read.number(GltfInput::kMetallic);
     if (!is_alone) {
       material.gltf.ior = extensions[kIorExtension]["ior"].number();
-      // As it is written: values above 1 are a finding.
+      // The factor is kept as written, because values above 1 are reported.
       material.gltf.specular_factor = extensions[kSpecularExtension]["specularFactor"].number();
     }
     material.gltf.transmits = read.number(GltfInput::kTransmission) > 0.0;
@@ -217,7 +216,7 @@ class GltfMaterials {
     if (info.object == kSpecularExtension) material.gltf.has_specular_map = true;
     const bool is_off_by_factor =
         role.is_off_at_zero && (is_zero_by_default || (!use.factors.empty() && all_are(0.0, use.factors)));
-    // Nobody reads the texture, whatever its own factor is.
+    // An extension that is off hides the texture, whatever the texture's own factor is.
     const bool is_unseen = (is_unlit && role.role != Role::kBaseColor) ||
                            (!is_off_by_factor && is_off(info.object, read.text["extensions"][info.object]));
     if (is_unseen) use.factors.clear();
@@ -226,8 +225,8 @@ class GltfMaterials {
     (is_unread ? material.unread : material.uses).push_back(std::move(use));
   }
 
-  // The map of a texture, which is added to the material where it is new; none, with a problem, where no
-  // image is known. The images of a texture are those that a conversion reads.
+  // Returns the map of a texture, and adds a new map to the material. Returns nothing, and reports a problem,
+  // if no image is known. It chooses the same images as a conversion.
   std::optional<std::size_t> map_of(std::size_t texture, CheckedMaterial& material) {
     std::vector<MaterialMap> images;
     if (texture < textures_.size())

@@ -1,4 +1,4 @@
-// Rules of single maps: their tags, channels and texels.
+// This file holds the rules for single maps: their tags, channels and texels.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ std::string channel_text(const MaterialUse& use) {
   return use.channels == Channels::kWhole ? "" : std::string(name_of(kChannels, use.channels));
 }
 
-// Shares of values near 0, near 1 and between.
+// A Shares holds the fractions of values close to 0, close to 1 and between.
 struct Shares {
   double low = 0.0, high = 0.0, between = 0.0;
 };
@@ -46,8 +46,8 @@ NormalShares normals_of(const std::vector<const Plane*>& rgb) {
   return normal_shares({*rgb[0], *rgb[1], *rgb[2]});
 }
 
-// How far slopes are from those of a surface, with green up and with green down: of a surface the slope along
-// x changes along y as the slope along y does along x.
+// A Curl measures how much slopes differ from the slopes of a surface, with green up and with green down. On
+// a surface, the slope along x changes along y as the slope along y changes along x.
 struct Curl {
   double up = 0.0, down = 0.0;
 };
@@ -55,7 +55,7 @@ Curl curl_of(const std::vector<const Plane*>& rgb, int columns, int rows) {
   const auto slopes = [&](std::size_t i) {
     const double x = 2.0 * (*rgb[0])[i] - 1.0, y = 2.0 * (*rgb[1])[i] - 1.0;
     const double z = std::max(0.1, 2.0 * static_cast<double>((*rgb[2])[i]) - 1.0);
-    return std::array{-x / z, y / z};  // along the columns, and along the rows downwards for green up
+    return std::array{-x / z, y / z};  // slopes along columns and, for green up, down the rows
   };
   Curl curl;
   for (int y = 1; y + 1 < rows; ++y)
@@ -81,8 +81,8 @@ Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, con
   return Orientation::kUnknown;
 }
 
-// The fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all between 0.15 and
-// 0.85. Edges are thinner.
+// Returns the fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all between 0.15
+// and 0.85. Edges are thinner, so they do not count.
 double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   constexpr int kReach = 2;
   const auto is_grey = [&](int x, int y) {
@@ -98,7 +98,7 @@ double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   return plane.empty() ? 0.0 : static_cast<double>(inside) / static_cast<double>(plane.size());
 }
 
-// The channels of a color, or of a use with one.
+// Returns three channels for a color, otherwise the channel of the use.
 std::vector<const Plane*> planes_of(const CheckedMaterial& material, const MaterialUse& use) {
   const bool is_color =
       use.role == Role::kBaseColor || use.role == Role::kDiffuse || use.role == Role::kNormal;
@@ -107,7 +107,7 @@ std::vector<const Plane*> planes_of(const CheckedMaterial& material, const Mater
   return planes;
 }
 
-// Rules of constant channels.
+// Returns the values of constant channels.
 std::vector<float> values_of(const std::vector<const Plane*>& planes) {
   std::vector<float> values;
   for (const Plane* plane : planes) values.push_back(plane->front());
@@ -120,7 +120,7 @@ std::string list_text(const std::vector<float>& values) {
   return text;
 }
 
-// The tiles of one map differ in nothing else.
+// Returns true for the tiles of one map, which share role and channels.
 bool is_tile_of(const CheckedMaterial& material, const MaterialUse& use, const MaterialUse& other) {
   return material.maps[other.map].tile != 0 && use.role == other.role && use.channels == other.channels;
 }
@@ -131,7 +131,7 @@ bool is_first_tile(const CheckedMaterial& material, const MaterialUse& use) {
   return &*first == &use;
 }
 
-// Whether all tiles have the value of this one in every texel: else no number replaces them.
+// Returns true if all tiles have the value of this tile in every texel. Otherwise no number can replace them.
 bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
   const std::vector<float> own = values_of(planes_of(material, use));
   return std::ranges::all_of(material.uses, [&](const MaterialUse& other) {
@@ -141,7 +141,7 @@ bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
   });
 }
 
-// The factor that replaces a map of one value. Factors and options take linear numbers.
+// Returns the fix that replaces a map of one value by a factor. Factors and options use linear numbers.
 Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
   if (use.role == Role::kNormal) return "remove the map: it changes nothing";
   const ImageLayout& layout = material.texels(use)->layout;
@@ -158,14 +158,14 @@ Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vec
          " instead of it";
 }
 
-// Whether a role of the material is read from a channel.
+// Returns true if a role of the material uses the channel.
 bool is_used(const CheckedMaterial& material, std::size_t map, std::size_t channel) {
   return std::ranges::any_of(material.uses, [&](const MaterialUse& use) {
     return use.map == map && material.plane(use) == &material.texels(use)->channels[channel];
   });
 }
 
-// The channels of a map in the order in which two have changed places: `R=R,G=B,B=G`.
+// Returns the channels of a map with two of them exchanged: `R=R,G=B,B=G`.
 std::string swapped(const TexelSample& texels, std::size_t a, std::size_t b) {
   std::string text;
   for (std::size_t c = 0; c < texels.channels.size(); ++c) {
@@ -175,7 +175,7 @@ std::string swapped(const TexelSample& texels, std::size_t a, std::size_t b) {
   return text;
 }
 
-// Runs `judge(use)` for the uses that are judged and whose image is read; the same map and channel once.
+// Calls `judge(use)` for each use of this material whose image is readable, and once per map and channel.
 template <typename Judge>
 void for_uses(const CheckedMaterial& material, Judge judge) {
   std::set<std::pair<std::filesystem::path, Channels>> seen;
@@ -226,7 +226,7 @@ void specgloss_channels(const CheckedMaterial& material, const GltfConsumer*, co
 
 void specular_color(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
-  // Ks of MTL is no reflectance at normal incidence, and beside metallic a specular map is a level.
+  // Ks of MTL is not a reflectance at normal incidence, and beside metallic a specular map is a level.
   const bool has_metallic =
       std::ranges::any_of(material.uses, [](const MaterialUse& use) { return use.role == Role::kMetallic; });
   if (material.kind == MaterialKind::kMtl || has_metallic) return;
@@ -259,7 +259,7 @@ void specular_color(const CheckedMaterial& material, const GltfConsumer*, const 
 void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                   std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
-    // Metallic, occlusion, opacity and specular of one value are usual in sets.
+    // Other roles are skipped, because metallic, occlusion, opacity and specular often have one value.
     const bool is_color =
         use.role == Role::kBaseColor || use.role == Role::kDiffuse || use.role == Role::kNormal;
     if (!is_color && !is_roughness(use.role)) return;
@@ -267,12 +267,12 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const int alpha = material.texels(use)->layout.alpha_channel;
     if (is_color && alpha >= 0 &&
         !is_constant(material.texels(use)->channels[static_cast<std::size_t>(alpha)]))
-      return;                  // the color of a label that alpha cuts out
-    constexpr int kSmall = 4;  // of images that stand for a number on purpose
+      return;                  // the color of a label, cut out by alpha
+    constexpr int kSmall = 4;  // side of images that replace a number on purpose
     const ImageLayout& layout = material.texels(use)->layout;
     if (planes.empty() || std::min(layout.width, layout.height) <= kSmall || !all_are_constant(planes))
       return;
-    // A packed map is there for its other channels.
+    // The map may be packed, and needed for its other channels.
     if (!std::ranges::all_of(material.uses, [&](const MaterialUse& other) {
           return other.map != use.map || all_are_constant(planes_of(material, other));
         }))
@@ -288,7 +288,7 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
   });
 }
 
-// A step of 8 bits at roughness r widens alpha = r^2 by 2 / (255 r): by 20 % at 10 / 255.
+// Finds banding: an 8-bit step at roughness r widens alpha = r^2 by 2 / (255 r), so by 20 % at 10 / 255.
 void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
              std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
@@ -466,7 +466,7 @@ void wrong_texture(const CheckedMaterial& material, const GltfConsumer*, const R
     if (use.role != Role::kNormal && use.role != Role::kOther && looks_like_normals &&
         named.insert(use.map).second)
       add(use, Confidence::kLikely, "its texels are unit normals of tangent space");
-    const bool has_blue = !is_constant(*rgb[2]);  // maps of two channels store none
+    const bool has_blue = !is_constant(*rgb[2]);  // maps of two channels have no blue
     if (use.role == Role::kNormal && shares.unit < 0.3 && has_blue && named.insert(use.map).second)
       add(use, Confidence::kLikely, percent(1.0 - shares.unit) + " of its texels are not unit vectors");
   });

@@ -14,10 +14,10 @@
 namespace remap {
 namespace {
 
-// `R` of `R` and of the layer `rough.R`.
+// Returns `R` for `R` and for the layer `rough.R`.
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 
-// A grey image of a texture has its value in every channel of color.
+// Finds a channel. A grey image of a texture has its value in every color channel.
 std::optional<std::size_t> channel_of(const TexelSample& texels, Channels channels, bool is_texture) {
   const auto& all = texels.layout.channels;
   if (channels == Channels::kWhole) return 0;
@@ -32,7 +32,7 @@ std::optional<std::size_t> channel_of(const TexelSample& texels, Channels channe
   return is_texture && is_grey ? std::optional<std::size_t>(0) : std::nullopt;
 }
 
-// Why the image of a map cannot be read; empty where it is read.
+// Returns the reason why the image of a map cannot be read, or an empty text after success.
 std::string read_map(MaterialMap& map, bool is_texture) {
   try {
     map.texels =
@@ -50,7 +50,7 @@ std::string read_map(MaterialMap& map, bool is_texture) {
 
 std::vector<std::string> CheckedMaterial::read_maps() {
   std::vector<std::string> problems;
-  std::map<std::filesystem::path, MaterialMap> read;  // by the first image
+  std::map<std::filesystem::path, MaterialMap> read;  // keyed by the first image
   for (MaterialMap& map : maps) {
     const std::filesystem::path first = map.file;
     if (const auto known = read.find(first); known != read.end()) {
@@ -71,7 +71,7 @@ std::vector<std::string> CheckedMaterial::read_maps() {
     if (map.texels == nullptr) std::ranges::move(reasons, std::back_inserter(problems));
     read[first] = map;
   }
-  // A bump map of MTL may hold either, and convert takes it for what it is.
+  // A bump map of MTL may hold heights or normals. convert decides by its texels, and so does check.
   for (MaterialUse& use : uses)
     if (kind == MaterialKind::kMtl && use.role == Role::kHeight)
       if (const auto rgb = colors(use);

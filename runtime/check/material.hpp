@@ -1,5 +1,4 @@
-// A material as its files describe it: maps with their roles and texels, factors, and what an asset says
-// besides.
+// This file describes a material as its files do: maps with roles and texels, factors, and other statements.
 #pragma once
 
 #include <cstddef>
@@ -17,61 +16,62 @@
 
 namespace remap {
 
-// Texels of an image as they are stored; whole numbers from 0 to 1. A large image is an even grid of squares,
-// so that neighbours are neighbours.
+// A TexelSample holds texels of an image as they are stored; integers become 0 to 1. A large image is sampled
+// in an even grid of squares, so that neighbours stay neighbours.
 struct TexelSample {
   int columns = 0;
   int rows = 0;
-  std::vector<std::vector<float>> channels;  // row-major, as many as `layout` has
+  std::vector<std::vector<float>> channels;  // row-major, one per channel of `layout`
   ImageLayout layout;                        // of the file
-  // Counts over all texels of floating-point channels.
+  // These members count texels of floating-point channels.
   std::size_t nan_count = 0, negative_count = 0, above_one_count = 0;
 
   bool has_floats() const;
 };
 
-// Reads an image of any size in bands. Throws kInput, naming the file.
+// Reads an image of any size in bands. Throws kInput with the file's name.
 TexelSample sample_of(const std::filesystem::path& file);
-// The same of a texture of an asset: WebP with alpha, too, which only conversions of assets read.
+// Reads a texture of an asset in the same way. Like conversions of assets, it reads WebP with alpha.
 TexelSample sample_of_texture(const std::filesystem::path& file);
 
-// A file of a material, or an image that is part of one.
+// A MaterialMap is a file of a material, or an image inside one.
 struct MaterialMap {
   std::filesystem::path file;
   std::string shown;                               // in messages: the file, or `model.glb: image 2 (metal)`
-  std::string name;                                // what may tell of a convention: the name of the file
-  std::shared_ptr<const TexelSample> texels = {};  // null where the image cannot be read
-  bool is_embedded = false;                        // `file` is a copy that goes when the program ends
+  std::string name;                                // file name, which may show a convention
+  std::shared_ptr<const TexelSample> texels = {};  // null if the image cannot be read
+  bool is_embedded = false;                        // `file` is a temporary copy
   int tile = 0;                                    // number; 0 for a map without tiles
-  std::vector<MaterialMap> others = {};  // other images of the texture: the first that can be read counts
+  std::vector<MaterialMap> others = {};  // further images of the texture; the first readable one counts
 };
 
-// One role of a material.
+// A MaterialUse is one role of a material.
 struct MaterialUse {
   Role role = Role::kOther;
   std::size_t map = 0;  // index into CheckedMaterial::maps
   Channels channels = Channels::kWhole;
-  std::string slot;             // where an asset names the map: `metallicRoughnessTexture`
-  std::vector<double> factors;  // that an asset multiplies the map by; empty for none
+  std::string slot;             // the map's name in an asset: `metallicRoughnessTexture`
+  std::vector<double> factors;  // by which an asset multiplies the map; may be empty
   std::string factor_name;      // `metallicFactor`
-  bool is_neighbour = false;    // of another material in the same folder: compared with, not judged
-  // The place of the map on the surface (glTF).
+  bool is_neighbour = false;    // of another material in the folder; only for comparison
+  // This is the UV set of the map (glTF).
   std::size_t tex_coord = 0;
-  std::string transform = {};  // KHR_texture_transform as it stands; empty for none
+  std::string transform = {};  // text of KHR_texture_transform; may be empty
 };
 
-// Statements of a glTF material besides its maps (names and defaults of glTF 2.0 and its extensions).
+// A GltfStatements holds the parts of a glTF material besides its maps (names and defaults of glTF 2.0 and
+// its extensions).
 struct GltfStatements {
-  std::set<std::string> extensions;  // that change what the material looks like
+  std::set<std::string> extensions;  // extensions that change the look of the material
   double metallic_factor = 1.0;
   std::optional<double> ior;              // KHR_materials_ior
   std::optional<double> specular_factor;  // KHR_materials_specular
   bool has_specular_map = false;
   bool transmits = false;
-  bool has_volume = false;  // or dispersion, whose index of refraction cannot go into core
+  bool has_volume = false;  // or dispersion, whose index of refraction has no place in core glTF
 };
 
-// A material of a Wavefront MTL file.
+// An Exponent is the Ns of a material in a Wavefront MTL file.
 struct Exponent {
   std::string material;
   double value = 0.0;  // Ns
@@ -83,32 +83,31 @@ struct CheckedMaterial {
   MaterialKind kind = MaterialKind::kFolder;
   std::string name;             // `assets/robot`, `model.glb: material "Paint"`
   std::filesystem::path path;   // a folder or an asset file
-  std::filesystem::path below;  // its folder, relative to the checked path; empty for the checked path itself
+  std::filesystem::path below;  // its folder, relative to the checked path, or empty
   std::vector<MaterialMap> maps;
   std::vector<MaterialUse> uses;
-  std::vector<MaterialUse> unread;  // that a factor of 0 turns off: nothing in them can be wrong
+  std::vector<MaterialUse> unread;  // switched off by a factor of 0, so no rule applies to them
   GltfStatements gltf;
   std::vector<std::string> failures;  // statements of MTL that a conversion refuses
-  std::vector<Exponent> exponents;    // of all materials of an MTL file, with the first of them
+  std::vector<Exponent> exponents;    // different exponents of an MTL file, each with its first material
 
   // Reads the texels of all maps. Returns a message for each image that cannot be read.
   std::vector<std::string> read_maps();
-  // The channel of the image that a use with one channel reads; none for a color, and where the image lacks
-  // it.
+  // Returns the channel that a use with one channel reads. Returns nothing for a color, and if the image
+  // lacks the channel.
   std::optional<std::size_t> channel(const MaterialUse& use) const;
-  // Its values, as stored.
+  // Returns the stored values of that channel.
   const std::vector<float>* plane(const MaterialUse& use) const;
-  // The three channels of a use; empty where the image has fewer.
+  // Returns the three channels of a use, or nothing if the image has fewer.
   std::vector<const std::vector<float>*> colors(const MaterialUse& use) const;
   const TexelSample* texels(const MaterialUse& use) const { return maps[use.map].texels.get(); }
-  // Whether every texel is metal, which has the base color as its reflectance and transmits nothing.
+  // Returns true if every texel is metal. Metal reflects its base color and transmits nothing.
   bool is_all_metal() const;
-  // Whether two uses have texels at the same places.
+  // Returns true if two uses have texels at the same places.
   bool same_size(const MaterialUse& a, const MaterialUse& b) const;
 };
 
-// The materials of a folder and its subfolders, and of assets in them: sets of maps by their names, glTF,
-// MTL.
+// A FoundMaterials holds the materials of a folder and its subfolders: sets of maps, and glTF and MTL assets.
 struct FoundMaterials {
   std::vector<CheckedMaterial> materials;
   std::vector<std::string> problems;  // a message for each file or folder that cannot be read
@@ -116,7 +115,7 @@ struct FoundMaterials {
   std::shared_ptr<const ScratchFolder> embedded;
 };
 
-// The materials of a folder, of a glTF or MTL file, or of a map alone. Throws kInput if `path` does not
+// Finds the materials of a folder, a glTF or MTL file, or a single map. Throws kInput if `path` does not
 // exist.
 FoundMaterials materials_of(const std::filesystem::path& path, const Naming& naming);
 

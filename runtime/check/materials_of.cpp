@@ -25,7 +25,7 @@ void add_asset(const fs::path& file, FoundMaterials& found) {
   }
 }
 
-// The tiles of a map are images of their own.
+// Adds a set. Each tile of a map is a separate image.
 void add_set(const fs::path& root, const FoundSet& set, FoundMaterials& found) {
   CheckedMaterial material;
   material.path = root / set.folder;
@@ -49,7 +49,7 @@ bool same_folder(const fs::path& a, const fs::path& b) {
   return (a / "").lexically_normal() == (b / "").lexically_normal();
 }
 
-// Lets materials of assets see the widths of sets in the same folder, which may contradict theirs.
+// Adds roughness maps of sets in the same folder to asset materials, because both may contradict.
 void add_neighbours(FoundMaterials& found) {
   for (CheckedMaterial& material : found.materials) {
     if (material.kind != MaterialKind::kGltf) continue;
@@ -70,7 +70,7 @@ void add_neighbours(FoundMaterials& found) {
   }
 }
 
-// Maps that an asset names are judged as it uses them, not by their names.
+// Maps that an asset uses are checked for their use, not for their names.
 void remove_used_by_assets(FoundMaterials& found) {
   std::set<fs::path> used;
   for (const CheckedMaterial& material : found.materials)

@@ -1,4 +1,4 @@
-// Materials of Wavefront MTL files, with the lines for metallic and roughness that later tools added.
+// This file reads materials of Wavefront MTL files, with the metallic and roughness lines of later tools.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -47,8 +47,8 @@ Channels channels_of(const MtlMap& map) {
   }
 }
 
-// Whether anything reads what a material says of its highlight: not without illumination of highlights, and
-// not where Ks is 0, which its map multiplies.
+// Returns true if any program uses the highlight of a material. It needs illumination of highlights, and Ks
+// above 0, because Ks multiplies its map.
 bool has_highlight(const MtlSurface& surface) {
   const bool is_black = surface.specular && *surface.specular == std::array<double, 3>{};
   return surface.illumination.value_or(2.0) >= 2.0 && !is_black;
@@ -61,7 +61,7 @@ void add_map(const MtlMap& map, std::string_view word, Role role, bool is_read, 
   material.maps.push_back({path, path.string(), path.filename().string()});
 }
 
-// Reads a material as conversions do, and notes what they refuse.
+// Reads a material as conversions do, and records what they refuse.
 MtlSurface read_block(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
                       CheckedMaterial& material) {
   const auto attempt = [&](const auto& step) {
@@ -79,7 +79,7 @@ MtlSurface read_block(const MtlDocument& document, const MtlBlock& block, MtlMak
   return surface;
 }
 
-// Roles that another maker gives to lines.
+// Returns the role of a line, which depends on the maker of the file.
 Role role_of(const MapLine& line, MtlMaker maker) {
   if (maker == MtlMaker::kText) return line.role;
   const bool is_blender = maker != MtlMaker::kNvdiffrec;

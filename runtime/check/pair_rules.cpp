@@ -1,4 +1,4 @@
-// Rules that compare two maps of a material.
+// This file holds the rules that compare two maps of a material.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -18,7 +18,7 @@ std::string place_of(const CheckedMaterial& material, const MaterialUse& use) {
                                           : shown + ":" + std::string(name_of(kChannels, use.channels));
 }
 
-// Returns a map of roughness, gloss or alpha as roughness. Its role says which of these it holds.
+// Returns a map of roughness, gloss or alpha as roughness. Its role decides which of these it holds.
 std::optional<Plane> roughness_by_role(const CheckedMaterial& material, const MaterialUse& use) {
   const Plane* stored = material.plane(use);
   if (stored == nullptr) return std::nullopt;
@@ -41,7 +41,7 @@ double deviation(const Plane& plane) {
   return std::sqrt(std::max(0.0, squares / count - sum / count * (sum / count)));
 }
 
-// Root mean square of a - f(b).
+// Returns the root mean square of a - f(b).
 template <typename Function>
 double distance(const Plane& a, const Plane& b, Function f) {
   double squares = 0.0;
@@ -52,11 +52,11 @@ double distance(const Plane& a, const Plane& b, Function f) {
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, a.size())));
 }
 
-// Two maps count as related by a function within this rms: a few steps of 8 bits, or JPEG.
+// Two maps are related by a function if they agree within this rms: a few steps of 8 bits, or JPEG.
 constexpr double kSame = 0.02, kVaries = 0.03;
 
-// Calls `judge(a, b, roughness of a, roughness of b)` for pairs of maps of width in different channels or
-// files; b may be a map that only its name makes an opacity, which some call alpha.
+// Calls `judge(a, b, roughness of a, roughness of b)` for pairs of roughness maps in different channels or
+// files. b may also be an opacity map, because some people call the width alpha.
 template <typename Judge>
 void for_width_pairs(const CheckedMaterial& material, Judge judge) {
   const auto is_width = [&](const MaterialUse& use) {
@@ -75,12 +75,12 @@ void for_width_pairs(const CheckedMaterial& material, Judge judge) {
     }
 }
 
-// Options of oiiotool that take the root of the roughness that a map holds in its way. `power` is of the
-// other map, which holds alpha where it is called so.
+// Returns options of oiiotool that take the root of a map's roughness. `power` relates it to the other map,
+// which may be called alpha.
 std::string root_of(const CheckedMaterial& material, const MaterialUse& use, bool is_other_alpha,
                     double power) {
   const auto raised = [&](double exponent) { return "--powc " + numbers_for(material, use, exponent, 1.0); };
-  if (use.role == Role::kOpacity) return raised(2.0 / power);  // alpha, which stays a square
+  if (use.role == Role::kOpacity) return raised(2.0 / power);  // the map stays alpha, a square
   const std::string root = raised((is_other_alpha ? 0.5 : 1.0) / power), turn = inversion_of(material, use);
   if (use.role == Role::kGlossiness) return turn + " " + root + " " + turn;
   if (use.role == Role::kGlossinessSquared)
@@ -90,7 +90,7 @@ std::string root_of(const CheckedMaterial& material, const MaterialUse& use, boo
 
 }  // namespace
 
-// By its tag, or by another map of the set that holds the same without the curve.
+// Finds data in sRGB by its tag, or by another map of the set with the same values without the curve.
 void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                std::vector<MaterialFinding>& findings) {
   std::set<std::filesystem::path> seen;
@@ -156,12 +156,12 @@ void alpha_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
   for_width_pairs(
       material, [&](const MaterialUse& a, const MaterialUse& b, const Plane& first, const Plane& second) {
         if (distance(first, second, [](double value) { return value; }) < kSame) return;
-        // Maps named alpha hold opacity, or a width.
+        // Maps named alpha hold opacity or a width.
         for (const double power : {2.0, 0.5, 4.0, 0.25}) {
           if (distance(first, second, [&](double value) { return std::pow(std::max(0.0, value), power); }) >=
               kSame)
             continue;
-          if (b.role == Role::kOpacity && power == 0.5) return;  // alpha beside its root, as it should be
+          if (b.role == Role::kOpacity && power == 0.5) return;  // alpha beside its root is correct
           const bool second_is_wrong = power < 1.0;
           const MaterialUse &wrong = second_is_wrong ? b : a, &other = second_is_wrong ? a : b;
           const double squared = second_is_wrong ? 1.0 / power : power;
@@ -182,7 +182,7 @@ void alpha_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
 
 void sizes(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
            std::vector<MaterialFinding>& findings) {
-  if (material.kind != MaterialKind::kFolder) return;  // textures of assets have sizes of their own
+  if (material.kind != MaterialKind::kFolder) return;  // textures of assets may have different sizes
   const auto area = [](const MaterialMap& map) {
     return map.texels == nullptr
                ? 0LL
@@ -223,7 +223,7 @@ void duplicate_map(const CheckedMaterial& material, const GltfConsumer*, const R
       const Plane *first = material.plane(a), *second = material.plane(b);
       if (first == nullptr || second == nullptr || *first != *second) continue;
       if (deviation(*first) < kVaries) continue;
-      // gloss-as-roughness speaks of these.
+      // The rule gloss-as-roughness reports these.
       if (is_roughness(a.role) && is_roughness(b.role)) continue;
       findings.push_back({rule.name, Confidence::kLikely, place_of(material, a), "",
                           "has the same texels as " + place_of(material, b) + ": " +

@@ -24,7 +24,7 @@ constexpr std::array kExtensions = {"KHR_materials_specular"sv,
                                     "KHR_materials_dispersion"sv,
                                     "KHR_materials_diffuse_transmission"sv,
                                     "KHR_materials_pbrSpecularGlossiness"sv};
-// All extensions except the last one. Importers that ignore fewer of them have their own lists below.
+// These are all extensions except the last one. Importers that ignore fewer have lists below.
 constexpr std::span kAllButSpecGloss = std::span(kExtensions).first(10);
 constexpr std::array kThree = {"KHR_materials_pbrSpecularGlossiness"sv};
 constexpr std::array kUnreal = {"KHR_materials_volume"sv, "KHR_materials_iridescence"sv,
@@ -141,7 +141,7 @@ Fix image_fix(const CheckedMaterial& material, const MaterialMap& map, const std
   std::filesystem::path name = map.file.lexically_relative(home.empty() ? "." : home);
   if (name.empty() || name == "." || *name.begin() == "..") name = map.name;
   const std::filesystem::path result = fixed_folder(material) / name;
-  // Without its first option oiiotool would multiply colors by alpha, and divide them again.
+  // The first option stops oiiotool from multiplying colors by alpha and dividing them again.
   return {words, "mkdir -p " + shell_word(result.parent_path().string()) + " && oiiotool --no-autopremult " +
                      shell_word(map.file.string()) + " " + changes + " -o " + shell_word(result.string())};
 }

@@ -1,4 +1,4 @@
-// Rules that find mistakes in a material, each with the pattern that it detects.
+// This file declares the rules that find mistakes in a material, each with the pattern that it detects.
 #pragma once
 
 #include <span>
@@ -14,14 +14,14 @@ namespace remap {
 
 enum class Confidence {
   kCertain,   // the files contradict each other or themselves
-  kLikely,    // the pattern has hardly another cause
+  kLikely,    // the pattern rarely has another cause
   kPossible,  // worth a look
 };
 inline constexpr NamedValues<Confidence, 3> kConfidences = {{{Confidence::kCertain, "certain"},
                                                              {Confidence::kLikely, "likely"},
                                                              {Confidence::kPossible, "possible"}}};
 
-// The repair of a finding.
+// A Fix is the repair of a finding.
 struct Fix {
   Fix() = default;
   Fix(std::string in_words, std::string as_command = "")
@@ -29,9 +29,10 @@ struct Fix {
   Fix(const char* in_words) : words(in_words) {}
 
   std::string words;  // what to edit; if there is a command, what it does
-  // Can be typed where texremap was started, and writes into the folder `fixed`; empty for none.
+  // This command can be typed in the folder where texremap was started. It writes into the folder `fixed`. It
+  // may be empty.
   std::string command;
-  // If the command converts an asset: the asset's file, the folder of results and the options.
+  // If the command converts an asset, these are its file, the folder of results and the options.
   // unite_conversions() makes one command of all findings.
   std::string asset = {}, output = {};
   std::vector<std::string> options = {};
@@ -43,20 +44,20 @@ struct MaterialFinding {
   std::string_view rule;  // name of the rule
   Confidence confidence = Confidence::kLikely;
   std::string context;  // the map or material, as messages show it
-  std::string channel;  // `G`; empty for the whole map
-  std::string message;  // what is seen
+  std::string channel;  // such as `G`; empty for the whole map
+  std::string message;  // the observation
   Fix fix;
 };
 
-// A program that files are checked for, by its documentation (docs/check.md has the links).
+// A GltfConsumer is a program for which files are checked, by its documentation (links: docs/check.md).
 struct GltfConsumer {
   std::string_view name;
   std::string_view title;
   std::span<const std::string_view> ignored;  // extensions of glTF materials that it does not read
-  bool ignores_factors_beside_maps = false;   // of metallic and roughness
+  bool ignores_factors_beside_maps = false;   // for metallic and roughness
   bool wants_directx_normals = false;
 };
-// `gltf` (the core alone), `unity`, `unreal`, `godot`, `threejs`, `usd`.
+// Returns `gltf` (only the core), `unity`, `unreal`, `godot`, `threejs` and `usd`.
 std::span<const GltfConsumer> gltf_consumers();
 
 struct Rule {
@@ -65,13 +66,13 @@ struct Rule {
   void (*look)(const CheckedMaterial& material, const GltfConsumer* reader, const Rule& rule,
                std::vector<MaterialFinding>& findings);
 };
-// All rules, in the order in which findings are shown.
+// Returns all rules, in the order in which findings are shown.
 std::span<const Rule> rules();
 
-// The findings of all rules in a material whose maps are read; `reader` may be null.
+// Returns the findings of all rules in a material whose maps have been read. `reader` may be null.
 std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader);
 
-// The rules of single maps, of pairs of maps and of what assets state; rules() lists them.
+// This namespace holds rules for single maps, pairs of maps and statements of assets; rules() lists them.
 namespace look {
 using Look = void(const CheckedMaterial&, const GltfConsumer*, const Rule&, std::vector<MaterialFinding>&);
 Look linear_color, specgloss_channels, specular_color, constant_map, banding, bad_values, metallic_greys,
@@ -81,25 +82,25 @@ Look factor_zero, factor_ignored, index_of_refraction, ignored_by_reader, unread
     exponent_range;  // statements
 }  // namespace look
 
-// Gives the findings in one asset that its conversion puts right one command, with the options of all.
+// Gives one command to all findings in an asset that its conversion fixes, with the options of all of them.
 void unite_conversions(const std::vector<MaterialFinding*>& findings);
 
-// Base color, diffuse, specular; and what is stored as it is: widths, metallic, occlusion, normals, heights.
+// Color roles are base color, diffuse and specular. Data roles are stored without a curve: widths, metallic,
+// occlusion, normals and heights.
 bool is_color_role(Role role);
 bool is_data_role(Role role);
 
-// Where a command writes what it makes of a file: `fixed`, and there the same folders as in the checked
-// path.
+// Returns the folder for the results of a command: `fixed`, with the same subfolders as in the checked path.
 std::filesystem::path fixed_folder(const CheckedMaterial& material);
-// Changes of the image of a map by oiiotool, in words and as its options. An image that is part of an asset
-// has no command: nothing puts it back.
+// Returns a fix that changes the image of a map by oiiotool. An image inside an asset gets no command,
+// because nothing can put it back.
 Fix image_fix(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
               const std::string& changes);
-// A number for each channel of a map: `value` for that of the use, `otherwise` for the others. All channels
-// of a map without names of channels are of the use, but for alpha.
+// Returns a number for each channel of a map: `value` for the channels of the use, and `otherwise` for the
+// others. If channels have no names, all of them except alpha belong to the use.
 std::string numbers_for(const CheckedMaterial& material, const MaterialUse& use, double value,
                         double otherwise);
-// Options of oiiotool that make 1 - x of the channels of a use.
+// Returns options of oiiotool that replace x by 1 - x in the channels of a use.
 std::string inversion_of(const CheckedMaterial& material, const MaterialUse& use);
 
 }  // namespace remap

@@ -16,7 +16,7 @@ namespace {
 
 std::string file_of(const CheckedMaterial& material) { return material.path.filename().string(); }
 
-// Metal reflects by its base color, and transmits nothing.
+// Returns true for extensions of dielectrics. Metal reflects its base color, and transmits nothing.
 bool is_of_dielectrics(std::string_view extension) {
   constexpr std::array<std::string_view, 6> kNames = {
       kSpecularExtension,           kIorExtension,
@@ -25,12 +25,13 @@ bool is_of_dielectrics(std::string_view extension) {
   return std::ranges::find(kNames, extension) != kNames.end();
 }
 
-// Whether `texremap convert --fold-specular` takes it: the index of refraction of a volume stays.
+// Returns true if `texremap convert --fold-specular` can fold the extension. The index of refraction of a
+// volume must stay.
 bool can_fold(const CheckedMaterial& material, std::string_view extension) {
   return (extension == kSpecularExtension || extension == kIorExtension) && !material.gltf.has_volume;
 }
 
-// A conversion of the asset, with what its maps need to lie on one grid.
+// Returns a fix that converts the asset, with the options that its maps need to share one grid.
 Fix asset_fix(const CheckedMaterial& material, const std::string& words, std::vector<std::string> options) {
   std::vector<MaterialUse> uses = material.uses;
   uses.insert(uses.end(), material.unread.begin(), material.unread.end());
@@ -69,7 +70,7 @@ void factor_zero(const CheckedMaterial& material, const GltfConsumer*, const Rul
                             ", or remove the texture"});
   };
   for (const MaterialUse& use : material.uses) {
-    // glTF packs metallic and roughness: a factor of 0 says that the channel of the other is not used.
+    // glTF packs metallic and roughness in one map. A factor of 0 may mean that this channel is unused.
     const std::vector<float>* plane = material.plane(use);
     const bool is_unused =
         plane != nullptr && std::ranges::minmax(*plane).min == std::ranges::minmax(*plane).max;
@@ -96,15 +97,14 @@ void factor_ignored(const CheckedMaterial& material, const GltfConsumer* reader,
          "multiply " + role + " in the map by " + factor + ", and set " + use.factor_name + " to 1"});
   };
   for (const MaterialUse& use : material.uses)
-    if (!all_zero(use.factors)) judge(use);  // of others factor_zero speaks
+    if (!all_zero(use.factors)) judge(use);  // the rule factor_zero reports the others
   for (const MaterialUse& use : material.unread) {
     const std::vector<float>* plane = material.plane(use);
     if (plane != nullptr && std::ranges::any_of(*plane, [](float value) { return value > 0.0f; })) judge(use);
   }
 }
 
-// Real dielectrics reflect 2 to 17 % at normal incidence: an index of refraction from 1.3 (water) to 2.42
-// (diamond).
+// Real dielectrics reflect 2 to 17 % at normal incidence; their index is 1.3 (water) to 2.42 (diamond).
 void index_of_refraction(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                          std::vector<MaterialFinding>& findings) {
   if (material.is_all_metal()) return;

@@ -13,11 +13,11 @@
 namespace remap {
 namespace {
 
-// An image of up to this many texels a side is read whole; of a larger one as many squares of kRun texels a
-// side as fit into that size.
+// An image of up to this many texels a side is read whole. From a larger image, squares of kRun texels a side
+// are read, as many as fit into that size.
 constexpr int kSide = 1024, kRun = 64;
 
-// The columns or rows that are kept of `size`.
+// Returns the columns or rows that are kept out of `size`.
 std::vector<int> kept_of(int size) {
   std::vector<int> kept;
   if (size <= kSide) {
@@ -40,7 +40,7 @@ void count_bad(const std::vector<float>& values, TexelSample& sample) {
   }
 }
 
-// Takes a sample of an image from its rows, which are added from the top.
+// SampledRows samples an image from its rows, which are added from the top.
 class SampledRows {
  public:
   explicit SampledRows(const ImageLayout& layout)
@@ -74,7 +74,7 @@ class SampledRows {
  private:
   std::vector<int> columns_, rows_;
   std::vector<float> values_;
-  std::size_t next_ = 0;  // of rows_
+  std::size_t next_ = 0;  // index into rows_
   bool has_floats_ = false;
 };
 
@@ -84,7 +84,7 @@ bool is_webp(const std::filesystem::path& file) {
   return text.starts_with("RIFF") && text.ends_with("WEBP");
 }
 
-constexpr std::uintmax_t kLargestTexture = std::uintmax_t{4} << 30;  // as much as a glb can say
+constexpr std::uintmax_t kLargestTexture = std::uintmax_t{4} << 30;  // the limit of the glb format
 
 }  // namespace
 

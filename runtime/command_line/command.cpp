@@ -12,7 +12,7 @@
 namespace remap {
 namespace {
 
-// `--output` of `-o,--output FILE`, `DIR` of `DIR`.
+// Returns `--output` for `-o,--output FILE`, and `DIR` for `DIR`.
 std::string name_of(const CLI::Option& option) {
   return option.get_lnames().empty() ? option.get_name(true) : "--" + option.get_lnames().front();
 }
@@ -164,7 +164,7 @@ Option* Command::add_words(
       },
       description);
   option->type_name(space == std::string::npos ? "TEXT" : names.substr(space + 1));
-  if (!choices.empty())  // the reader refuses other words, and says what it takes
+  if (!choices.empty())  // the reader refuses other words, and lists the choices
     option->check(
         CLI::Validator([](std::string&) { return std::string(); }, "{" + CLI::detail::join(choices) + "}"));
   return keep(option);

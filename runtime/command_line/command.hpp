@@ -1,5 +1,5 @@
-// The commands and options of a program. Only this folder includes CLI11, because every object that includes
-// it takes 5 to 10 s longer to compile.
+// This file declares the commands and options of a program. Only this folder includes CLI11, because every
+// object that includes it takes 5 to 10 s longer to compile.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +25,10 @@ class Option;
 
 namespace remap {
 
-// The heading of options that only `--help-all` shows; other headings that begin with "Rare" are as rare.
+// Only `--help-all` shows options under this heading, and under other headings that begin with "Rare".
 inline constexpr const char* kRareOptions = "Rare options";
 
-// The types of values of options.
+// These are the types of values of options.
 template <typename T>
 concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::filesystem::path> ||
     std::same_as<T, int> || std::same_as<T, unsigned> || std::same_as<T, std::int64_t> ||
@@ -36,11 +36,11 @@ concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::files
     std::same_as<T, std::vector<std::size_t>> || std::same_as<T, std::vector<double>> ||
     std::same_as<T, std::vector<std::filesystem::path>>;
 
-// Consequences of the use of an option, as bits that each program defines.
+// OptionTags are consequences of the use of an option, as bits that each program defines.
 using OptionTags = unsigned;
 
-// Reads the word of an option into a value. `read` throws kUsage, naming the option (`--type`), for a word
-// that it does not take; `choices` are the words that it takes, where they are few.
+// A Reader reads the word of an option into a value. For other words `read` throws kUsage, with the option
+// (`--type`). `choices` are the accepted words, if they are few.
 template <typename Value>
 struct Reader {
   std::function<Value(const std::string& option, const std::string& word)> read;
@@ -51,7 +51,7 @@ struct Reader {
 [[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                                const std::vector<std::string>& known);
 
-// One of the names in `table`. `noun` is what messages call them: `pixel type`.
+// Returns a reader for one of the names in `table`. Messages use `noun` for them, such as `pixel type`.
 template <typename Value, std::size_t Count>
 Reader<Value> one_of(const NamedValues<Value, Count>& table, const std::string& noun) {
   return {[&table, noun](const std::string& option, const std::string& word) {
@@ -62,7 +62,7 @@ Reader<Value> one_of(const NamedValues<Value, Count>& table, const std::string& 
           names_of(table)};
 }
 
-// One of the entries of `table`, which lives as long as the program, by their field `name`.
+// Returns a reader for an entry of `table`, by its field `name`. The table must live as long as the program.
 template <typename Entry>
 Reader<const Entry*> one_of(std::span<const Entry> table, const std::string& noun) {
   std::vector<std::string> known;
@@ -75,7 +75,7 @@ Reader<const Entry*> one_of(std::span<const Entry> table, const std::string& nou
           known};
 }
 
-// A list of what `item` reads, separated by commas.
+// Returns a reader for a list of items, separated by commas.
 template <typename Value>
 Reader<std::vector<Value>> list_of(const Reader<Value>& item) {
   return {[read = item.read](const std::string& option, const std::string& words) {
@@ -86,34 +86,34 @@ Reader<std::vector<Value>> list_of(const Reader<Value>& item) {
           item.choices};
 }
 
-// An option that the command line gave.
+// A GivenOption is an option from the command line.
 struct GivenOption {
-  std::string name;                // `--type`; of words without an option the name in the help
-  std::vector<std::string> words;  // none of a flag
+  std::string name;                // `--type`; for words without an option the name in the help
+  std::vector<std::string> words;  // empty for a flag
   OptionTags tags = 0;
 };
 
-// One option of a command. All functions return the option, so that calls can be chained.
+// An Option is one option of a command. All functions return the option, so that calls can be chained.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
   Option* required();
-  // Lists: the character between two items of one word.
+  // For lists: sets the character between two items of one word.
   Option* delimiter(char character);
-  // Lists: whether words that follow the first belong to it; without, the option is given again for each.
+  // For lists: decides whether words after the first belong to the option. If not, repeat the option.
   Option* allow_extra_args(bool allowed);
   Option* expected(int min, int max);
-  // Lists: items come in groups of this many words.
+  // For lists: items come in groups of this many words.
   Option* type_size(int count);
   Option* excludes(Option* other);
   Option* needs(Option* other);
-  // Help shows this default.
+  // Sets the default that help shows.
   Option* default_text(const std::string& text);
   Option* tag(OptionTags tags);
-  // Moves it to the options that `--help` shows first.
+  // Moves the option to the ones that `--help` shows first.
   Option* common();
-  // The environment variable that gives the value if the option is not given.
+  // Sets the environment variable that gives the value if the option is missing.
   Option* environment(const std::string& name);
   Option* one_of(const std::vector<std::string>& words);
   Option* positive();
@@ -127,21 +127,21 @@ class Option {
   OptionTags tags_ = 0;
 };
 
-// A program, or one of its commands, which the program owns.
+// A Command is a program, or one of its commands, which the program owns.
 class Command {
  public:
   Command(const std::string& description, const std::string& name);
 
-  // `group`: the heading of the help under which this command is listed.
+  // `group` is the heading of the help under which this command is listed.
   Command* add_subcommand(const std::string& name, const std::string& description = "",
                           const std::string& group = "");
-  // `names` as "-o,--output FILE" with the name of the value in help texts, or "fits" for words without an
-  // option. Help shows the value that the variable has now, unless it is an empty string, path or list.
-  // `value` must live until the command has run.
+  // Adds an option. `names` is "-o,--output FILE", with the name of the value for help texts, or "fits" for
+  // words without an option. Help shows the current value of the variable, unless it is an empty string, path
+  // or list. `value` must live until the command has run.
   template <OptionValue T>
   Option* add_option(const std::string& names, T& value, const std::string& description = "");
-  // An option whose words `reader` reads after the whole command line is known to be well-formed. Help lists
-  // the choices of the reader.
+  // Adds an option whose words `reader` reads after the whole command line is known to be well-formed. Help
+  // lists the choices of the reader.
   template <typename Value, typename Read>
   Option* add_option(const std::string& names, Value& value, const Reader<Read>& reader,
                      const std::string& description) {
@@ -153,22 +153,22 @@ class Command {
         reader.choices, description);
   }
   Option* add_flag(const std::string& names, bool& value, const std::string& description = "");
-  // An option of earlier versions, which is refused with what to do. Help does not show it.
+  // Refuses an option of earlier versions, and prints what to do. Help does not show it.
   void retire(const std::string& name, const std::string& remedy);
-  // The heading under which the help of this command lists the options that are added from now on
+  // Sets the heading under which the help of this command lists the options that are added from now on
   // (help_text.hpp).
   void option_group(const std::string& name);
-  // An option that was added before.
+  // Returns an option that was added before.
   Option* option(const std::string& name);
   void set_version_flag(const std::string& names, const std::string& version);
   void require_subcommand(int count);
   void footer(const std::string& text);
   void callback(std::function<void()> work);
-  // How often the option was given.
+  // Returns how often the option was given.
   std::size_t count(const std::string& option) const;
-  // The tags of an option by its name, such as `--type`; 0 where there is none.
+  // Returns the tags of an option by its name, such as `--type`, or 0 if there is none.
   OptionTags tags_of(const std::string& name) const;
-  // The options of the command line, in the order in which they were added.
+  // Returns the options of the command line, in the order in which they were added.
   std::vector<GivenOption> given() const;
 
   CLI::App& app() { return *app_; }
@@ -192,7 +192,7 @@ requires std::is_class_v<Run> Options& set_work(Command& command, Run run) {
   command.callback([options, run = std::move(run)] { run(std::as_const(*options)); });
   return *options;
 }
-// The same for a function, which may be one of several of its name.
+// Does the same for a function, which may have overloads.
 template <typename Options>
 Options& set_work(Command& command, void (*run)(const Options&)) {
   return set_work<Options>(command, [run](const Options& options) { run(options); });

@@ -18,7 +18,7 @@ constexpr const char* kHelpGroup = "Help";
 constexpr std::string_view kRarePrefix = "Rare: ";
 bool is_rare(const std::string& group) { return group.starts_with("Rare"); }
 
-// `Output` of `Rare: output`.
+// Returns `Output` for `Rare: output`.
 std::string heading(std::string group) {
   if (!group.starts_with(kRarePrefix)) return group;
   group.erase(0, kRarePrefix.size());
@@ -38,7 +38,7 @@ std::string without_quotes(const std::string& text, char first, char last) {
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-// One line, broken at blanks.
+// Wraps one line, broken at blanks.
 std::string wrapped_line(std::string_view line, std::size_t indent) {
   if (line.starts_with(' ')) return std::string(line);
   std::string result;
@@ -59,7 +59,7 @@ std::string wrapped_line(std::string_view line, std::size_t indent) {
   return result;
 }
 
-// The two columns of a list: `  --name VALUE  Description`.
+// Returns a list entry in two columns: `  --name VALUE  Description`.
 std::string entry(const std::string& name, const std::string& description) {
   std::string line = "  " + name;
   if (description.empty()) return line + "\n";
@@ -70,10 +70,10 @@ std::string entry(const std::string& name, const std::string& description) {
   return line + wrapped(description, kDescriptionColumn) + "\n";
 }
 
-// The type of the value, and the descriptions of its checks, as CLI11 joins them: `TYPE:CHECK`.
+// Splits the type of the value from the descriptions of its checks, which CLI11 joins as `TYPE:CHECK`.
 std::pair<std::string, std::string> type_and_checks(const CLI::Option& option) {
   const std::string text = option.get_type_name();
-  std::size_t colon = std::string::npos;  // a name may hold colons, as FILE[:CHANNEL]
+  std::size_t colon = std::string::npos;  // a name may contain colons, such as FILE[:CHANNEL]
   for (const char* check : {":{", ":POSITIVE", ":NONNEGATIVE"}) colon = std::min(colon, text.find(check));
   if (const std::size_t range = text.find(" in ["); colon == std::string::npos && range != std::string::npos)
     colon = text.rfind(':', range);
@@ -94,13 +94,13 @@ std::string default_text(const CLI::Option& option) {
   return replaced(without_quotes(without_quotes(option.get_default_str(), '[', ']'), '"', '"'), "\"", "");
 }
 
-// `whole`: with the options that it excludes, which errors name as well.
+// With `whole` the text also lists the options that it excludes, which errors use as well.
 std::string option_description(const CLI::Option& option, bool whole) {
   std::vector<std::string> remarks;
   if (const std::string allowed = allowed_values(option); !allowed.empty())
     remarks.push_back(type_and_checks(option).second.starts_with("{") ? "one of " + allowed : allowed);
   if (option.get_required()) remarks.push_back("required");
-  std::set<std::string> excluded;  // CLI11 keeps them by address, which differs from run to run
+  std::set<std::string> excluded;  // sorted, because CLI11 keeps them by address, which varies
   if (whole)
     for (const CLI::Option* other : option.get_excludes()) excluded.insert(other->get_name());
   for (const std::string& name : excluded) remarks.push_back("not with " + name);
@@ -129,7 +129,7 @@ std::string usage(const CLI::App& app, const std::string& name) {
   return text + " [options]";
 }
 
-// In the order of their first options; help next to last, rare groups last.
+// Returns the groups in the order of their first options, but help next to last and rare groups last.
 std::vector<std::string> groups(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
@@ -186,7 +186,7 @@ class HelpFormatter : public CLI::FormatterBase {
     return text;
   }
 
-  // The commands of a program, by group.
+  // Returns the commands of a program, by group.
   static std::string commands(const CLI::App& app) {
     std::vector<std::string> names;
     const auto all = app.get_subcommands([](const CLI::App*) { return true; });
@@ -219,7 +219,7 @@ bool has_rare_options(const CLI::App& app) {
 void lay_out(CLI::App& app, const std::shared_ptr<HelpFormatter>& formatter) {
   app.formatter(formatter);
   app.set_help_flag("-h,--help", "Show this help")->group(kHelpGroup);
-  // Every command takes the flag; only those with rare options show it.
+  // Every command accepts the flag, but only commands with rare options show it.
   app.set_help_all_flag("--help-all", "Show all options")->group(has_rare_options(app) ? kHelpGroup : "");
   if (CLI::Option* version = app.get_option_no_throw("--version"))
     version->group(kHelpGroup)->description("Show the version");
@@ -270,7 +270,7 @@ std::string allowed_values(const CLI::Option& option) {
   if (open == std::string::npos || middle == std::string::npos) return "";
   const std::string least = checks.substr(open + 5, middle - open - 5),
                     most = checks.substr(middle + 3, checks.size() - middle - 4);
-  constexpr std::size_t kDigitsOfLimits = 10;  // more are the limits of a type, which say nothing
+  constexpr std::size_t kDigitsOfLimits = 10;  // more digits are limits of a type, which help nobody
   return most.size() >= kDigitsOfLimits ? least + " or more" : least + " to " + most;
 }
 

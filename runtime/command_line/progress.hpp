@@ -1,4 +1,4 @@
-// The progress of a run: a line on the terminal.
+// This file shows the progress of a run as a line on the terminal.
 #pragma once
 
 #include <chrono>
@@ -10,14 +10,14 @@
 
 namespace remap {
 
-// `1:05:00` of an hour and five minutes, `0:13`.
+// Returns `1:05:00` for an hour and five minutes, and `0:13` for 13 seconds.
 std::string clock_text(double seconds);
 
 // Shows `label  42 %, 0:13 left` on standard error, updates it at most ten times a second, and erases it when
-// destroyed. Prints nothing where standard error is not a terminal. Thread-safe.
+// destroyed. Prints nothing if standard error is not a terminal. Thread-safe.
 class Progress {
  public:
-  // `total`: units of work, 0 for none. `shown`: false prints nothing.
+  // `total` is the number of work units, which may be 0. If `shown` is false, nothing is printed.
   Progress(std::string label, std::size_t total, bool shown = true);
   ~Progress();
   Progress(const Progress&) = delete;
@@ -29,7 +29,7 @@ class Progress {
   void advance(std::size_t count = 1);
   // Changes the label.
   void relabel(std::string label);
-  // Erases the line, for other output; it comes back in time.
+  // Erases the line for other output. It comes back in time.
   void hide();
 
  private:

@@ -22,10 +22,10 @@
 namespace remap {
 namespace {
 
-// Lists of names to choose from are the longest messages.
+// Messages may be this long, because some list many names to choose from.
 constexpr std::size_t kLongestLine = 8000;
 
-// The command that the arguments chose, as deep as they went.
+// Returns the command that the arguments chose, at the deepest level that they reached.
 const CLI::App& chosen_command(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
@@ -61,7 +61,7 @@ bool ends_with_and_drop(std::string& text, const std::string& ending) {
   return true;
 }
 
-// The message for arguments that no option took.
+// Returns the message for arguments that no option accepts.
 std::string extra_text(const CLI::App& command, const std::vector<std::string>& extras) {
   const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
   const auto option = std::find_if(extras.begin(), extras.end(), is_option);
@@ -75,8 +75,8 @@ std::string extra_text(const CLI::App& command, const std::vector<std::string>& 
   return "unexpected argument '" + extras.front() + "'" + see_help(command);
 }
 
-// `--model: unknown value 'x' (choose auto, svr)`: a value that a check of the option refused. CLI11 prefixes
-// the message with the option's name.
+// Returns `--model: unknown value 'x' (choose auto, svr)` for a value that a check of the option refused.
+// CLI11 prefixes the message with the option's name.
 std::string refused_value_text(const CLI::App& command, const std::string& what) {
   const std::size_t colon = what.find(": ");
   const std::string name = what.substr(0, colon);
@@ -94,11 +94,11 @@ std::string refused_value_text(const CLI::App& command, const std::string& what)
          "' (allowed: " + allowed + ")";
 }
 
-// The message for a command line that `app` refused with `error`: what is wrong and what to do, as
-// `unknown option --form (did you mean --from?)` or `--output is required (see texremap convert --help)`.
+// Returns the message for a command line that `app` refused with `error`. It has the mistake and the fix,
+// such as `unknown option --form (did you mean --from?)`.
 std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
-  // A mistyped option is the likelier reason than what CLI11 reports: with `--form a`, --from is missing.
+  // Report a mistyped option first, because it is the likelier reason: with `--form a`, --from is missing.
   if (const std::vector<std::string> extras = app.remaining(true); !extras.empty())
     return extra_text(command, extras);
   std::string what = error.what();
@@ -127,7 +127,7 @@ std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) 
   return what + see_help(command);
 }
 
-// `PROGRAM help COMMAND` and `PROGRAM version` as the options of that name, which CLI11 takes in reverse.
+// Returns the words in reverse, as for CLI11. `PROGRAM help COMMAND` and `PROGRAM version` become options.
 std::vector<std::string> words_of(int argc, const char* const* argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (!words.empty() && words.front() == "help") {
@@ -140,7 +140,7 @@ std::vector<std::string> words_of(int argc, const char* const* argv) {
   return words;
 }
 
-// `words` in reverse, as CLI11 takes them.
+// Runs `words` in reverse order, as CLI11 reads them.
 void run_reversed(CLI::App& app, std::vector<std::string> words) {
   try {
     app.parse(std::move(words));
@@ -158,7 +158,7 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   else
     run_reversed(app, words_of(argc, argv));
   std::cout.flush();
-  // As when `head` has read enough. Nothing follows that could change errno.
+  // This happens if `head` has read enough. Nothing follows that could change errno.
   if (!std::cout && errno == EPIPE) return 1;
   if (!std::cout) throw Error(ErrorKind::kOutput, "standard output: cannot be written");
   return 0;

@@ -19,19 +19,19 @@ namespace {
 
 constexpr std::size_t kMaxChannels = 3;
 
-// The number of texels converted at a time, so that their rows stay in the cache of one core.
+// So many texels are converted at a time, so that their rows stay in the cache of one core.
 constexpr std::size_t kSegment = 2048;
 using FloatRow = std::array<float, kSegment>;
 
-// Without a branch, so that loops over it become vectors.
+// Uses no branch, so that compilers vectorise loops over it.
 bool is_ordinary(float value, float highest) {
   const bool is_high_enough = value >= 0.0f, is_low_enough = value <= highest;
   return is_high_enough & is_low_enough;
 }
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-// Uniform noise in [-1/2, 1/2), a function of the position alone (finalizer of MurmurHash3, A. Appleby,
-// public domain).
+// Returns uniform noise in [-1/2, 1/2) that depends only on the position (finalizer of MurmurHash3, A.
+// Appleby, public domain).
 float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
   std::uint64_t bits = (static_cast<std::uint64_t>(y) << 32 | x) + 0x9e3779b97f4a7c15u * (channel + 1);
   bits = (bits ^ bits >> 33) * 0xff51afd7ed558ccdu;
@@ -40,11 +40,11 @@ float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
   return static_cast<float>(bits >> 40) * 0x1p-24f - 0.5f;
 }
 
-// The rows of a segment: a row for each channel of each parameter, of its own or in a map.
+// Rows holds a row for each channel of a segment's parameters. A row has its own memory or is in a map.
 template <typename Float>
 class SegmentRows {
  public:
-  // Makes own rows of a parameter, and keeps existing ones.
+  // Makes new rows of a parameter, and keeps existing ones.
   void make(Parameter parameter, std::size_t count) {
     std::vector<FloatRow>& own = own_[static_cast<std::size_t>(parameter)];
     if (own.size() < count) own.resize(count);
@@ -52,7 +52,7 @@ class SegmentRows {
     rows.count = count;
     for (std::size_t c = 0; c < count; ++c) rows.row[c] = own[c].data();
   }
-  // Takes a row of a map in place of an own one.
+  // Uses a row of a map instead of a separate row.
   void refer(Parameter parameter, std::size_t channel, Float* row) { rows_[parameter].row[channel] = row; }
 
   std::size_t count(Parameter parameter) const { return rows_[parameter].count; }
@@ -67,16 +67,16 @@ class SegmentRows {
   MaterialRows<Float> rows_;
 };
 
-// The parameters of one segment as rows of floats.
+// A Scratch holds the parameters of one segment as rows of floats.
 struct Scratch {
   SegmentRows<const float> source;
   SegmentRows<float> target;
-  std::array<std::uint8_t, kSegment> outside;  // what a mask is written from
-  FloatRow first, other;                       // copies of one value; what is stored
+  std::array<std::uint8_t, kSegment> outside;  // source of the mask
+  FloatRow first, other;                       // copies of one value; the stored values
   FloatRow coverage;
 };
 
-// The values of a segment as an array of floats, if the memory of the map is one; else null.
+// Returns the values of a segment as an array of floats if the map stores them like this, otherwise null.
 template <typename Byte>
 auto float_row(const BasicChannelView<Byte>& view, const Segment& segment) {
   using Float = std::conditional_t<std::is_const_v<Byte>, const float, float>;
@@ -93,7 +93,7 @@ struct PlacedView {
   BasicChannelView<Byte> view;
 };
 
-// Linear floats that stand side by side in every texel, three or four, and fill it: they are moved at once.
+// A Texels is a group of channels, three or four linear floats, that fill every texel. It is moved at once.
 template <typename Byte>
 struct Texels {
   std::vector<PlacedView<Byte>> channels;
@@ -101,7 +101,7 @@ struct Texels {
   Byte* at(const Segment& segment) const { return remap::at(channels[0].view, segment.x, segment.y); }
 };
 
-// The texels that channels of floats fill together. Of parameters with the same map each has its own.
+// Returns the groups of channels that fill texels of floats together. Parameters of one map are separate.
 template <typename Byte>
 std::vector<Texels<Byte>> filled_texels(const std::vector<PlacedView<Byte>>& channels) {
   std::vector<Texels<Byte>> all;
@@ -168,12 +168,12 @@ class Conversion {
 
   const Converter& converter_;
   const MapConversion& maps_;
-  std::vector<Parameter> sources_;  // of the converter, as far as the maps have them
+  std::vector<Parameter> sources_;  // of the converter, plus the metal mask if there is one
   std::vector<Texels<const std::byte>> source_texels_;
   std::vector<Texels<std::byte>> target_texels_;
 };
 
-// Whether a channel is moved with others.
+// Returns true if a channel is moved together with others.
 template <typename Byte>
 bool is_in(const std::vector<Texels<Byte>>& all, Parameter parameter, std::size_t channel) {
   return std::ranges::any_of(all, [&](const Texels<Byte>& texels) {
@@ -226,18 +226,18 @@ const TargetParameter* Conversion::wanted(Parameter parameter) const {
   return found == maps_.targets.end() || found->second.channels.empty() ? nullptr : &found->second;
 }
 
-// Measures are computed only for maps and statistics that hold them.
+// Skips measures that no map and no statistics ask for.
 bool Conversion::is_made(Parameter parameter) const {
   const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicUncertainty;
   return !is_measure(parameter) || counts || wanted(parameter) != nullptr;
 }
 
-// The largest valid value. Roughness and specular alone have no limit.
+// Returns the largest valid value. Only roughness and specular have no limit.
 float Conversion::highest(Parameter parameter) const {
   return !converter_.converts_brdf_only() && parameter != Parameter::kRoughness ? 1.0f : kLargest;
 }
 
-// The row of a map that can be read in place of a loaded one; null if its values must be changed.
+// Returns the row of a map if it holds the values unchanged. Returns null if they must be loaded.
 const float* Conversion::row_of_map(const SourceParameter& parameter, std::size_t channel,
                                     const Segment& segment) const {
   const bool is_plain = !parameter.channels.empty() && parameter.transfer == Transfer::kLinear &&
@@ -287,8 +287,8 @@ void Conversion::load_texels(const Segment& segment, Scratch& scratch) const {
   }
 }
 
-// Writes rows of a map in place of own ones where the map holds floats as they are and no source row that is
-// still read.
+// Writes directly into rows of a map. The map must store floats unchanged, and the row must not be a source
+// row that is still needed.
 void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) const {
   for (const auto& [parameter, target] : maps_.targets) {
     const bool changes =
@@ -304,8 +304,7 @@ void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) cons
   }
 }
 
-// Whether a row of the segment's sources shares memory with `row`, apart from the row of the same channel,
-// which it may be.
+// Returns true if `row` shares memory with another source row. The same channel's row does not count.
 bool Conversion::is_source_of_another(Parameter target, std::size_t channel, const float* row,
                                       std::size_t count, const Scratch& scratch) const {
   const std::less<const float*> before;
@@ -411,14 +410,14 @@ void Conversion::count_invalid_texels(const Segment& segment, Scratch& scratch,
   for (const Parameter parameter : sources_)
     for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
       rows.push_back({scratch.source.row(parameter, c), highest(parameter)});
-  constexpr std::size_t kRun = 128;  // of one row: memory delivers several rows at once faster than one
-  int odd = 0;                       // as wide as a float, so that the loop becomes vectors
+  constexpr std::size_t kRun = 128;  // within one row: memory delivers several rows at once faster
+  int odd = 0;                       // as wide as a float, so that compilers vectorise the loop
   for (std::size_t begin = 0; begin < segment.count; begin += kRun) {
     const std::size_t end = std::min(segment.count, begin + kRun);
     for (const CheckedRow& row : rows)
       for (std::size_t i = begin; i < end; ++i) odd |= !is_ordinary(row.values[i], row.highest);
   }
-  if (odd == 0) return;  // the usual case, detected at the speed of memory
+  if (odd == 0) return;  // the usual case, found as fast as memory can be read
   for (std::size_t i = 0; i < segment.count; ++i) {
     bool nan = false, infinite = false, negative = false, above = false;
     for (const CheckedRow& row : rows) {
@@ -440,7 +439,7 @@ void Conversion::count_invalid_texels(const Segment& segment, Scratch& scratch,
 }
 
 void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
-  // NaN becomes the lowest value.
+  // Clamps values. NaN becomes the lowest value.
   const auto clamp = [count](float* row, const Range& range) {
     const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
     for (std::size_t i = 0; i < count; ++i) row[i] = row[i] >= low ? std::min(row[i], high) : low;

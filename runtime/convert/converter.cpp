@@ -45,7 +45,7 @@ std::size_t Converter::convert(std::size_t count, const MaterialRows<const float
 std::size_t Converter::convert(std::size_t count, const float* width, std::span<const float* const> specular,
                                float* width_out, std::span<float* const> specular_out,
                                std::uint8_t* outside) const {
-  require_channels(specular.size());  // before they are copied
+  require_channels(specular.size());  // check before specular is copied
   MaterialRows<const float> in;
   MaterialRows<float> out;
   in[Parameter::kRoughness] = {{width}, 1};

@@ -5,8 +5,8 @@
 namespace remap {
 namespace {
 
-// Four values at once: compilers make no vectors of steps of three floats for WebAssembly, and slow ones
-// elsewhere.
+// Works on four values at once. For steps of three floats, compilers make no vectors on WebAssembly, and slow
+// vectors elsewhere.
 using Four = float __attribute__((vector_size(16)));
 
 Four four_at(const void* values) noexcept {
@@ -16,7 +16,7 @@ Four four_at(const void* values) noexcept {
 }
 void put(const Four& four, void* values) noexcept { std::memcpy(values, &four, sizeof four); }
 
-// Both directions take four texels at a time, and the last ones float by float.
+// Takes four texels at a time, and the last texels float by float. Both directions use it.
 template <typename Fours, typename One>
 void for_texels(std::size_t count, std::size_t channels, Fours fours, One one) noexcept {
   std::size_t i = 0;
@@ -42,7 +42,7 @@ FourFours transposed(const FourFours& of) noexcept {
 
 void load_threes(const std::byte* texel, float* red, float* green, float* blue) noexcept {
   const Four first = four_at(texel), second = four_at(texel + 16), third = four_at(texel + 32);
-  // r0 g0 b0 r1, g1 b1 r2 g2, b2 r3 g3 b3
+  // The three vectors hold r0 g0 b0 r1, g1 b1 r2 g2, b2 r3 g3 b3.
   put(__builtin_shufflevector(__builtin_shufflevector(first, second, 0, 3, 6, 6), third, 0, 1, 2, 5), red);
   put(__builtin_shufflevector(__builtin_shufflevector(first, second, 1, 4, 7, 7), third, 0, 1, 2, 6), green);
   put(__builtin_shufflevector(__builtin_shufflevector(first, second, 2, 5, 5, 5), third, 0, 1, 4, 7), blue);

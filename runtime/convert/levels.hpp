@@ -1,5 +1,5 @@
-// The 256 levels of an 8-bit map as tables: what each is worth, and the nearest of every float. The same for
-// any rising curve whose levels are further apart than 128th parts of a power of two.
+// This file converts the 256 levels of an 8-bit map by tables: the value of each level, and the closest level
+// of every float. It works for any rising curve with levels further apart than 128th parts of a power of two.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,9 @@ class QuantizationTable {
   static constexpr std::size_t kCount = 256;
   using Values = std::array<float, kCount>;
 
-  // `values`: of the levels. `least`: element i is the least float that is nearer to level i + 1 than to
-  // level i; the last is beyond 1. Throws, which no constant does, where a step has three levels.
+  // `values` are the values of the levels. Element i of `least` is the least float that is closer to level i
+  // + 1 than to level i; the last element is beyond 1. Throws if a step has three levels, so that such a
+  // constant does not compile.
   constexpr QuantizationTable(const Values& values, const Values& least) : values_(values) {
     std::uint64_t level = 0;
     for (std::uint32_t i = 0; i < kSteps; ++i) {
@@ -55,8 +56,8 @@ class QuantizationTable {
   }
 
  private:
-  // Floats from 2^-13, which is below the middle of levels 0 and 1, to 1, by the upper half of their bits. No
-  // step has floats of more than two levels.
+  // Steps cover floats from 2^-13 to 1, by the upper half of their bits. 2^-13 is below the middle of levels
+  // 0 and 1. No step has floats of more than two levels.
   static constexpr float kLeast = 0x1p-13f;
   static constexpr int kStepBits = 16;
   static constexpr std::uint32_t kFirstStep = __builtin_bit_cast(std::uint32_t, kLeast) >> kStepBits;
@@ -64,8 +65,8 @@ class QuantizationTable {
       (__builtin_bit_cast(std::uint32_t, 1.0f) >> kStepBits) - kFirstStep + 1;
 
   Values values_;
-  // Of each step, the level of its least float, times 2^32, and what the bits of a float of the next level
-  // fill up to 2^32.
+  // An entry has two parts. The upper 32 bits are the level of the step's least float. The lower bits
+  // overflow into them when the bits of a float of the next level are added.
   std::array<std::uint64_t, kSteps> steps_{};
 };
 

@@ -1,4 +1,4 @@
-// Linear values of stored ones, and back: the pixel type and the transfer curve at once.
+// This file converts stored values to linear values, and back: pixel type and transfer curve in one step.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace remap {
 
-// Gives what load_values() and to_linear() give.
+// Gives the results of load_values() followed by to_linear().
 void load_linear(Transfer transfer, PixelType type, const std::byte* first, std::size_t stride,
                  std::size_t count, float* values) noexcept;
 
-// Gives what from_linear() and store_values() give, except that sRGB of uint8 is rounded once: every float
-// becomes the nearest level of the curve. Returns the number of clipped values.
+// Gives the results of from_linear() followed by store_values(), except that sRGB in uint8 is rounded once.
+// Every float becomes the closest level of the curve. Returns the number of clipped values.
 std::size_t store_linear(Transfer transfer, PixelType type, const float* values, std::size_t count,
                          std::byte* first, std::size_t stride) noexcept;
 

@@ -9,7 +9,7 @@
 namespace remap {
 namespace {
 
-// The storage of a half. The templates below must distinguish it from uint16_t.
+// HalfBits stores a half float. The templates below must distinguish it from uint16_t.
 struct HalfBits {
   std::uint16_t bits;
 };
@@ -19,7 +19,7 @@ constexpr float to_float(Stored stored) noexcept {
   if constexpr (std::is_same_v<Stored, HalfBits>) {
     return half_to_float(stored.bits);
   } else if constexpr (std::is_integral_v<Stored>) {
-    // A float holds 24 bits, so larger integers are divided in double.
+    // Larger integers are divided in double, because a float holds only 24 bits.
     using Real = std::conditional_t<(sizeof(Stored) > 2), double, float>;
     return static_cast<float>(static_cast<Real>(stored) /
                               static_cast<Real>(std::numeric_limits<Stored>::max()));
@@ -33,7 +33,7 @@ Stored from_float(float value) noexcept {
   if constexpr (std::is_same_v<Stored, HalfBits>) {
     return {float_to_half(value)};
   } else if constexpr (std::is_integral_v<Stored>) {
-    // The product is exact in double, so the sum below rounds to nearest.
+    // The product is exact in double, so the sum below rounds to the closest value.
     constexpr double kHighest = static_cast<double>(std::numeric_limits<Stored>::max());
     constexpr double kLowest = std::is_signed_v<Stored> ? -1.0 : 0.0;
     double clipped = value == value ? static_cast<double>(value) : 0.0;
@@ -46,7 +46,7 @@ Stored from_float(float value) noexcept {
   }
 }
 
-// Calls `work` with the stride, as a constant for packed values, whose loops compilers vectorise.
+// Calls `work` with the stride. For packed values it is a constant, so that compilers vectorise the loops.
 template <std::size_t kSize, typename Work>
 void with_stride(std::size_t stride, Work work) noexcept {
   if (stride == kSize) return work(std::integral_constant<std::size_t, kSize>{});
@@ -141,9 +141,9 @@ std::size_t store_values(PixelType type, const float* values, std::size_t count,
                       [&](auto stored) { return store<decltype(stored)>(values, count, first, stride); });
 }
 
-// The code has no branches, so that compilers vectorise the loops above. The method is F. Giesen's ("Half to
-// float done quic", 2012, and "Float to half, round to nearest even"): an integer addition changes the
-// exponent; for denormals, a float addition or subtraction of a power of two aligns the mantissas.
+// The code has no branches, so that compilers vectorise the loops above. The method is by F. Giesen ("Half to
+// float done quic", 2012, and "Float to half, round to nearest even"). An integer addition changes the
+// exponent. For denormals, a float addition or subtraction of a power of two aligns the mantissas.
 float half_to_float(std::uint16_t half) noexcept {
   constexpr std::uint32_t kExponentShift = std::uint32_t{127 - 15} << 23;  // difference of the biases
   constexpr std::uint32_t kHalfExponent = std::uint32_t{0x7c00} << 13;
@@ -166,7 +166,7 @@ std::uint16_t float_to_half(float value) noexcept {
   constexpr std::uint32_t kInfinity = std::uint32_t{255} << 23;
   constexpr std::uint32_t kHalfOverflow = std::uint32_t{127 + 16} << 23;        // 65536
   constexpr std::uint32_t kHalfSmallestNormal = std::uint32_t{127 - 14} << 23;  // 2^-14
-  // 0.5: one unit in its last place is the step of half denormals, 2^-24, so the addition rounds to it.
+  // This is 0.5. A unit in its last place is the step of half denormals, 2^-24, so additions round to it.
   constexpr std::uint32_t kDenormalMagic = std::uint32_t{(127 - 15) + (23 - 10) + 1} << 23;
   const float lined_up = __builtin_bit_cast(float, magnitude) + __builtin_bit_cast(float, kDenormalMagic);
   const std::uint32_t denormal = __builtin_bit_cast(std::uint32_t, lined_up) - kDenormalMagic;

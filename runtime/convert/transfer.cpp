@@ -11,14 +11,14 @@
 namespace remap {
 namespace {
 
-// The curve of sRGB without the powers of the C library, which take most of the time of a conversion and
-// differ between libraries. Only sums, products, quotients and comparisons of doubles follow, so that results
-// are the same everywhere; there is no branch and no call, so that compilers vectorise the loops below.
+// Computes the sRGB curve without the powers of the C library. They take most of the time of a conversion and
+// differ between libraries. The code uses only sums, products, quotients and comparisons of doubles, so that
+// results are the same everywhere. It has no branch and no call, so that compilers vectorise the loops below.
 
 constexpr std::uint64_t kOne = 0x3ff0000000000000;  // bits of 1.0
 constexpr int kMantissaBits = 52;
 
-// Sums c[i] x^i.
+// Returns the sum of c[i] x^i.
 template <std::size_t Count>
 constexpr double polynomial(const std::array<double, Count>& c, double x) noexcept {
   double sum = c[Count - 1];
@@ -26,25 +26,25 @@ constexpr double polynomial(const std::array<double, Count>& c, double x) noexce
   return sum;
 }
 
-// Within 3e-14 for normal values above 0: the exponent, and a polynomial in ((m - 1) / (m + 1))^2 for a
-// mantissa m between the square roots of 1/2 and 2, interpolated at Chebyshev's nodes.
+// Is within 3e-14 for normal values above 0. It adds the exponent and a polynomial in ((m - 1) / (m + 1))^2.
+// The mantissa m lies between the square roots of 1/2 and 2. The nodes of the interpolation are Chebyshev's.
 constexpr double log2_of(double value) noexcept {
   constexpr std::uint64_t kRootOfHalf = 0x3fe6a09e667f3bcd;
   constexpr std::uint64_t kBitsOf2To52 = 0x4330000000000000;
   constexpr std::array kFactors = {2.885390081777851,   0.9617966941122649,  0.5770779426603044,
                                    0.41220922406110433, 0.31990680380701336, 0.28288502340748234};
   const auto bits = __builtin_bit_cast(std::uint64_t, value);
-  const std::uint64_t biased = (bits - kRootOfHalf + kOne) >> kMantissaBits;  // the exponent and 1023
+  const std::uint64_t biased = (bits - kRootOfHalf + kOne) >> kMantissaBits;  // adds 1023 to the exponent
   const double exponent = __builtin_bit_cast(double, biased | kBitsOf2To52) - (0x1p52 + 1023.0);
   const auto mantissa = __builtin_bit_cast(double, bits - (biased << kMantissaBits) + kOne);
   const double t = (mantissa - 1.0) / (mantissa + 1.0);
   return exponent + t * polynomial(kFactors, t * t);
 }
 
-// 2^x within 2e-14 of its value, for x between -1000 and 1000: the power of the nearest whole number, and a
-// polynomial for the rest, interpolated at Chebyshev's nodes.
+// Returns 2^x within 2e-14 of its value, for x between -1000 and 1000. It multiplies the power of the closest
+// integer by a polynomial for the rest, interpolated at Chebyshev's nodes.
 constexpr double exp2_of(double x) noexcept {
-  constexpr double kWhole = 0x1.8p52;  // a sum with it is rounded to a whole number, which is its last bits
+  constexpr double kWhole = 0x1.8p52;  // a sum with it is rounded to an integer, which is in the last bits
   constexpr std::array kFactors = {1.0000000000000135,    0.6931471805599462,     0.2402265069564034,
                                    0.05550410866465167,   0.009618129193934313,   0.0013333558200794592,
                                    0.0001540343375125101, 1.5252672924850737e-05, 1.325964524488711e-06,
@@ -55,7 +55,7 @@ constexpr double exp2_of(double x) noexcept {
   return power * polynomial(kFactors, x - (shifted - kWhole));
 }
 
-// Takes finite values of at least 0. Products with reciprocals are quicker than quotients.
+// Accepts finite values of at least 0. It multiplies by reciprocals, because this is faster than dividing.
 constexpr double magnitude_to_linear(double stored) noexcept {
   const double power = exp2_of(2.4 * log2_of((stored + 0.055) * (1.0 / 1.055)));
   const double line = stored * (1.0 / 12.92);
@@ -68,7 +68,7 @@ constexpr double magnitude_to_srgb(double linear) noexcept {
   return linear <= 0.0031308 ? line : power;
 }
 
-// The odd function that `change` gives for finite magnitudes. Infinity and NaN stay.
+// Extends `change`, for finite magnitudes, to an odd function. Infinity and NaN stay unchanged.
 template <typename Change>
 void change_all(std::span<float> values, Change change) noexcept {
   for (float& value : values) {
@@ -79,7 +79,7 @@ void change_all(std::span<float> values, Change change) noexcept {
   }
 }
 
-// The curve for 8 bits.
+// Returns the levels of the sRGB curve for 8 bits.
 constexpr QuantizationTable srgb_levels() {
   QuantizationTable::Values values{}, least{};
   for (std::size_t i = 0; i < QuantizationTable::kCount; ++i) {

@@ -12,7 +12,7 @@ std::size_t terms_of(const FactorTerms& factor) {
   return count;
 }
 
-// The exponent 2 / alpha^2 - 2 is two millions there; a mirror has none.
+// The exponent 2 / alpha^2 - 2 is two millions at this alpha. A mirror has no finite exponent.
 constexpr float kSharpestExponent = 1e-3f;
 
 }  // namespace
@@ -32,7 +32,7 @@ FormEnds ends_of(RoughnessEncoding source, RoughnessEncoding target, const Range
   const auto min = static_cast<float>(width.min), max = static_cast<float>(width.max);
   FormEnds ends{min, max, 0.0f, max, 0.0f, 0.0f};
   const bool is_exponent = source == RoughnessEncoding::kExponent;
-  const bool falls = is_exponent || source == RoughnessEncoding::kGlossiness;  // where alpha rises
+  const bool falls = is_exponent || source == RoughnessEncoding::kGlossiness;  // falls as alpha rises
   if (falls) {
     ends.width_from = min;
     ends.width_to = is_exponent ? std::numeric_limits<float>::max() : 1.0f;

@@ -1,5 +1,5 @@
-// The form of every converter of width and specular: two factors of few terms, and a hinge where the target
-// model is at a limit.
+// This file holds the form of every converter of width and specular: two factors of few terms, and a hinge
+// that acts if the target model is at a limit.
 //
 //   t  = s / (s + pole)                          s: source specular, a: source alpha
 //   A  = a P(a, t of the largest channel)        P, Q: sums of products t^j a^i
@@ -8,8 +8,8 @@
 //   a2 = min(alpha limit,    A + a (turn + turn_by_alpha a) x / (1 + bend x))
 //   s2 = min(specular limit, u (1 + spread max(0, A / alpha limit - 1)))
 //
-// The factors of a texel beyond the domain are those of the nearest texel in it, so that 0 stays 0 and both
-// parameters go on in proportion. Source widths wider than the domain are clamped to its end.
+// A texel beyond the domain gets the factors of the closest texel in the domain, so that 0 stays 0 and both
+// parameters continue in proportion. Source widths wider than the domain are clamped to its end.
 #pragma once
 
 #include <cstddef>
@@ -20,34 +20,35 @@
 
 namespace remap {
 
-// The most powers of t and of alpha, 0 included.
+// These are the most powers of t and of alpha, including power 0.
 inline constexpr std::size_t kMostPowersOfT = 16, kMostPowersOfAlpha = 32;
 
-// [power of t][power of alpha]; at least one row, no empty row.
+// The order is [power of t][power of alpha]. There is at least one row, and no row is empty.
 using FactorTerms = std::vector<std::vector<float>>;
 
 struct Hinge {
-  float turn = 0.0f, turn_by_alpha = 0.0f;  // of alpha, where specular is cut off,
-  float bend = 0.0f;                        // at least 0: less and less the more is cut off
-  float spread = 0.0f;                      // of specular, where alpha is cut off
+  float turn = 0.0f, turn_by_alpha = 0.0f;  // of alpha, if specular is cut off
+  float bend = 0.0f;                        // at least 0; flattens the turn at larger cuts
+  float spread = 0.0f;                      // of specular, if alpha is cut off
   bool operator==(const Hinge&) const = default;
 };
 
 struct CompactForm {
   float pole = 1.0f;  // above 0
   FactorTerms alpha = {{1.0f}}, specular = {{1.0f}};
-  std::optional<float> alpha_limit, specular_limit;  // of the target, above 0; none where they do not bind
+  std::optional<float> alpha_limit, specular_limit;  // of the target, above 0; none if unlimited
   Hinge hinge;                                       // 0 without limits
   bool operator==(const CompactForm&) const = default;
 };
 
-// Whether alpha and specular stay what they are: both models have one lobe.
+// Returns true if alpha and specular stay unchanged, because both models have one lobe.
 bool is_copy(const CompactForm& form);
 
-// The numbers of P, Q, the pole and the hinge; limits are those of the target model. 0 for a copy.
+// Returns the count of numbers in P, Q, the pole and the hinge, and 0 for a copy. Limits are not counted,
+// because they belong to the target model.
 std::size_t number_count(const CompactForm& form);
 
-// The value of a factor. `Scalar` is double, or anything that adds and multiplies with doubles.
+// Returns the value of a factor. `Scalar` is double, or a type that adds and multiplies with doubles.
 template <typename Scalar>
 Scalar factor_value(const FactorTerms& terms, const Scalar& alpha, const Scalar& t) {
   Scalar sum = alpha * 0.0;
@@ -59,14 +60,14 @@ Scalar factor_value(const FactorTerms& terms, const Scalar& alpha, const Scalar&
   return sum;
 }
 
-// The ends between which a form is evaluated, as floats.
+// A FormEnds holds the ends between which a form is evaluated, as floats.
 struct FormEnds {
   float width_min = 0.0f, width_max = 0.0f;  // the domain, in the source's own width parameter
-  float width_from = 0.0f, width_to = 0.0f;  // to which widths are clamped: to perfectly sharp on one side
-  float alpha_min = 0.0f;                    // the sharpest source in the domain
-  float least_alpha = 0.0f;                  // of the target: exponents end somewhere
+  float width_from = 0.0f, width_to = 0.0f;  // ends for clamping; one side reaches perfectly sharp
+  float alpha_min = 0.0f;                    // of the sharpest source in the domain
+  float least_alpha = 0.0f;                  // of the target, because exponents end somewhere
 };
-// `width`: the domain.
+// Returns the ends for the domain `width`.
 FormEnds ends_of(RoughnessEncoding source, RoughnessEncoding target, const Range& width);
 
 }  // namespace remap

@@ -1,5 +1,5 @@
-// A converter of width and specular as data: the section of a fit file that texremap runs and remapc emits,
-// and the file that holds it for many.
+// This file holds converters of width and specular as data. A fit file has one in a section, which texremap
+// runs and remapc emits. Another kind of file holds many converters.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace remap {
 
-// A texel and what the fit gives for it in double precision, with the error that a converter may have. Width
-// and specular are the models' own parameters.
+// A GoldenTexel is a texel, the fit's result for it in double precision, and the permitted error of a
+// converter. Width and specular are the models' own parameters.
 struct GoldenTexel {
   float width = 0.0f, specular = 0.0f;
   float width_out = 0.0f, specular_out = 0.0f;
@@ -21,21 +21,20 @@ struct GoldenTexel {
 };
 
 struct ConverterData {
-  // Figures of the fit have two digits, rounded up; SSIM has three; pictures have one decimal. Ranges are
-  // rounded to float.
+  // The figures of the fit have two digits, rounded up. SSIM has three digits, and picture differences have
+  // one decimal. Ranges are rounded to float.
   ConverterInfo info;
   CompactForm form;
-  // How far it may be from the fit over the domain, in target alpha and target specular; 0 where the form is
-  // the fit.
+  // These bounds limit the distance from the fit over the domain, in target alpha and target specular. They
+  // are 0 if the form is the fit itself.
   double alpha_bound = 0.0, specular_bound = 0.0;
-  std::vector<GoldenTexel> golden;  // over and beyond the domain, with its edges
+  std::vector<GoldenTexel> golden;  // texels inside, on the edge of and beyond the domain
   bool operator==(const ConverterData&) const = default;
 };
 
-// A file of converters, in the order given: the same converters give the same bytes, and floats are read back
-// exactly.
+// Returns a file of converters in order. Equal converters give equal bytes, and floats read back exactly.
 std::string converters_to_json(const std::vector<ConverterData>& converters);
-// Throws kInput, opened by `context`, for anything else than such a file.
+// Reads such a file. Throws kInput, beginning with `context`, for any other text.
 std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& context);
 
 }  // namespace remap

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kFormatVersion = 2;
 
-// The shortest decimal that reads back as this float.
+// Returns the shortest decimal that reads back as this float.
 double decimal(float value) { return decimal_value(value); }
 
 Json terms_json(const FactorTerms& factor) {

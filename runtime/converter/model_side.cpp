@@ -11,7 +11,7 @@ bool is_identifier_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-// The keywords of C++20, [lex.key], which cannot name a namespace.
+// These C++20 keywords ([lex.key]) cannot name a namespace.
 constexpr std::array<std::string_view, 92> kKeywords = {
     "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
     "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
@@ -28,8 +28,8 @@ constexpr std::array<std::string_view, 92> kKeywords = {
     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
     "xor_eq"};
 
-// Namespaces that the standard keeps for itself ([namespace.future]: std and std1, posix), that of every
-// header, and macros of systems and of the headers that a header includes.
+// These names are taken: namespaces of the standard ([namespace.future]: std and std1, posix), the namespace
+// of every header, and macros of systems and of included headers.
 constexpr std::array<std::string_view, 9> kTakenNames = {"posix", "remap", "linux",    "unix", "i386",
                                                          "NULL",  "NAN",   "INFINITY", "EOF"};
 

@@ -1,4 +1,4 @@
-// Base64 (RFC 4648).
+// This file encodes and decodes Base64 (RFC 4648).
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,8 @@ std::string base64(const Bytes& bytes) {
   return text;
 }
 
-// The bytes of a text; none where a letter is no digit. Padding counts at the end of whole groups alone, and
-// may be missing.
+// Returns the bytes of a text, or nothing if the text has a character that is not a Base64 digit. Padding may
+// be missing. It is accepted only at the end of whole groups.
 template <typename Bytes>
 std::optional<Bytes> from_base64(std::string_view text) {
   if (text.size() % 4 == 0 && text.ends_with('=')) text.remove_suffix(text.ends_with("==") ? 2 : 1);

@@ -1,4 +1,4 @@
-// The kinds of errors by name, for hosts in other languages.
+// This file lists the names of error kinds, for hosts in other languages.
 #pragma once
 
 #include "remap/error.hpp"

@@ -21,7 +21,7 @@ constexpr std::string_view kUnfinished = ".unfinished-";
   throw system_error(ErrorKind::kOutput, path.string() + ": cannot be written", code);
 }
 
-// The mark in the name of an unfinished file, before its random letters; empty for another name.
+// Returns the mark in an unfinished file's name, before its random letters. Returns "" otherwise.
 std::string_view mark_in(std::string_view name) {
   const std::size_t found = name.rfind(kUnfinished);
   if (!name.starts_with('.') || found == std::string_view::npos) return {};
@@ -30,14 +30,14 @@ std::string_view mark_in(std::string_view name) {
   return mark.substr(0, mark.rfind('-'));
 }
 
-// `text` without what is beyond `size` bytes, and without the rest of a character of UTF-8.
+// Returns the first `size` bytes of `text`, and drops a UTF-8 character that this cuts.
 std::string cut(std::string text, std::size_t size) {
   if (text.size() <= size) return text;
   while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80) --size;
   return text.substr(0, size);
 }
 
-// Once a folder, since a run writes thousands of files.
+// Removes files once per folder, because a run writes thousands of files.
 void remove_abandoned_once(const fs::path& folder) {
   static std::mutex mutex;
   static std::set<fs::path> done;
@@ -69,7 +69,7 @@ void remove_unfinished(const fs::path& folder) {
 
 fs::path unfinished_name(const fs::path& path) {
   remove_abandoned_once(folder_of(path));
-  constexpr std::size_t kLongestName = 255;  // in bytes, of most file systems
+  constexpr std::size_t kLongestName = 255;  // in bytes, on most file systems
   const std::string end =
       std::string(kUnfinished) + owner_tag() + "-" + random_letters() + path.extension().string();
   const std::string stem =
@@ -89,7 +89,7 @@ void commit_file(const fs::path& unfinished, const fs::path& path, Flush flush) 
   try {
     if (flush == Flush::kYes) flush_to_disk(unfinished, path);
     replace(unfinished, path);
-    if (flush == Flush::kYes) wait_for_disk(folder_of(path));  // the file is there, whatever the answer
+    if (flush == Flush::kYes) wait_for_disk(folder_of(path));  // the file exists, whatever the answer
   } catch (const Error&) {
     std::error_code ignored;
     fs::remove(unfinished, ignored);
@@ -156,7 +156,7 @@ void NewFile::commit(Flush flush) {
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail_to_write(path_, errno);
   replace(unfinished_, path_);
   unfinished_.clear();
-  if (flush == Flush::kYes) wait_for_disk(folder_of(path_));  // the file is there, whatever the answer
+  if (flush == Flush::kYes) wait_for_disk(folder_of(path_));  // the file exists, whatever the answer
 }
 
 void write_file(const fs::path& path, std::string_view content, Flush flush) {

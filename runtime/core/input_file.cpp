@@ -13,20 +13,20 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A folder to which inputs are confined: its path as names of files begin with it, and its path after links
-// are resolved.
+// A Confinement is a folder to which inputs are confined. It holds the path as file names begin with it, and
+// the path after links are resolved.
 struct Confinement {
   fs::path name, place;
 };
 
 std::mutex confinement_mutex;
-std::shared_ptr<const std::vector<Confinement>> confinements;  // null for none
+std::shared_ptr<const std::vector<Confinement>> confinements;  // null if there are none
 
 [[noreturn]] void fail_to_read(const fs::path& path) {
   throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
 }
 
-// The words for a file that is not a regular one.
+// Returns the words for a file that is not a regular file.
 std::string kind_text(fs::file_type type) {
   if (type == fs::file_type::directory) return "is a folder, not a file";
   if (type == fs::file_type::fifo) return "is a named pipe, not a file (write its content to a file)";
@@ -35,14 +35,14 @@ std::string kind_text(fs::file_type type) {
 }
 
 fs::path without_end(const fs::path& folder) {
-  return folder.has_filename() ? folder : folder.parent_path();  // of `tree/`
+  return folder.has_filename() ? folder : folder.parent_path();  // `tree/` has no filename
 }
 
 bool lies_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-// A name that leads elsewhere once the file is open leads to another file.
+// Compares the open file with the resolved name, because the name may lead to another file by now.
 void require_confined(const fs::path& path, int descriptor) {
   std::shared_ptr<const std::vector<Confinement>> all;
   {
@@ -63,7 +63,7 @@ void require_confined(const fs::path& path, int descriptor) {
   }
 }
 
-// To open a pipe would wait for its writer, and to open a device may do something.
+// Checks before it opens, because opening a pipe waits for its writer, and opening a device may have effects.
 int opened(const fs::path& path) {
   require_regular_file(path);
   return open_to_read(path);
@@ -101,7 +101,7 @@ InputFile::InputFile(const fs::path& path, int descriptor) : path_(path), own_(-
 void InputFile::look() {
   const std::optional<FileFacts> found = descriptor_ < 0 ? std::nullopt : facts_of(descriptor_);
   if (!found) fail_to_read(path_);
-  // The name may lead elsewhere by now.
+  // Check again, because the name may lead to another file by now.
   if (found->type != fs::file_type::regular) throw input_error(path_.string() + ": is not a file");
   size_ = found->size;
 }

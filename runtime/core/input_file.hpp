@@ -1,4 +1,4 @@
-// A file that is opened once for all that is read of it.
+// This file opens a file once for everything that is read from it.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +13,27 @@
 
 namespace remap {
 
-// Throws kInput unless `path` leads to a regular file. A reader that opens a pipe waits for a writer, and a
-// device has no end, so whoever hands a path that a user named to a library calls this first.
+// Throws kInput unless `path` leads to a regular file. A program that opens a pipe waits for its writer, and
+// a device has no end. Call this before you hand a path that a user typed to a library.
 void require_regular_file(const std::filesystem::path& path);
 
-// Folders whose files others may have put there. What is opened below one of them must lie below it after
-// links are resolved, too. Of the whole process; a command sets them before it reads its inputs.
+// Sets the folders whose files others may have put there. A file below one of them must still lie below it
+// after links are resolved. The setting holds for the whole process; set it before reading inputs.
 void confine_inputs(std::vector<std::filesystem::path> folders);
 
 class InputFile {
  public:
-  // Does not wait for the writer of a pipe. Throws kInput, also for what is not a regular file, and for a
-  // file that leads out of a folder of confine_inputs() through a link.
+  // Opens the file, and does not wait for the writer of a pipe. Throws kInput if it is not a regular file, or
+  // if a link leads out of a folder of confine_inputs().
   explicit InputFile(const std::filesystem::path& path);
-  // Reads through a descriptor that stays open longer than this, and opens nothing.
+  // Reads through a descriptor that must stay open longer than this object. Opens nothing.
   InputFile(const std::filesystem::path& path, int descriptor);
 
   const std::filesystem::path& path() const noexcept { return path_; }
-  std::uintmax_t size() const noexcept { return size_; }  // when it was opened
+  std::uintmax_t size() const noexcept { return size_; }  // the size when the file was opened
   int descriptor() const noexcept { return descriptor_; }
 
-  // Reads `size` bytes from `place` on, and fewer at the end of the file alone. Callable from many threads.
-  // Throws kInput.
+  // Reads `size` bytes from `place` on, and fewer only at the end of the file. Thread-safe. Throws kInput.
   std::size_t read(std::uintmax_t place, char* bytes, std::size_t size) const;
 
  private:
@@ -57,27 +56,26 @@ void for_pieces(const InputFile& file, const Take& take) {
   }
 }
 
-// The lines of a file, one after another.
+// InputLines reads the lines of a file, one after another.
 class InputLines {
  public:
-  // The longest line that is read. Lines of this project's files are far shorter, but a sparse file may be
-  // huge.
+  // Limits a line. This project's files have far shorter lines, but a sparse file may be huge.
   static constexpr std::size_t kLongest = std::size_t{16} << 20;
-  // `file` must outlive it. Reading begins at `start`.
+  // Begins to read at `start`. `file` must outlive this object.
   explicit InputLines(const InputFile& file, std::uintmax_t start = 0) : file_(file), end_(start) {}
-  // The next line, without its line break; none at the end, nor for a last line without a line break. It
-  // stays valid until the next call. Throws kInput for a line that is too long.
+  // Returns the next line without its line break, valid until the next call. Returns nothing at the end, also
+  // for a last line without a line break. Throws kInput for a line longer than kLongest.
   std::optional<std::string_view> next();
-  std::size_t number() const noexcept { return number_; }  // of the last line, from 1
-  // The end of that line in the file.
+  std::size_t number() const noexcept { return number_; }  // number of the last line, from 1
+  // Returns the place in the file where the last line ends.
   std::uintmax_t end() const noexcept { return end_; }
-  // The text after the last line break, once next() has returned none.
+  // Returns the text after the last line break. Call it once next() has returned nothing.
   std::string_view rest() const noexcept { return std::string_view(buffer_).substr(next_); }
 
  private:
   const InputFile& file_;
-  std::string buffer_;    // read from the file
-  std::size_t next_ = 0;  // in `buffer_`: after the last line
+  std::string buffer_;    // text read from the file
+  std::size_t next_ = 0;  // place in `buffer_` after the last line
   std::uintmax_t end_;
   std::size_t number_ = 0;
 };

@@ -95,7 +95,7 @@ namespace {
 
 Library library_value(const Json& json);
 
-// The bytes of a text, or of a list's texts, of which one is not UTF-8; otherwise null.
+// Returns the bytes of a text or of a list's texts if one of them is not UTF-8. Otherwise returns null.
 Json lost_bytes(const Json& value) {
   if (const std::string* text = value.text()) return is_utf8(*text) ? Json() : Json(base64(*text));
   const Json::List* entries = value.entries();
@@ -115,7 +115,7 @@ Library library_value_of(const Json::List& entries) {
 }
 Library library_value_of(const Json::Object& fields) {
   Library object = Library::object();
-  // Appended, since operator[] would look through all fields before.
+  // Append the field, because operator[] would search all fields first.
   auto& added = object.get_ref<Library::object_t&>();
   for (const auto& [key, value] : fields) {
     added.emplace_back(key, library_value(value));

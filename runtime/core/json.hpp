@@ -1,5 +1,5 @@
-// JSON as values: what the programs print and write, and what parse_json() (json_field.hpp) reads. Only
-// json.cpp includes the library that turns values into text.
+// This file holds JSON as values, which the programs print and write and which parse_json() (json_field.hpp)
+// returns. Only json.cpp includes the library that turns values into text.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@
 
 namespace remap {
 
-// A list in braces becomes an object if every entry is a pair that begins with a text: `{{"id", id}, {"rows",
-// 3}}`. Use Json::list() to make a list of such pairs.
+// A Json is a JSON value. A list in braces becomes an object if every entry is a pair that begins with a
+// text: `{{"id", id}, {"rows", 3}}`. Use Json::list() to make a list of such pairs.
 class Json {
  public:
   using List = std::vector<Json>;
-  using Object = std::vector<std::pair<std::string, Json>>;  // in the order in which fields were added
+  using Object = std::vector<std::pair<std::string, Json>>;  // in the order of insertion
 
   Json() = default;  // null
   Json(std::nullptr_t) {}
@@ -56,35 +56,35 @@ class Json {
   static Json list(std::initializer_list<Json> entries = {});
   static Json object();
 
-  // The field of an object, which is added if it is missing; null becomes an object.
+  // Returns the field of an object, and adds it if it is missing. A null value becomes an object.
   Json& operator[](const std::string& key);
-  // Null where the object lacks the field, or this is none.
+  // Returns the field, or null if this object lacks it or if this is not an object.
   const Json* find(std::string_view key) const;
   bool contains(std::string_view key) const { return find(key) != nullptr; }
-  // Removes a field, if it is there.
+  // Removes a field if it exists.
   void erase(std::string_view key);
-  // Adds an entry to a list; null becomes a list.
+  // Adds an entry to a list. A null value becomes a list.
   void push_back(Json entry);
-  // Adds the fields of another object; a field that exists already takes the new value.
+  // Adds the fields of another object. A field that exists already gets the new value.
   void update(const Json& other);
 
-  // Null where this is of another kind.
+  // These functions return null if the value has another kind.
   const bool* boolean() const { return std::get_if<bool>(&value_); }
   const std::string* text() const { return std::get_if<std::string>(&value_); }
   const List* entries() const { return std::get_if<List>(&value_); }
   const Object* fields() const { return std::get_if<Object>(&value_); }
   List* entries() { return std::get_if<List>(&value_); }
-  // None where this is no number, or, of whole(), no whole number that a signed one of 64 bits holds.
+  // Return nothing if this is not a number (number()) or not a signed 64-bit integer (whole()).
   std::optional<double> number() const;
   std::optional<std::int64_t> whole() const;
   bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
-  // The number of entries or fields; 0 for other values.
+  // Returns the number of entries or fields, and 0 for other values.
   std::size_t size() const;
   bool empty() const { return size() == 0; }
 
-  // The text: on one line, or with `indent` spaces for each level. Text that is not UTF-8, as names
-  // of files may be, has replacement characters; beside such a field `path`, or a list with such texts,
-  // `path_base64` holds the bytes.
+  // Returns the text on one line, or with `indent` spaces for each level. A text that is not UTF-8, as a file
+  // name may be, gets replacement characters. If a field `path` has such a text, a field `path_base64` beside
+  // it holds the bytes; lists of texts are treated alike.
   std::string dump(int indent = -1) const;
 
   using Value =
@@ -95,7 +95,7 @@ class Json {
   Value value_;
 };
 
-// Whether JSON can hold a text as it is.
+// Returns true if JSON can hold a text unchanged.
 bool is_utf8(const std::string& text);
 
 }  // namespace remap

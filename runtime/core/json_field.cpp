@@ -13,7 +13,7 @@ namespace remap {
 namespace {
 
 constexpr std::size_t kExcerpt = 40;
-// The wording of errors about texts that may become comments in generated code.
+// These words describe a text that may become a comment in generated code.
 constexpr const char* kPlainText = "a text of one line without control characters";
 
 Json value_of(SpanValue span, const std::string& context);

@@ -1,4 +1,4 @@
-// Reads JSON files strictly: every value of the wrong kind is an error that names its place in the file.
+// This file reads JSON files strictly. A value of the wrong kind is an error with its place in the file.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace remap {
 
-// A megabyte of text becomes up to 20 of memory. The largest fit that ships, a warp, has 0.3.
+// Limits the text: one megabyte needs up to 20 MB of memory. The largest fit that ships, a warp, has 0.3 MB.
 inline constexpr std::size_t kLongestJson = std::size_t{64} << 20;
-// Entries of a list: more numbers than any limit of a fit allows.
+// Limits the entries of a list. No fit within its own limits needs so many numbers.
 inline constexpr std::size_t kMostEntries = 100'000;
-// Remarks, methods and comments are read by people, and become comments of headers.
+// Limits remarks, methods and comments: people read them, and they become comments of headers.
 inline constexpr std::size_t kMostLines = 1000, kLongestLine = 10'000;
-// The values of a JSON text. Throws as SpannedJson (json_spans.hpp); also kInput, beginning with `context`,
-// for a text beyond the limit above and a number that no double holds. Of fields with one key the last
-// counts.
+// Returns the values of a JSON text. If a key is repeated, the last field counts. Throws like SpannedJson
+// (json_spans.hpp). Also throws kInput, beginning with `context`, for a text beyond kLongestJson and for a
+// number that a double cannot hold.
 Json parse_json(std::string_view text, const std::string& context);
 
-// A JSON value and its place, such as `fit.json.domain.alpha`, which every error begins with.
+// A Field is a JSON value with its place, such as `fit.json.domain.alpha`. Every error begins with the place.
 class Field {
  public:
   Field(const Json& value, std::string context) : value_(value), context_(std::move(context)) {}
@@ -41,16 +41,16 @@ class Field {
     return entries;
   }
   std::vector<double> numbers(std::size_t fewest) const;
-  // A few lines for people.
+  // Reads a few lines written for people.
   std::vector<std::string> texts() const;
-  // A text that is short.
+  // Reads one short text.
   std::string line() const;
   const Json& json() const { return value_; }
   const std::string& context() const { return context_; }
   std::string text() const;
-  // A text of any characters: a name of a file, or what plain() makes fit to be shown.
+  // Reads a text of any characters: the name of a file, or text that plain() makes safe to show.
   const std::string& any_text() const;
-  // The value of the enumeration that the text names; `expected` lists the names.
+  // Reads a text that names a value of the enumeration. `expected` lists the names.
   template <typename Value, std::size_t Count>
   Value named(const NamedValues<Value, Count>& table, const std::string& expected) const {
     const auto value = value_named(table, text());
@@ -58,7 +58,7 @@ class Field {
     return *value;
   }
   double number() const;
-  // The value of a flag; false if the field is missing.
+  // Returns the value of a flag, or false if the field is missing.
   bool flag(const std::string& key) const;
   bool is_null() const { return value_.is_null(); }
   std::int64_t count() const;
@@ -69,7 +69,7 @@ class Field {
     return entries;
   }
   std::map<std::string, std::string> text_dictionary() const;
-  // Throws `place: expected EXPECTED, found VALUE`.
+  // Throws `place: expected EXPECTED, found VALUE` unless `condition` holds.
   void require(bool condition, const std::string& expected) const;
   [[noreturn]] void fail(const std::string& what) const;
 

@@ -18,7 +18,7 @@ std::uint8_t byte_at(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<std::uint8_t>(text[at]) : 0;
 }
 
-// The length of the character of several bytes at `at`; 0 where it is not UTF-8 (Unicode, table 3-7).
+// Returns the length of the multibyte character at `at`, or 0 if it is not UTF-8 (Unicode, table 3-7).
 std::size_t utf8_length(std::string_view text, std::size_t at) {
   const std::uint8_t first = byte_at(text, at), second = byte_at(text, at + 1);
   const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
@@ -30,7 +30,7 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
   return length;
 }
 
-// The four hexadecimal digits at `at`; none where there are fewer.
+// Returns the four hexadecimal digits at `at`, or nothing if there are fewer.
 std::optional<std::uint32_t> hex_at(std::string_view text, std::size_t at) {
   std::uint32_t code = 0;
   if (at + 4 > text.size()) return std::nullopt;
@@ -43,7 +43,8 @@ std::optional<std::uint32_t> hex_at(std::string_view text, std::size_t at) {
 bool is_high_surrogate(std::uint32_t code) { return code >= 0xd800 && code <= 0xdbff; }
 bool is_low_surrogate(std::uint32_t code) { return code >= 0xdc00 && code <= 0xdfff; }
 
-// The code point of the escape \uXXXX at `at`, and what follows it; none where halves of a pair stand alone.
+// An EscapedCode holds the code point of the escape \uXXXX and the place after it. It is missing if half of a
+// surrogate pair occurs without the other half.
 struct EscapedCode {
   std::uint32_t code = 0;
   std::size_t end = 0;
@@ -58,14 +59,14 @@ std::optional<EscapedCode> escaped_code(std::string_view text, std::size_t at) {
   return EscapedCode{0x10000 + ((*first - 0xd800) << 10) + (*second - 0xdc00), at + 12};
 }
 
-// The character that follows the backslash of a short escape; 0 for none.
+// Returns the character that a short escape means, or 0 if there is none.
 char short_escape(char c) {
   constexpr std::string_view kLetters = "\"\\/bfnrt", kMeant = "\"\\/\b\f\n\r\t";
   const std::size_t at = kLetters.find(c);
   return at == std::string_view::npos ? '\0' : kMeant[at];
 }
 
-// The text between the quotes of a scanned string.
+// Returns the text between the quotes of a scanned string.
 std::string unescaped(std::string_view raw) {
   std::string result;
   for (std::size_t i = 1; i + 1 < raw.size();) {
@@ -85,7 +86,7 @@ std::string unescaped(std::string_view raw) {
 
 }  // namespace
 
-// Scans a text once, value by value; a level of nesting is a call.
+// A SpanScanner scans a text once, value by value. Each level of nesting is one call.
 class SpanScanner {
  public:
   SpanScanner(SpannedJson& json, const std::string& context)
@@ -122,7 +123,7 @@ class SpanScanner {
     ++at_;
   }
 
-  // The index of the node.
+  // Returns the index of the node.
   std::size_t scan_value(std::size_t parent, TextSpan key, std::size_t depth) {
     const std::size_t index = json_.nodes_.size();
     if (index == kMostSpannedValues)
@@ -299,7 +300,7 @@ std::optional<double> SpanValue::number() const {
   return is(SpanKind::kNumber) ? parse_number(raw()) : std::nullopt;
 }
 
-// `2.0` is an integer, too, because some exporters write indices like this.
+// Accepts `2.0` as an integer, because some exporters write indices like this.
 std::optional<std::size_t> SpanValue::whole() const {
   constexpr double kMost = 9007199254740992.0;  // 2^53
   const std::optional<double> value = number();

@@ -1,6 +1,6 @@
-// JSON as places in its text: a strict scanner that keeps where each value and key stands, so that an editor
-// (text_edits.hpp) replaces some bytes and moves no others. Numbers stay text: 9007199254740993 and 1E400 are
-// not read unless somebody asks.
+// This file scans JSON strictly and keeps the place of each value and key in the text. An editor
+// (text_edits.hpp) can then replace some bytes and move no others. Numbers stay text: 9007199254740993 and
+// 1E400 are read only on request.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// Bytes [begin, end) of a text.
+// A TextSpan holds the bytes [begin, end) of a text.
 struct TextSpan {
   std::size_t begin = 0, end = 0;
   bool operator==(const TextSpan&) const = default;
@@ -22,23 +22,24 @@ enum class SpanKind : std::uint8_t { kNull, kBoolean, kNumber, kText, kList, kOb
 
 class SpanValue;
 
-// Values within values. Files of this project nest six deep; scanning, printing and destroying a value take
-// stack for each level, of which 65,000 are too many.
+// Limits how deep values nest. Scanning, printing and destroying a value takes stack for each level, and
+// 65,000 levels overflow it. Files of this project nest six deep.
 inline constexpr std::size_t kDeepestJson = 100;
-// The largest text that is scanned: a glTF file with everything embedded. A value takes 32 bytes of memory.
+// Limits the text: a glTF file may embed all its images. Each value takes 32 bytes of memory.
 inline constexpr std::size_t kLongestSpannedText = std::size_t{1} << 30,
                              kMostSpannedValues = std::size_t{1} << 23;
 
-// The values of a JSON text (RFC 8259), which may begin with a byte order mark. `text` must outlive it.
+// A SpannedJson holds the values of a JSON text (RFC 8259). The text may begin with a byte order mark, and
+// must outlive the object.
 class SpannedJson {
  public:
   // Throws kInput, beginning with `context`, for a text that is not valid JSON or not UTF-8, with line and
-  // column, for one nested deeper than kDeepestJson, and beyond the limits above.
+  // column. Also throws it for a text nested deeper than kDeepestJson, or beyond the limits above.
   SpannedJson(std::string_view text, const std::string& context);
 
   std::string_view text() const noexcept { return text_; }
   SpanValue root() const noexcept;
-  // In the order of the text; values of a list or object follow it.
+  // Values come in the order of the text. The values of a list or object follow it.
   std::size_t value_count() const noexcept { return nodes_.size(); }
   SpanValue value(std::size_t index) const noexcept;
 
@@ -48,8 +49,8 @@ class SpannedJson {
   struct Node {
     std::uint32_t begin = 0, end = 0;
     std::uint32_t key_begin = 0, key_end = 0;  // with its quotes; equal without a key
-    std::uint32_t parent = 0, next = 0;        // next: of the same parent, 0 for none
-    std::uint32_t count = 0;                   // of entries or members, which start at the next node
+    std::uint32_t parent = 0, next = 0;        // next of the same parent; 0 means none
+    std::uint32_t count = 0;                   // number of entries or members, which follow this node
     SpanKind kind = SpanKind::kNull;
   };
 
@@ -57,7 +58,8 @@ class SpannedJson {
   std::vector<Node> nodes_;
 };
 
-// A value of a SpannedJson, which must outlive it; or none, which has neither members nor a number.
+// A SpanValue is a value of a SpannedJson, which must outlive it. It may be empty; then it has neither
+// members nor a number.
 class SpanValue {
  public:
   SpanValue() = default;
@@ -65,31 +67,31 @@ class SpanValue {
 
   explicit operator bool() const noexcept { return json_ != nullptr; }
   bool operator==(const SpanValue&) const = default;
-  std::size_t index() const noexcept { return index_; }  // of SpannedJson::value()
+  std::size_t index() const noexcept { return index_; }  // index for SpannedJson::value()
   SpanKind kind() const noexcept { return json_ != nullptr ? node().kind : SpanKind::kNull; }
   bool is(SpanKind kind) const noexcept { return json_ != nullptr && node().kind == kind; }
   TextSpan span() const noexcept { return {node().begin, node().end}; }
-  // The key of the member, with its quotes; empty if this is not a member.
+  // Returns the key of the member with its quotes, or an empty span if this is not a member.
   TextSpan key_span() const noexcept { return {node().key_begin, node().key_end}; }
   std::string key() const;
   bool has_key(std::string_view key) const;
   SpanValue parent() const noexcept;
-  // The bytes as they stand.
+  // Returns the bytes of the value unchanged.
   std::string_view raw() const noexcept;
-  // The text without escapes; none for other values.
+  // Returns the text without escapes, or nothing if this is not a text.
   std::optional<std::string> text() const;
-  // The number, if a double can hold it; none for other values.
+  // Returns the number if a double can hold it, and nothing for other values.
   std::optional<double> number() const;
-  // The whole number from 0, as glTF counts; none for other values.
+  // Returns a non-negative integer, as glTF uses them for indices. Returns nothing for other values.
   std::optional<std::size_t> whole() const;
   std::size_t size() const noexcept { return json_ != nullptr ? node().count : 0; }
-  // Entries of a list or members of an object, repeated keys among them.
+  // Returns the entries of a list or the members of an object, including repeated keys.
   std::vector<SpanValue> children() const;
-  // Entries of a list; none of other values.
+  // Returns the entries of a list, and nothing for other values.
   std::vector<SpanValue> entries() const {
     return is(SpanKind::kList) ? children() : std::vector<SpanValue>();
   }
-  // The member of an object; of several with one key the last, as JSON libraries read it.
+  // Returns the member of an object. If a key is repeated, the last member counts, as in JSON libraries.
   SpanValue find(std::string_view key) const;
   SpanValue operator[](std::string_view key) const { return find(key); }
 
@@ -99,10 +101,10 @@ class SpanValue {
   std::size_t index_ = 0;
 };
 
-// The bytes of a code point in UTF-8.
+// Returns a code point as UTF-8.
 std::string utf8_of(std::uint32_t code);
 
-// `text` in quotes.
+// Returns `text` as a JSON text in quotes.
 std::string quoted_json(std::string_view text);
 
 }  // namespace remap

@@ -6,7 +6,7 @@
 namespace remap {
 namespace {
 
-// Nobody mistypes more letters than this.
+// Longer names are cut, because nobody mistypes more letters than this.
 constexpr std::size_t kLettersCompared = 200;
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -28,12 +28,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return distance[a.size()][b.size()];
 }
 
-// Nobody mistypes more than a third of the letters.
+// Returns true if at most a third of the letters are wrong. Nobody mistypes more.
 bool is_near(std::size_t distance, std::string_view name, std::string_view candidate) {
   return 3 * distance <= std::max(name.size(), candidate.size());
 }
 
-// Whether `name` is the first half of the candidate, or more: --out of --output.
+// Returns true if `name` is at least the first half of the candidate, such as --out of --output.
 bool is_beginning(std::string_view name, std::string_view candidate) {
   return name.size() >= 3 && candidate.starts_with(name) && 2 * name.size() >= candidate.size();
 }
@@ -61,7 +61,7 @@ std::string closest_name(std::string_view name, std::span<const std::string> can
   return *std::min_element(candidates.begin(), candidates.end(), nearer);
 }
 
-// A candidate that is a part of the name is as near as one with so many wrong letters.
+// If one name contains the other, treat them as this many typing errors apart.
 constexpr std::size_t kPartDistance = 3;
 
 std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates,
@@ -69,7 +69,7 @@ std::vector<std::string> nearest_names(std::string_view name, std::vector<std::s
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(name, candidate);
-    const bool is_whole = candidate.find(name) != std::string::npos;  // ggx of mitsuba/ggx
+    const bool is_whole = candidate.find(name) != std::string::npos;  // such as ggx in mitsuba/ggx
     const bool is_part = name.find(candidate) != std::string::npos;
     if (is_whole || is_part || is_near(distance, name, candidate))
       ranked.emplace_back(is_whole  ? 0

@@ -1,4 +1,4 @@
-// Suggestions for mistyped names, such as models, converter ids and options.
+// This file suggests corrections for mistyped names, such as models, converter ids and options.
 #pragma once
 
 #include <span>
@@ -14,19 +14,20 @@ namespace remap {
 // candidate.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
-// The candidate with the smallest such distance, however large; the first of equals. `candidates` must not be
-// empty.
+// Returns the candidate with the smallest such distance, however large, and the first of equal ones.
+// `candidates` must not be empty.
 std::string closest_name(std::string_view name, std::span<const std::string> candidates);
 
-// Up to `count` near candidates: those that hold `name` or are held in it, then the others by that distance.
+// Returns up to `count` close candidates. Candidates that contain `name` or that `name` contains come first;
+// the others follow by that distance.
 std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates,
                                        std::size_t count);
 
-// `names` in a line, with `between` between two.
+// Returns `names` in one line, with `between` between two names.
 std::string joined(std::span<const std::string> names, std::string_view between);
 
-// The end of a message: ` (did you mean X?)` for a near name, else ` (choose A, B, C)`; empty without
-// candidates.
+// Returns the end of a message: ` (did you mean X?)` if a name is close, otherwise ` (choose A, B, C)`.
+// Returns an empty text without candidates.
 std::string suggestion(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace remap

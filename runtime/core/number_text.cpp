@@ -16,7 +16,7 @@ namespace {
 
 #if defined(__cpp_lib_to_chars)
 
-// The shortest decimal number that is read back as `value`.
+// Returns the shortest decimal number that reads back as `value`.
 template <typename Float>
 std::string shortest(Float value) {
   std::array<char, 64> buffer;
@@ -30,13 +30,13 @@ std::string scientific(double value, int digits) {
                              .ptr};
 }
 
-// The number at the start of `text`, and the length of its text; 0 if there is none.
+// Reads the number at the start of `text`. Returns the length of its text, or 0 if there is no number.
 std::size_t read(std::string_view text, double* value) {
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), *value);
   return failure == std::errc() ? static_cast<std::size_t>(end - text.data()) : 0;
 }
 
-#else  // libc++ before 20: by the C library, in the locale "C", which none of the programs changes
+#else  // libc++ before 20 uses the C library, in the locale "C", which no program changes
 
 std::string printed(const char* format, int digits, double value) {
   std::array<char, 400> buffer;
@@ -44,7 +44,8 @@ std::string printed(const char* format, int digits, double value) {
   return buffer.data();
 }
 
-// As to_chars: of the texts with the fewest digits the shortest, with an exponent only where that is shorter.
+// Does what to_chars does. It chooses the fewest digits, then the shortest text, with an exponent only if
+// that is shorter.
 template <typename Float>
 std::string shortest(Float value) {
   const double number = static_cast<double>(value);
@@ -63,7 +64,7 @@ std::string shortest(Float value) {
 std::string scientific(double value, int digits) { return printed("%.*e", digits - 1, value); }
 
 std::size_t read(std::string_view text, double* value) {
-  // strtod takes what from_chars does not: spaces and a sign before the number, and hexadecimal numbers.
+  // strtod accepts three things that from_chars refuses: leading spaces, a plus sign and hexadecimal numbers.
   if (text.find_first_of(" \t\n\v\f\r+") == 0 || text.find_first_of("xX") != std::string_view::npos) return 0;
   const std::string ended(text);
   char* end = nullptr;
@@ -91,7 +92,7 @@ double rounded_up(double value, int digits) {
 
 double rounded(double value, int digits) { return parse_number(scientific(value, digits)).value_or(value); }
 
-// The float lies in memory: gcc 12 at -O3 drops the rounding of two neighbours that it converts as a vector.
+// Keeps the float in memory, because gcc 12 at -O3 does not round two neighbours in a vector.
 double rounded_to_float(double value) {
   const volatile float rounded = static_cast<float>(value);
   return static_cast<double>(rounded);

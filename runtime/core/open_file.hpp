@@ -1,4 +1,4 @@
-// A descriptor of a file that closes itself.
+// This file holds a file descriptor that closes itself.
 #pragma once
 
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// Marks what a process leaves on disk while it works, so that another one can tell what nobody needs any
-// more.
+// This file marks the files that a process leaves on disk while it works. Another process can then see which
+// of them nobody needs any more.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace remap {
 
-// `TAG-PID` of this process. The tag is eight hexadecimal digits that stand for the machine since it was
-// started and its space of process numbers, which differs from one container to the next.
+// Returns `TAG-PID` of this process. The tag is eight hexadecimal digits. They identify the machine since its
+// start, and its PID namespace, which differs between containers.
 std::string owner_tag();
 
-// Letters of the system's random numbers, for names that nobody can know before they are there.
+// Returns random letters from the system, for file names that nobody can guess in advance.
 std::string random_letters();
 
 // Returns whether `mark` names a process of this machine and namespace that has ended. Returns false for

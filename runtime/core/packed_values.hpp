@@ -1,4 +1,4 @@
-// Values as bytes, for another process of the same program: numbers as they lie in memory.
+// This file packs values as bytes for another process of the same program. Numbers are as in memory.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,13 @@
 
 namespace remap {
 
-// A struct takes part by a function `template <typename Archive> void fields(Archive& archive, Struct&
-// value)` that hands all of its members to the archive: `archive(value.name, value.size)`.
+// PackedValues writes and reads values. A struct joins in through a function `template <typename Archive>
+// void fields(Archive& archive, Struct& value)`. It hands all its members to the archive:
+// `archive(value.name)`.
 class PackedValues {
  public:
-  PackedValues() = default;                                                               // to write
-  explicit PackedValues(std::string bytes) : bytes_(std::move(bytes)), is_read_(true) {}  // to read
+  PackedValues() = default;                                                               // for writing
+  explicit PackedValues(std::string bytes) : bytes_(std::move(bytes)), is_read_(true) {}  // for reading
 
   template <typename... Values>
   void operator()(Values&... values) {
@@ -31,7 +32,7 @@ class PackedValues {
   void raw(void* value, std::size_t size) {
     if (!is_read_) return void(bytes_.append(static_cast<const char*>(value), size));
     if (bytes_.size() - place_ < size)
-      size = bytes_.size() - place_;  // of a process that ended amid its answer
+      size = bytes_.size() - place_;  // the process ended before its answer was complete
     std::memcpy(value, bytes_.data() + place_, size);
     place_ += size;
   }

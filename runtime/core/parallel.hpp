@@ -1,4 +1,4 @@
-// Runs work on several threads.
+// This file runs work on several threads.
 #pragma once
 
 #include <cstddef>

@@ -10,14 +10,14 @@
 namespace remap {
 namespace {
 
-// A character of UTF-8, or a byte that is part of none.
+// A Character is a character of UTF-8, or a byte that belongs to no character.
 struct Character {
   std::size_t bytes = 1;
   bool is_valid = false;
   std::uint32_t code = 0;
 };
 
-// The least codes of characters of one to four bytes: a longer form of a code is no UTF-8.
+// These are the least codes of characters of one to four bytes. A longer form of a code is not valid UTF-8.
 constexpr std::array<std::uint32_t, 4> kLeastCodes = {0, 0x80, 0x800, 0x10000};
 
 std::size_t byte_count(unsigned char first) {
@@ -43,8 +43,8 @@ Character first_character(std::string_view text) {
 
 bool is_plain(const Character& character) {
   using Codes = std::pair<std::uint32_t, std::uint32_t>;
-  // Control characters; marks of direction (Unicode, Bidi_Control); breaks of lines and paragraphs; the mark
-  // of byte order.
+  // These are control characters, marks of direction (Unicode, Bidi_Control), breaks of lines and paragraphs,
+  // and the byte order mark.
   constexpr std::array<Codes, 7> kRefused = {Codes{0x00, 0x1f}, {0x7f, 0x9f},     {0x061c, 0x061c},
                                              {0x200e, 0x200f},  {0x2028, 0x202e}, {0x2066, 0x2069},
                                              {0xfeff, 0xfeff}};

@@ -1,4 +1,4 @@
-// Text from files and other programs, made fit for terminals, comments of generated code and messages.
+// This file makes text from files and other programs safe for terminals, generated comments and messages.
 #pragma once
 
 #include <cstddef>
@@ -8,32 +8,32 @@
 
 namespace remap {
 
-// The most bytes of a message of this project that tell of another's text: a screen of it.
+// Limits the text of others in a message of this project to about one screen.
 inline constexpr std::size_t kLongestMessage = 2000;
 
-// Whether `text` is UTF-8 that reads everywhere as it is written: no control characters, no line breaks of
-// Unicode, and no marks that turn the direction of what follows (U+202E and the like), which can make a
-// comment look like code and code like a comment.
+// Returns true if `text` is UTF-8 that reads everywhere as it is written. It has no control characters and no
+// line breaks of Unicode. It has no marks that change the direction of text (U+202E and the like), which can
+// make a comment look like code.
 bool is_plain_text(std::string_view text);
 
-// `text` with every byte and character that is_plain_text() refuses written as an escape (`\x1b`, `\u202e`),
-// cut to at most `longest` bytes, the last three of which are `...` where something is missing.
+// Returns `text` with an escape (`\x1b`, `\u202e`) for every byte and character that is_plain_text() refuses.
+// A text longer than `longest` bytes is cut and ends in `...`.
 std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
 
-// `text` with small letters in place of capital ones, in every script; bytes that are no UTF-8 stay.
+// Returns `text` in lower case, in every script. Bytes that are not UTF-8 stay unchanged.
 std::string without_case(std::string_view text);
 
 // Replaces every character that is_plain_text() refuses by `_`, because names of new files are made of texts
 // that others wrote. Keeps bytes that are not UTF-8, because file names may be in other encodings.
 std::string plain_file_name(std::string_view text);
 
-// The parts of `text` between separators; one more than there are separators, so parts may be empty.
+// Returns the parts of `text` between separators. Parts may be empty, so there is one more than separators.
 std::vector<std::string> parts_between(std::string_view text, char separator);
 
-// `%2F`, as URIs write a byte.
+// Returns a byte as URIs write it: `%2F`.
 std::string percent_code(char byte);
 
-// `text` as one word of the shell, in quotes where it needs them.
+// Returns `text` as one word of the shell, in quotes if it needs them.
 std::string shell_word(const std::string& text);
 
 }  // namespace remap

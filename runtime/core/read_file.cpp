@@ -23,7 +23,7 @@ namespace {
                   (megabytes ? " MB" : " bytes") + ", the most that is read of such a file");
 }
 
-// Whether the shell of the caller has opened what this name leads to.
+// Returns true if the caller's shell has opened the file that this name leads to.
 bool is_handed_down(const fs::path& path) {
   const std::string name = path.lexically_normal().string();
   return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
@@ -59,7 +59,7 @@ std::string read_file(const fs::path& path, std::uintmax_t largest) {
   const InputFile file(path);
   require_room(path, file.size(), largest);
   std::string content;
-  for_pieces(file, [&](std::string_view piece) {  // which may be more than its size
+  for_pieces(file, [&](std::string_view piece) {  // a file may have more bytes than its size
     content += piece;
     require_room(path, content.size(), largest);
   });

@@ -1,4 +1,4 @@
-// Reads files whole.
+// This file reads whole files.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace remap {
 
-// The most bytes that read_file() reads unless it is told otherwise: 100 times the largest file of text that
-// this project writes, and little enough for any machine that it runs on.
+// Limits the bytes that read_file() reads by default. This is 100 times the largest text file of this
+// project, and fits into the memory of any machine that runs it.
 inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
 
-// The whole file as bytes. Apart from regular files it reads only pipes that the caller's shell has opened
-// (/dev/stdin, /dev/fd/N, /proc/self/fd/N), which end when their writer does. Throws kInput with the reason
-// of the system if it cannot be read, and for more than `largest` bytes.
+// Returns the whole file as bytes. Besides regular files it reads only pipes that the caller's shell has
+// opened (/dev/stdin, /dev/fd/N, /proc/self/fd/N), because such pipes end with their writer. Throws kInput
+// with the system's reason if the file cannot be read, and for more than `largest` bytes.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = kLargestFile);
 
 }  // namespace remap

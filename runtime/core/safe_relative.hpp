@@ -1,4 +1,4 @@
-// Checks paths that stand in manifests and journals, because others may have written these files.
+// This file checks paths from manifests and journals, because others may have written these files.
 #pragma once
 
 #include <filesystem>
@@ -6,17 +6,18 @@
 
 namespace remap {
 
-// Why `text` is no path below a folder: it is absolute, leads up by `..`, or has control characters or line
-// breaks. Empty for a path that may be used.
+// Returns why `text` is not a path below a folder: it is absolute, leads up by `..`, or has control
+// characters or line breaks. Returns an empty text for a safe path.
 std::string fault_of_relative(const std::string& text);
 
-// The path below a folder that `text` means; empty for the folder itself. Throws kInput, beginning with
-// `context`.
+// Returns the path below a folder that `text` means, which is empty for the folder itself. Throws kInput,
+// beginning with `context`.
 std::filesystem::path safe_relative(const std::string& text, const std::string& context);
-// The same of a single name, which may be empty.
+// Checks a single name in the same way. The name may be empty.
 std::filesystem::path safe_name(const std::string& text, const std::string& context);
 
-// The name of a file of this program in an output folder (`.texremap*`), which nothing else may have.
+// Returns true for the name of a file of this program in an output folder (`.texremap*`). Other files must
+// not use such names.
 bool is_own_name(const std::filesystem::path& name);
 
 }  // namespace remap

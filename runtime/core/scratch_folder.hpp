@@ -1,4 +1,4 @@
-// A folder for files that nobody needs after the work.
+// This file makes a temporary folder and removes it after the work.
 #pragma once
 
 #include <cerrno>
@@ -11,8 +11,8 @@
 
 namespace remap {
 
-// Made in the system's folder for such files, as `PREFIX-XXXXXX`; removed with all that is in it. The
-// constructor throws kOutput where it cannot be made.
+// A ScratchFolder is a folder `PREFIX-XXXXXX` in the system's temporary folder. Its destructor removes it
+// with all its files. The constructor throws kOutput if it cannot make the folder.
 class ScratchFolder {
  public:
   explicit ScratchFolder(const std::string& prefix) {

@@ -1,4 +1,4 @@
-// The time since something began.
+// A Stopwatch measures the time since it was made.
 #pragma once
 
 #include <chrono>

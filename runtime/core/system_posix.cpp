@@ -35,14 +35,14 @@ FileFacts facts_of(const struct stat& found) {
 void watch(int signal, unsigned flags, void (*note)(int)) {
   struct sigaction action {};
   sigaction(signal, nullptr, &action);
-  if (action.sa_handler == SIG_IGN) return;  // the program was started to ignore it (nohup)
+  if (action.sa_handler == SIG_IGN) return;  // nohup started the program so that it ignores the signal
   action = {};
   action.sa_handler = note;
   action.sa_flags = static_cast<int>(flags | SA_RESTART);
   sigaction(signal, &action, nullptr);
 }
 
-// The user that new files of a folder belong to: not this one on some network storage.
+// Returns the user that owns new files of a folder. On some network storage this is not the current user.
 uid_t owner_of_new_files(int folder) {
   const std::string name = ".unfinished-owner-" + random_letters();
   const OpenFile file(
@@ -61,7 +61,7 @@ bool is_own(int file, int folder) {
 
 }  // namespace
 
-// That of the C library knows other letters than those of ASCII by a locale.
+// Uses the locale C.UTF-8, because without a locale the C library knows only ASCII letters.
 char32_t small_letter(char32_t letter) {
   static const ::locale_t unicode = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
   const auto wide = static_cast<std::wint_t>(letter);
@@ -131,7 +131,7 @@ bool append_to_file(int descriptor, std::string_view text) {
 
 bool wait_for_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS; }
 
-// A path that cannot be opened was made read-only, so there is nothing to wait for.
+// Returns true for a path that cannot be opened: it was made read-only, so there is nothing to wait for.
 bool wait_for_disk(const fs::path& path) {
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   return !file.is_open() || wait_for_disk(file.get());
@@ -145,7 +145,7 @@ FolderLock::FolderLock(const fs::path& folder)
   auto left = std::chrono::milliseconds(std::chrono::minutes(1));
   while (handle_ >= 0 && ::flock(static_cast<int>(handle_), LOCK_EX | LOCK_NB) != 0) {
     if (errno == EINTR) continue;
-    if (errno != EWOULDBLOCK) return;  // a file system without locks
+    if (errno != EWOULDBLOCK) return;  // the file system has no locks
     if (left <= left.zero()) {
       is_held_ = false;
       return;
@@ -170,8 +170,8 @@ void fail_at_limit_of_file_size() { std::signal(SIGXFSZ, SIG_IGN); }
 
 void watch_signals(void (*note)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) watch(signal, SA_RESETHAND, note);
-  // Nobody reads the output any more. Every further write fails with the same signal, which must not end the
-  // process before it has cleaned up.
+  // Nobody reads the output any more. Every further write raises SIGPIPE, which must not end the process
+  // before it has cleaned up.
   watch(SIGPIPE, 0, note);
 }
 

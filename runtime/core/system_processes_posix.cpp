@@ -56,11 +56,11 @@ std::optional<ProcessCopy> copy_process(const std::function<void(int)>& serve) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() == parent) serve(ends[1]);
   std::fflush(nullptr);
-  ::_exit(0);  // objects of the program and of its libraries belong to the other process
+  ::_exit(0);  // _exit, since objects of the program and its libraries belong to the other process
 }
 
 std::string end_of(const ProcessCopy& copy) {
-  ::shutdown(copy.descriptor, SHUT_RDWR);  // later copies have this end of the stream, too
+  ::shutdown(copy.descriptor, SHUT_RDWR);  // shut down, because later copies have this end of the stream, too
   ::close(copy.descriptor);
   int status = 0;
   while (::waitpid(copy.process, &status, 0) < 0 && errno == EINTR) {

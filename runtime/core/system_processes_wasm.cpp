@@ -1,5 +1,5 @@
-// WebAssembly has no processes. The host says in what process of which machine it is, and how much that has
-// used (packages/npm/cli.js); a page has none.
+// WebAssembly has no processes. The host reports the process, the machine and the use of resources
+// (packages/npm/cli.js). A web page reports nothing.
 #include <array>
 #include <cstdlib>
 #include <emscripten.h>
@@ -29,19 +29,19 @@ std::string machine_name() {
   return text;
 }
 
-// That of a page ends at 4 GB, whatever the machine has.
+// Returns 4 GB, because the memory of a page ends there, whatever the machine has.
 std::uint64_t memory_size() { return std::uint64_t{4} << 30; }
 
 std::filesystem::path program_file() { return {}; }
 
-// No copies are made here.
+// WebAssembly makes no copies of processes.
 std::optional<ProcessCopy> copy_process(const std::function<void(int)>&) { return std::nullopt; }
 std::string end_of(const ProcessCopy&) { return ""; }
 void interrupt(const ProcessCopy&) {}
 bool send_all(int, const std::string&) { return false; }
 std::vector<bool> wait_to_read(const std::vector<int>&) { return {}; }
 
-// Seconds and bytes.
+// The units are seconds and bytes.
 ResourceUse resource_use() noexcept {
   std::array<double, 2> use{};
   remap_host_use(use.data());

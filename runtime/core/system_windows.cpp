@@ -9,7 +9,7 @@
 #define WIN32_LEAN_AND_MEAN
 #define PSAPI_VERSION 2
 #include <windows.h>
-#include <psapi.h>  // after that
+#include <psapi.h>  // must follow windows.h
 // clang-format on
 
 #include "core/open_file.hpp"
@@ -19,12 +19,12 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// Sets errno by the error of a call of Windows.
+// Sets errno from the error of a Windows call.
 void note_failure() {
   errno = errno_of(std::error_code(static_cast<int>(::GetLastError()), std::system_category()));
 }
 
-// A handle that closes itself.
+// A Handle closes itself.
 class Handle {
  public:
   explicit Handle(HANDLE handle) : handle_(handle) {}
@@ -64,7 +64,7 @@ int open_by(const fs::path& path, int flags) {
   return ::_wopen(path.c_str(), flags | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
 }
 
-// Nothing here reads or writes more at once.
+// Limits a size, because no call here reads or writes more at once.
 unsigned int limited(std::size_t size) {
   return static_cast<unsigned int>(std::min(size, std::size_t{1} << 30));
 }
@@ -77,7 +77,7 @@ double seconds_of(const FILETIME& time) {
 
 char32_t small_letter(char32_t letter) {
   if (letter == 0 || letter > 0xffff) return letter;
-  // A pointer below 0x10000 stands for one character.
+  // A pointer below 0x10000 means one character.
   return static_cast<char32_t>(reinterpret_cast<std::uintptr_t>(
       ::CharLowerW(reinterpret_cast<LPWSTR>(static_cast<std::uintptr_t>(letter)))));
 }
@@ -85,7 +85,7 @@ char32_t small_letter(char32_t letter) {
 std::optional<FileFacts> facts_of(const fs::path& path) {
   constexpr DWORD kShare = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
   const Handle file(::CreateFileW(path.c_str(), 0, kShare, nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS,
-                                  nullptr));  // which opens folders, too
+                                  nullptr));  // this flag opens folders, too
   if (file.is_open()) return facts_of(file.get());
   note_failure();
   return std::nullopt;
@@ -119,7 +119,8 @@ std::FILE* create_file(const fs::path& path) {
 
 int descriptor_of(std::FILE* stream) { return ::_fileno(stream); }
 
-// Only administrators make links here, and access to a folder says whose files it holds.
+// Makes no further checks: only administrators make links on Windows, and the rights of a folder decide who
+// owns its files.
 int open_own_file(const fs::path& folder, const fs::path& below, OwnFile use) {
   return open_by(folder / below, use == OwnFile::kRead ? _O_RDONLY : _O_WRONLY | _O_CREAT | _O_APPEND);
 }
@@ -131,7 +132,7 @@ bool append_to_file(int descriptor, std::string_view text) {
 
 bool wait_for_disk(int descriptor) { return ::_commit(descriptor) == 0; }
 
-// Folders need not wait, and cannot be opened; nor can what is read-only.
+// Does not wait for folders and read-only files, because they cannot be opened.
 bool wait_for_disk(const fs::path& path) {
   const OpenFile file(open_by(path, _O_RDWR));
   return !file.is_open() || wait_for_disk(file.get());
@@ -150,7 +151,7 @@ bool create_scratch_folder(std::string& name) {
   return false;
 }
 
-// A lock by the name that the folder has for all processes.
+// Locks by the name that the folder has for all processes.
 FolderLock::FolderLock(const fs::path& folder) {
   std::error_code ignored;
   const std::size_t hash = std::hash<std::wstring>()(fs::weakly_canonical(folder, ignored).wstring());
@@ -196,12 +197,12 @@ void raise_limit_of_open_files() { ::_setmaxstdio(2048); }
 
 void fail_at_limit_of_file_size() {}
 
-// Windows itself gives the second one back to the system.
+// Windows itself handles the second signal.
 void watch_signals(void (*note)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGBREAK}) std::signal(signal, note);
 }
 
-// No copies are made here.
+// Windows makes no copies of processes.
 std::optional<ProcessCopy> copy_process(const std::function<void(int)>&) { return std::nullopt; }
 std::string end_of(const ProcessCopy&) { return ""; }
 void interrupt(const ProcessCopy&) {}

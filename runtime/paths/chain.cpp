@@ -20,7 +20,7 @@ void require_joined(const std::vector<const Converter*>& steps) {
   }
 }
 
-// Unknown as soon as one is.
+// Adds an error. The sum is unknown if any error is unknown.
 void add(const std::optional<double>& error, std::optional<double>* sum) {
   if (*sum && error)
     **sum += *error;

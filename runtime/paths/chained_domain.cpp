@@ -1,4 +1,4 @@
-// Finds the part of a first step's domain that stays inside the domains of the later steps.
+// This file finds the part of a first step's domain that stays inside the domains of the later steps.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr std::size_t kSpeculars = 9;
 
 float float_of(double value) { return static_cast<float>(value); }
 
-// `count` values from one end to the other, both included.
+// Returns `count` values from one end to the other, including both ends.
 std::vector<float> spread(const Range& range, std::size_t count) {
   std::vector<float> values(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -33,7 +33,8 @@ bool all_within(const std::vector<float>& values, const Range& range) {
 
 enum class Look { kRoughness, kBoth };
 
-// Whether the images of grey texels, one for each width and specular, lie in the later steps' domains.
+// Returns true if the images of grey texels lie in the later steps' domains. There is a texel for each pair
+// of width and specular.
 bool images_fit(Steps steps, std::vector<float> width, std::vector<float> specular, Look look) {
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
     const std::array<const float*, 1> in = {specular.data()};
@@ -46,7 +47,7 @@ bool images_fit(Steps steps, std::vector<float> width, std::vector<float> specul
   return true;
 }
 
-// The value furthest from `good` towards `bad` for which `holds`, which it does at `good`.
+// Returns the value furthest from `good` towards `bad` for which `holds` is true. It must be true at `good`.
 template <typename Predicate>
 float furthest(float good, float bad, const Predicate& holds) {
   if (holds(bad)) return bad;
@@ -57,7 +58,7 @@ float furthest(float good, float bad, const Predicate& holds) {
   }
 }
 
-// `value` to 4 significant digits, downwards or upwards; `end` where the value is that end of the range.
+// Rounds `value` to 4 significant digits, downwards or upwards. Returns `end` if the value is that end.
 double shortened(float value, double end, bool upwards) {
   if (value == float_of(end) || value == 0.0f) return end;
   const double exact = static_cast<double>(value);

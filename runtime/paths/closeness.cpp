@@ -7,7 +7,7 @@
 namespace remap {
 namespace {
 
-// The part of the source's alpha and specular plane that all steps cover.
+// Returns the area of the source's alpha and specular plane that all steps cover.
 double covered_area(const ConverterPath& path) {
   const SourceDomain domain = chained_domain(path.steps);
   const RoughnessEncoding convention = path.steps.front()->info().source.roughness;

@@ -9,13 +9,13 @@
 namespace remap {
 namespace {
 
-// One end of the conversion, before both ends are known.
+// A NamedEnd is one end of the conversion, before both ends are known.
 struct NamedEnd {
   std::string name;
-  const WorkflowModel* model = nullptr;  // null where `name` is a BRDF model
-  std::optional<WorkflowKind> kind;      // as the request says
+  const WorkflowModel* model = nullptr;  // null if `name` is a BRDF model
+  std::optional<WorkflowKind> kind;      // from the request
 
-  // Has the roughness parameter of a BRDF model; an unknown one is refused later, by the search for a path.
+  // The graph gives the roughness parameter of a BRDF model. The search for a path refuses unknown models.
   const ConverterGraph* graph = nullptr;
 
   bool has_workflow() const { return model != nullptr || kind; }
@@ -28,7 +28,7 @@ struct NamedEnd {
 
 constexpr std::size_t kNamesShown = 5;
 
-// Refuses a name that is neither a model, a renderer nor a workflow, with the nearest of all names.
+// Refuses a name that is not a model, a renderer or a workflow, and suggests the closest of all names.
 void require_known(const std::string& word, const std::string& name, const ConverterGraph& graph,
                    const std::string& all_names) {
   if (graph.has_model(name) || !graph.models_of(name).empty() || find_workflow_model(name) != nullptr) return;
@@ -52,8 +52,8 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
   return end;
 }
 
-// The model that the target names: of a renderer the closest one to the source. A workflow around the
-// source's own model of that renderer needs no other model.
+// Returns the model that the target names. For a renderer this is the model closest to the source. A workflow
+// around the source's own model of that renderer needs no other model.
 std::string target_named(const ConversionRequest& request, const NamedEnd& from) {
   const std::string& to = request.target.name;
   const bool is_model = to.find('/') != std::string::npos || find_workflow_model(to) != nullptr;
@@ -67,7 +67,7 @@ std::string target_named(const ConversionRequest& request, const NamedEnd& from)
                       " already (choose another model)");
   }
   const std::vector<ConverterPath> paths = graph.paths_to_renderer({source, to, request.via});
-  if (paths.empty()) return graph.models_of(to).front();  // refused by the search for a path
+  if (paths.empty()) return graph.models_of(to).front();  // the search for a path refuses it
   return target_model(closest_path(paths));
 }
 
@@ -79,9 +79,9 @@ void set_f0(std::optional<WorkflowEnd>& end, double f0) {
   if (auto* metallic = end ? std::get_if<MetallicWorkflow>(&*end) : nullptr) metallic->dielectric_f0 = f0;
 }
 
-// Sets the diffuse convention of each end whose model leaves it open: that of the other end, so that there
-// and back changes nothing, or the one that was asked for. Where both models say it, the source's is
-// overridden by that.
+// Sets the diffuse convention of each end whose model leaves it open. A requested convention comes first.
+// Otherwise the end gets the convention of the other end, so that a round trip changes nothing. If both
+// models are fixed, a request overrides the source's convention.
 void choose_diffuse(const ConversionRequest& request, const WorkflowModel& source,
                     const WorkflowModel& target, ConversionChoice& choice) {
   std::vector<WorkflowEnd*> open;

@@ -1,4 +1,4 @@
-// Programs and file formats by the names that people know.
+// This file lists programs and file formats by the names that people know.
 #pragma once
 
 #include <span>
@@ -9,14 +9,14 @@
 namespace remap {
 
 struct KnownName {
-  std::string_view title;  // `Unreal Engine`
-  std::string_view word;   // of `--from` and `--to`: `unreal`
+  std::string_view title;  // such as `Unreal Engine`
+  std::string_view word;   // for `--from` and `--to`, such as `unreal`
 };
 
-// Engines, modellers, renderers and libraries of textures. Their words are aliases or models.
+// Returns engines, modellers, renderers and texture libraries. Their words are aliases or models.
 std::span<const KnownName> known_programs();
 std::span<const KnownName> known_formats();
-// A list of objects {"title", "name", "model"}.
+// Returns a list of objects {"title", "name", "model"}.
 Json names_json(std::span<const KnownName> names);
 
 }  // namespace remap

@@ -18,7 +18,7 @@ double middle_alpha(const ConverterInfo& info) {
   return 0.5 * (to_alpha(convention, info.roughness.min) + to_alpha(convention, info.roughness.max));
 }
 
-// Sorted, each name once.
+// Returns the names sorted, each name once.
 std::vector<std::string> unique_names(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -112,7 +112,7 @@ void ConverterGraph::hold_against_measured() {
   }
 }
 
-// `model` is one of the graph's.
+// Returns the node of `model`, which must be in the graph.
 std::size_t ConverterGraph::node(const std::string& model) const {
   return static_cast<std::size_t>(std::lower_bound(models_.begin(), models_.end(), model) - models_.begin());
 }
@@ -174,7 +174,7 @@ std::vector<ConverterPath> ConverterGraph::paths_to_renderer(const PathRequest& 
   return paths;
 }
 
-// The models that a request names, which the graph knows, each once.
+// Returns the models that a request names, each once. The graph knows them.
 std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) const {
   std::vector<std::string> sources, targets;
   for (const Converter* converter : converters_) {
@@ -197,7 +197,7 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   return nodes;
 }
 
-// Says why no path goes through `waypoints`.
+// Explains why no path goes through `waypoints`.
 void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
   std::vector<std::string> walk = {models_[waypoints.front()]};
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {

@@ -11,8 +11,8 @@ namespace {
 
 using Cost = std::int64_t;
 
-// The least cost from one node to another over nodes that are not closed (Dijkstra 1959); none where they are
-// not connected.
+// Returns the least cost from one node to another over nodes that are not closed (Dijkstra 1959). Returns
+// nothing if they are not connected.
 std::optional<Cost> least_cost(const DirectedGraph& graph, std::size_t from, std::size_t to,
                                std::vector<bool> closed) {
   using Reached = std::pair<Cost, std::size_t>;
@@ -31,13 +31,13 @@ std::optional<Cost> least_cost(const DirectedGraph& graph, std::size_t from, std
   return std::nullopt;
 }
 
-// The beginning of a path. `bound` is its cost with the least that can follow.
+// A Beginning is the first part of a path. `bound` is its cost plus the least cost that can follow.
 struct Beginning {
   Cost bound = 0;
   Cost cost = 0;
   std::vector<std::size_t> edges;
   std::size_t node = 0;
-  std::size_t next = 1;  // the waypoint to reach next
+  std::size_t next = 1;  // index of the waypoint to reach next
 };
 
 struct ComesLater {
@@ -47,9 +47,9 @@ struct ComesLater {
   }
 };
 
-// Takes beginnings in the order that is asked of paths. A path comes no earlier than any of its beginnings,
-// so the first that is whole is the least, the second the next. Bounds leave out what the beginning has
-// visited: one from which a waypoint cannot be reached any more is dropped at once.
+// A Search extends beginnings in the required order of paths. A path never sorts before one of its
+// beginnings, so the first complete path is the least, and the second is the next. Bounds ignore nodes that
+// the beginning has visited. A beginning that can no longer reach a waypoint is dropped at once.
 class Search {
  public:
   Search(const DirectedGraph& graph, const std::vector<std::size_t>& waypoints)
@@ -73,7 +73,7 @@ class Search {
   }
 
  private:
-  // Nodes that the beginning may not go to: visited, or waypoints whose turn it is not.
+  // Marks the nodes that the beginning must not enter: visited nodes, and waypoints whose turn has not come.
   std::vector<bool> closed(const Beginning& beginning) const {
     std::vector<bool> nodes(graph_.node_count, false);
     for (const std::size_t edge : beginning.edges) nodes[graph_.edges[edge].from] = true;
@@ -83,7 +83,7 @@ class Search {
     return nodes;
   }
 
-  // Whether `edge` would lead to where an edge leads from a node that the leg has left.
+  // Returns true if the leg has already left a node from which another edge leads to the end of `edge`.
   bool goes_round(const Beginning& beginning, const DirectedEdge& edge) const {
     if (graph_.detours) return false;
     const std::size_t leg_start = waypoints_[beginning.next - 1];
@@ -111,7 +111,7 @@ class Search {
     }
   }
 
-  // The sum of the least costs from the beginning's end to each waypoint that follows in turn.
+  // Returns the sum of the least costs from the beginning's end through the remaining waypoints in order.
   std::optional<Cost> least_rest(const Beginning& beginning) const {
     Beginning from = beginning;
     Cost sum = 0;

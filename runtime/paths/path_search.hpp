@@ -1,4 +1,5 @@
-// The least paths through a directed graph of numbered nodes and edges. What the numbers stand for: path.hpp.
+// This file finds the least paths through a directed graph of numbered nodes and edges. path.hpp explains
+// them.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +17,13 @@ struct DirectedEdge {
 struct DirectedGraph {
   std::size_t node_count = 0;
   std::vector<DirectedEdge> edges;  // any number between the same two nodes
-  // Whether a path may visit two nodes that an edge joins without taking such an edge. Waypoints part a path
-  // into legs, each by itself.
+  // If false, a path that visits two nodes joined by an edge must use such an edge. Waypoints divide a path
+  // into legs, and the rule applies to each leg separately.
   bool detours = true;
 };
 
-// For each node, whether a walk of any length, also none, leads to it from `start`; against the edges where
-// not `forwards`.
+// Returns for each node whether a walk of any length, even of none, leads from `start` to it. If `forwards`
+// is false, the walk follows the edges backwards.
 std::vector<bool> connected(const DirectedGraph& graph, std::size_t start, bool forwards);
 
 // Returns up to `count` paths that pass through `waypoints` (2 or more, each once) in this order and visit no

@@ -15,12 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Ignores fits of whole materials and warps, which --fit names.
+// Ignores fits of whole materials and warps, which need --fit.
 void add_fit(FittedConverter fit, std::vector<ConverterData>* converters) {
   if (auto* data = std::get_if<ConverterData>(&fit)) converters->push_back(std::move(*data));
 }
 
-// Files of a folder that are no fits of a folder of remapc: its manifest and its lock.
+// Returns false for the manifest and the lock of remapc, which are not fits.
 bool may_be_fit(const fs::path& path) {
   const std::string name = path.filename().string();
   return path.extension() == ".json" && name != "manifest.json" && name != "lock.json";

@@ -1,4 +1,4 @@
-// The assembler copies the file: as a string literal it would take the compiler seconds.
+// The assembler copies the file, because a string literal would take the compiler seconds.
 #include "paths/shipped_text.hpp"
 
 extern "C" {
@@ -8,10 +8,10 @@ extern const char remap_shipped_text_end[];
 
 #define REMAP_TEXT_OF(name) #name
 #define REMAP_TEXT(name) REMAP_TEXT_OF(name)
-// The assembler's form of a name of C.
+// Returns the assembler's form of a C name.
 #define REMAP_SYMBOL(name) REMAP_TEXT(__USER_LABEL_PREFIX__) #name
 #define REMAP_LABEL(name) ".globl " REMAP_SYMBOL(name) "\n" REMAP_SYMBOL(name) ":\n"
-// WebAssembly links data by its size.
+// WebAssembly needs the size to link data.
 #define REMAP_SIZE(name, size) ""
 
 #if defined(_WIN32)

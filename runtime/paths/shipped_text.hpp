@@ -1,4 +1,4 @@
-// generated/converters.json, compiled in.
+// This file gives the compiled-in text of generated/converters.json.
 #pragma once
 
 #include <string_view>

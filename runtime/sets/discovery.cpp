@@ -9,7 +9,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A map of a folder, with the ways to read its name.
+// A NamedMap is a map of a folder, with the ways to read its name.
 struct NamedMap {
   TileGroup files;
   std::vector<NameReading> readings;
@@ -20,17 +20,17 @@ struct NamedMap {
   const std::string& stem() const { return numbered ? reading().numbered_stem : reading().stem; }
 };
 
-// The name without extension and tile, for Naming::read().
+// Returns the name without extension and tile, for Naming::read().
 std::string readable_name(const TileGroup& files) {
   const auto without_extension = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
   if (!files.pattern) return without_extension(files.name);
   const std::string after = without_extension(files.pattern->after);
-  const bool doubled = !files.pattern->before.empty() && !after.empty();  // the separators around the tile
+  const bool doubled = !files.pattern->before.empty() && !after.empty();  // both separators around the tile
   return files.pattern->before + (doubled ? after.substr(1) : after);
 }
 
-// Prefers a shorter word if only its stem belongs to another map: in dark_metallic_roughness the longer word
-// may have taken the end of the set's name. Doubtful readings are dropped unless another map has their stem.
+// Prefers a shorter word if only its stem belongs to another map. In dark_metallic_roughness the longer word
+// may include the end of the set's name. Doubtful readings are dropped unless another map has their stem.
 void choose_readings(std::vector<NamedMap>& maps) {
   std::map<std::string, int> map_counts;
   for (const NamedMap& map : maps) ++map_counts[map.readings.front().stem];
@@ -43,7 +43,7 @@ void choose_readings(std::vector<NamedMap>& maps) {
   }
 }
 
-// In wood_512_rough and wood_1024_rough the numbers distinguish sets, so they are not resolutions.
+// Keeps numbers that distinguish sets: in wood_512_rough and wood_1024_rough they are not resolutions.
 void choose_stems(std::vector<NamedMap>& maps) {
   std::map<std::pair<std::string, std::vector<ChannelMeaning>>, std::set<std::string>> numbered_stems;
   std::set<std::string> numbered;
@@ -72,7 +72,7 @@ FoundMap found_map(const fs::path& folder, const NamedMap& map) {
 
 std::string place_of(const FoundSet& set) { return display_path(set.folder / set.name); }
 
-// The only candidate for a role. Several candidates make the set faulty.
+// Returns the only candidate for a role. Several candidates make the set faulty.
 std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std::string& what) {
   const std::vector<MapUse> candidates = uses(set, wanted);
   if (candidates.size() == 1) return candidates.front();
@@ -83,7 +83,6 @@ std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std:
   return std::nullopt;
 }
 
-// Adds the sets of one folder.
 void add_sets(const ImageFolder& folder, const std::string& folder_name, const Naming& naming,
               Discovery& discovery) {
   std::vector<NamedMap> maps;
@@ -116,7 +115,7 @@ void add_sets(const ImageFolder& folder, const std::string& folder_name, const N
   }
 }
 
-// The last name of a path, after `.` and `..` are resolved.
+// Returns the last name of a path, after `.` and `..` are resolved.
 std::string last_name(const fs::path& path) {
   std::error_code failure;
   const fs::path whole = fs::weakly_canonical(path, failure);

@@ -1,4 +1,4 @@
-// Finds the texture sets of a folder or tree by the names of their maps.
+// This file finds the texture sets of a folder or tree by the names of their maps.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,19 @@
 
 namespace remap {
 
-// One map of a set: a file, or the tiles of a pattern.
+// A FoundMap is one map of a set: a file, or the tiles of a pattern.
 struct FoundMap {
-  std::filesystem::path path;          // relative to the root; `<UDIM>` in the name stands for tiles
+  std::filesystem::path path;          // relative to the root; `<UDIM>` in the name means tiles
   std::optional<TilePattern> pattern;  // of the file name
   std::vector<Tile> tiles;             // by number, paths relative to the root; empty for a single file
   std::string habit;
   std::vector<ChannelMeaning> meaning;
-  bool is_repeated = false;   // has a parameter that is read from another map of the set
-  bool is_converted = false;  // has roughness or specular; a conversion of these alone reads no other maps
+  bool is_repeated = false;   // another map of the set provides one of its parameters
+  bool is_converted = false;  // has roughness or specular, the only maps that a BRDF conversion reads
 };
 bool has_roughness_or_specular(const std::vector<ChannelMeaning>& meaning);
 
-// The map and channels that hold a role.
+// A MapUse is the map and channels that hold a role.
 struct MapUse {
   std::size_t map = 0;  // index into FoundSet::maps
   Channels channels = Channels::kWhole;
@@ -45,33 +45,34 @@ struct FoundSet {
   std::string name;              // the stem of the files, or the folder's name if they have no stem
   std::filesystem::path folder;  // relative to the root; empty for the root itself
   SetState state = SetState::kReady;
-  std::vector<FoundMap> maps;        // maps that are converted, then the others, each by path
-  std::optional<MapUse> width;       // roughness, glossiness or alpha; set where ready
+  std::vector<FoundMap> maps;        // converted maps first, then the others, each by path
+  std::optional<MapUse> width;       // roughness, glossiness or alpha; set if ready
   std::optional<MapUse> specular;    // none if the set has no specular map
   std::vector<std::string> remarks;  // messages of one line about a skipped or faulty set
 };
 
-// All places in the maps of a set with a role that `wanted` accepts.
+// Returns all places in the maps of a set whose role `wanted` accepts.
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
-// The channel names that a request uses; empty for the whole image.
+// Returns the channel names for a request, or nothing for the whole image.
 std::vector<std::string> channel_names(Channels channels);
-// The encoding of a map of this role; none if the map holds roughness as the model defines it.
+// Returns the encoding of a map of this role. Returns nothing if the map holds the model's roughness.
 std::optional<RoughnessEncoding> encoding_of(Role role);
 // Sets `state`, `width`, `specular` and `remarks` from the roles of the maps.
 void judge(FoundSet& set);
-// `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep one`.
+// Returns a text like `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep one`.
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
 
 struct DiscoveryOptions : WalkOptions {
-  const Naming* naming = nullptr;  // null for the built-in habits
+  const Naming* naming = nullptr;  // null for the built-in conventions
 };
 
 struct Discovery {
-  std::vector<FoundSet> sets;                       // by folder and name, by bytes
-  std::vector<std::filesystem::path> unrecognised;  // images that no habit matches; tiles as one pattern
-  std::vector<std::filesystem::path> others;        // files of WalkOptions::also, by bytes
-  std::vector<WalkProblem> problems;                // folders and files that could not be read
-  std::map<std::filesystem::path, std::uintmax_t> sizes;  // that a manifest states for files; else empty
+  std::vector<FoundSet> sets;  // by folder and name, by bytes
+  std::vector<std::filesystem::path>
+      unrecognised;                           // images without a naming convention; tiles as one pattern
+  std::vector<std::filesystem::path> others;  // files of WalkOptions::also, by bytes
+  std::vector<WalkProblem> problems;          // folders and files that could not be read
+  std::map<std::filesystem::path, std::uintmax_t> sizes;  // sizes from a manifest; otherwise empty
 };
 
 // Finds the sets of a folder. The maps of a set lie in one folder and share a stem: the name without the word

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 11> kExtensions = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
                                                           "tga", "bmp", "hdr",  "tx",  "webp"};
 
-// Without the dot, in lower case; empty for none.
+// Returns the extension without the dot, in lower case, or an empty text.
 std::string extension_of(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   return dot == std::string_view::npos || dot == 0 ? "" : lower(name.substr(dot + 1));
@@ -36,7 +36,7 @@ class Walker {
       : root_(root), recursive_(options.recursive), also_(options.also) {
     for (const fs::path& folder : options.excluded)
       if (const auto found = facts_of(folder)) visited_.insert(found->identity);
-    // The root is searched even if results go there, too.
+    // The root is searched even if results are written there, too.
     if (const auto found = facts_of(root)) visited_.erase(found->identity);
   }
 

@@ -1,4 +1,4 @@
-// Lists the images of a tree of folders, even if parts of it cannot be read.
+// This file lists the images of a folder tree, even if parts of it cannot be read.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,14 @@
 
 namespace remap {
 
-// The whole path as plain() writes it: a file name may hold any byte, but a message must be one line, and
-// must not steer a terminal.
+// Returns the whole path as plain() writes it. A file name may hold any byte, but a message must be one line
+// and must not control a terminal.
 std::string display_path(const std::filesystem::path& path);
 
 struct WalkOptions {
   bool recursive = true;
   std::vector<std::filesystem::path> excluded;  // folders to skip, such as the one for results
-  std::vector<std::string> also;  // further extensions, without dot, of files that are listed apart
+  std::vector<std::string> also;  // more extensions, without dot, of files that are listed separately
 };
 
 struct ImageFolder {
@@ -22,7 +22,7 @@ struct ImageFolder {
   std::vector<std::string> images;  // file names, sorted by bytes
 };
 
-// A file or folder that could not be read.
+// A WalkProblem is a file or folder that could not be read.
 struct WalkProblem {
   std::filesystem::path path;  // relative to the root
   std::string message;         // `place: what is wrong`, one line
@@ -35,10 +35,10 @@ struct Walk {
   std::vector<WalkProblem> problems;  // in any order
 };
 
-// Lists the images under `root`, with the extensions exr tif tiff png jpg jpeg tga bmp hdr tx webp. Hidden
-// names are skipped, and with them unfinished results (files.hpp). Symbolic links are followed. Each folder
-// is visited once, under its own path if that lies below the root, so loops end. Unreadable files and folders
-// become problems. Throws kInput only if the root itself cannot be read.
+// Lists the images under `root`, with the extensions exr tif tiff png jpg jpeg tga bmp hdr tx webp. It skips
+// hidden names, and so also unfinished results (files.hpp). It follows symbolic links. It visits each folder
+// once, under its own path if that lies below the root, so loops end. Unreadable files and folders become
+// problems. Throws kInput only if the root itself cannot be read.
 Walk walk_images(const std::filesystem::path& root, const WalkOptions& options);
 
 }  // namespace remap

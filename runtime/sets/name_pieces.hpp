@@ -1,4 +1,4 @@
-// Splits file names at separators.
+// This file splits file names at separators.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@ inline bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 inline bool is_lower(char c) noexcept { return c >= 'a' && c <= 'z'; }
 inline bool is_upper(char c) noexcept { return c >= 'A' && c <= 'Z'; }
 
-// Converts ASCII letters to lower case and keeps all other bytes: independent of the locale, safe for UTF-8.
+// Converts ASCII letters to lower case and keeps all other bytes. So it does not depend on the locale and is
+// safe for UTF-8.
 inline char lower(char c) noexcept { return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c; }
 inline std::string lower(std::string_view text) {
   std::string result(text);
@@ -21,7 +22,7 @@ inline std::string lower(std::string_view text) {
   return result;
 }
 
-// The bytes [begin, end) of a name between two separators. A piece is never empty.
+// A NamePiece is the bytes [begin, end) of a name between two separators. A piece is never empty.
 struct NamePiece {
   std::size_t begin = 0;
   std::size_t end = 0;

@@ -9,7 +9,8 @@
 
 namespace remap {
 
-// The pieces of a name up to the word of the map, without resolution, format and ignored words after it.
+// A NameParts holds the pieces of a name up to the word of the map. Resolution, format and ignored words
+// after it are removed.
 struct NameParts {
   std::string_view name;
   std::vector<NamePiece> pieces;
@@ -18,11 +19,11 @@ struct NameParts {
 
 namespace {
 
-// Formats and qualities next to a resolution (4K-PNG, 2K-HQ) or before a second extension (.exr.tx).
+// Formats and qualities stand next to a resolution (4K-PNG, 2K-HQ) or before a second extension (.exr.tx).
 constexpr std::array<std::string_view, 12> kFormats = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
                                                        "tga", "bmp", "hdr",  "hq",  "lq",  "webp"};
 
-// Whether `digits` is the side of a square map: a power of two from 128 to 32768.
+// Returns true if `digits` is the side of a square map: a power of two from 128 to 32768.
 bool is_side(std::string_view digits) {
   if (digits.size() < 3 || digits.size() > 5 || !std::all_of(digits.begin(), digits.end(), is_digit))
     return false;
@@ -31,13 +32,13 @@ bool is_side(std::string_view digits) {
   return side >= 128 && side <= 32768 && (side & (side - 1)) == 0;
 }
 
-// Whether a piece numbers a version: v001, v2.
+// Returns true if a piece numbers a version, such as v001 or v2.
 bool is_version(std::string_view piece) {
   return piece.size() >= 2 && piece.size() <= 5 && lower(piece.front()) == 'v' &&
          std::all_of(piece.begin() + 1, piece.end(), is_digit);
 }
 
-// Whether a capital at `i` begins a new part of a name, as S in heroSpec and the second M in ORMMap.
+// Returns true if a capital at `i` begins a new part of a name, like S in heroSpec and M in ORMMap.
 bool begins_part(std::string_view name, std::size_t i) {
   if (i == 0 || !is_upper(name[i]) || is_separator(name[i - 1])) return false;
   if (!is_upper(name[i - 1])) return true;
@@ -46,10 +47,10 @@ bool begins_part(std::string_view name, std::size_t i) {
 
 bool is_acronym(std::string_view word) { return std::none_of(word.begin(), word.end(), is_lower); }
 
-// The end of the set's name, and the resolution between it and the word of the map.
+// A Stem is the end of the set's name, and the resolution between it and the word of the map.
 struct Stem {
   std::size_t end = 0;           // of the set's name
-  std::size_t numbered_end = 0;  // the same end, but after a number that may belong to the name
+  std::size_t numbered_end = 0;  // the end after a number that may belong to the name
   ResolutionPlace resolution = ResolutionPlace::kNone;
 };
 
@@ -94,8 +95,8 @@ std::string word_key(std::string_view word) {
 struct Naming::Ending {
   std::string key;                // its letters in lower case
   std::vector<std::size_t> cuts;  // offsets of its separators in `key`
-  std::string_view text;          // as in the name
-  bool follows_separator = true;  // or is at the beginning of the name
+  std::string_view text;          // as written in the name
+  bool follows_separator = true;  // also true at the beginning of the name
   ResolutionPlace resolution = ResolutionPlace::kNone;
 };
 
@@ -118,8 +119,8 @@ Naming::Naming(std::vector<Habit> habits, std::vector<std::string> ignored_words
   }
 }
 
-// The best of the words that `ending` spells. Words of the user's habits come first, then words written in
-// the same way, then words whose habit writes resolutions in this place, then the first of the table.
+// Returns the best of the words that `ending` spells. Words of the user's conventions come first, then words
+// with the same spelling. Then come words whose convention has resolutions here, then the first of the table.
 const Naming::Word* Naming::best_word(const Ending& ending) const {
   const auto found = words_.find(ending.key);
   if (found == words_.end()) return nullptr;
@@ -141,7 +142,7 @@ const Naming::Word* Naming::best_word(const Ending& ending) const {
   return best;
 }
 
-// The part of the name from `begin`, within piece `first`, to the end; none if it is longer than any word.
+// Returns the end of the name from `begin`, which lies in piece `first`. Returns nothing if it is too long.
 std::optional<Naming::Ending> Naming::ending_from(const NameParts& parts, std::size_t first,
                                                   std::size_t begin) const {
   Ending ending;
@@ -166,8 +167,7 @@ std::vector<NameReading> Naming::read(std::string_view name) const {
   return readings;
 }
 
-// `Robot Metallic-Robot Roughness`: Blender's export of glTF names a packed map after the two that it is made
-// of.
+// Reads `Robot Metallic-Robot Roughness`. Blender's glTF export names a packed map after the two maps in it.
 std::optional<NameReading> Naming::read_pair(std::string_view name) const {
   for (std::size_t dash = name.find('-'); dash != std::string_view::npos; dash = name.find('-', dash + 1)) {
     const std::vector<NameReading> first = read_end(name.substr(0, dash)),
@@ -188,7 +188,7 @@ std::optional<NameReading> Naming::read_pair(std::string_view name) const {
   return std::nullopt;
 }
 
-// `ROUGHNESS_Robot`: the word in front counts where another map has the same stem.
+// Reads `ROUGHNESS_Robot`. The word in front counts if another map has the same stem.
 std::vector<NameReading> Naming::read_front(std::string_view name) const {
   const std::vector<NamePiece> pieces = name_pieces(name);
   for (std::size_t count = std::min<std::size_t>(3, pieces.size() - std::min<std::size_t>(1, pieces.size()));

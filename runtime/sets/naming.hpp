@@ -1,5 +1,5 @@
-// Reads from the name of an image which map of which set it is, by the habits of the tools that write texture
-// sets.
+// This file reads from the name of an image which map of which set it is, by the naming conventions
+// ("habits") of the tools that write texture sets.
 //
 // The built-in habits are data: naming.json, compiled in. A file of the same form extends them:
 //
@@ -52,14 +52,14 @@
 
 namespace remap {
 
-// The property of the material that channels of a map hold.
+// A Role is the property of the material that channels of a map hold.
 enum class Role {
   kRoughness,
   kGlossiness,         // 1 - roughness
   kGlossinessSquared,  // Corona's, as Substance writes it; recognised, not converted
   kAlphaWidth,         // microfacet width, roughness squared
   kSpecular,           // reflectance at normal incidence
-  kSpecularLevel,      // an artist's scale of it; recognised, not converted
+  kSpecularLevel,      // an artist's scale of specular; recognised, not converted
   kDiffuse,
   kBaseColor,
   kMetallic,
@@ -75,7 +75,7 @@ enum class Role {
   kOther,  // recognised, without a role here: masks, coats, sheen
 };
 
-// The names in naming files.
+// These are the names in naming files.
 inline constexpr NamedValues<Role, 19> kRoles = {{{Role::kRoughness, "roughness"},
                                                   {Role::kGlossiness, "glossiness"},
                                                   {Role::kGlossinessSquared, "glossiness_squared"},
@@ -96,17 +96,17 @@ inline constexpr NamedValues<Role, 19> kRoles = {{{Role::kRoughness, "roughness"
                                                   {Role::kIor, "ior"},
                                                   {Role::kOther, "other"}}};
 inline std::string_view role_name(Role role) { return name_of(kRoles, role); }
-// Whether the role determines the roughness. A set has one such map.
+// Returns true if the role determines the roughness. A set has one such map.
 bool is_roughness(Role role);
 template <Role kRole>
 bool is(Role role) {
   return role == kRole;
 }
 
-// The channels of a file that hold a role.
+// A Channels value is the channels of a file that hold a role.
 enum class Channels { kWhole, kRed, kGreen, kBlue, kAlpha, kRgb };
 
-// The names in naming files; `all` stands for the whole map.
+// These are the names in naming files; `all` means the whole map.
 inline constexpr NamedValues<Channels, 6> kChannels = {{{Channels::kWhole, "all"},
                                                         {Channels::kRed, "R"},
                                                         {Channels::kGreen, "G"},
@@ -124,7 +124,7 @@ struct ChannelMeaning {
 struct NamingRule {
   std::vector<std::string> words;
   bool ordinary = false;                // the words also occur in names of objects
-  std::vector<ChannelMeaning> meaning;  // not empty; at most one roughness role and one specular
+  std::vector<ChannelMeaning> meaning;  // not empty; at most one roughness and one specular role
 };
 
 enum class ResolutionPlace { kNone, kBefore, kBeforeWithFormat, kAfter };
@@ -142,13 +142,13 @@ struct Habit {
   std::vector<NamingRule> rules;
 };
 
-// One way to read the name of an image.
+// A NameReading is one way to read the name of an image.
 struct NameReading {
-  std::string stem;  // the name of the set; empty if the whole name is the word of the map
-  // The stem with the number before the word of the map, which may be a resolution or belong to the set:
-  // wood_1024 of wood_1024_rough.
+  std::string stem;  // name of the set; empty if the map's word is the whole name
+  // This is the stem with the number before the word of the map: wood_1024 in wood_1024_rough. The number may
+  // be a resolution or belong to the set.
   std::string numbered_stem;
-  std::string habit;      // the name of the habit
+  std::string habit;      // the name of the convention
   bool doubtful = false;  // counts only if another map has the same stem
   std::vector<ChannelMeaning> meaning;
 };
@@ -158,11 +158,12 @@ struct NameParts;
 // Naming holds naming conventions, indexed for reading names. Copies are independent.
 class Naming {
  public:
-  // Of habits that match equally well, the earlier wins. `ignored_words` are as in the file.
+  // If two conventions match equally well, the earlier one wins. `ignored_words` are as in the file.
   Naming(std::vector<Habit> habits, std::vector<std::string> ignored_words);
 
-  // The ways to read `name`, a file name without extension and tile. The longest word, which is the
-  // likeliest, comes first; a word in front counts where none ends the name. Empty if no habit matches.
+  // Returns the ways to read `name`, a file name without extension and tile. The longest word, which is the
+  // likeliest, comes first. A word in front counts only if no word ends the name. Returns nothing if no
+  // convention matches.
   std::vector<NameReading> read(std::string_view name) const;
 
   const std::vector<Habit>& habits() const noexcept { return habits_; }
@@ -173,7 +174,7 @@ class Naming {
     std::size_t habit = 0;
     std::size_t rule = 0;
     std::string text;               // as the table writes it
-    std::vector<std::size_t> cuts;  // where separators may be, as offsets into the word without separators
+    std::vector<std::size_t> cuts;  // offsets where separators may be, in the word without separators
   };
   struct Ending;                                                   // a part of a name that may be a word
   std::vector<NameReading> read_end(std::string_view name) const;  // words at the end
@@ -185,28 +186,27 @@ class Naming {
   std::vector<Habit> habits_;
   std::vector<std::string> ignored_words_;
   std::unordered_set<std::string> ignored_;                   // in lower case
-  std::unordered_map<std::string, std::vector<Word>> words_;  // by their letters in lower case
+  std::unordered_map<std::string, std::vector<Word>> words_;  // keyed by their letters in lower case
   std::size_t longest_word_ = 0;
 };
 
-// Whether a piece of a name is a resolution, such as 4K, 1024 or 2048x2048. A word of a map must not be one.
+// Returns true if a piece of a name is a resolution, such as 4K, 1024 or 2048x2048. Map words must not be.
 bool is_resolution(std::string_view piece);
 
-// Whether a piece is a format or quality next to a resolution (4K-PNG, 2K-HQ). A word of a map must not be
-// one.
+// Returns true if a piece is a format or quality next to a resolution (4K-PNG, 2K-HQ). Map words must not be.
 bool is_format_word(std::string_view piece);
 
-// A word in lower case without separators. Words with equal keys are the same word.
+// Returns a word in lower case without separators. Words with equal keys are the same word.
 std::string word_key(std::string_view word);
 
-// The habits of Substance Painter, Poly Haven, ambientCG, Quixel Megascans, glTF, Mari and common renderers.
+// Returns the conventions of Substance Painter, Poly Haven, ambientCG, Quixel Megascans, glTF, Mari and
+// common renderers.
 const Naming& built_in_naming();
 
-// The built-in habits extended by those of `file`. Throws kInput, naming file and field, if its form is
-// wrong.
+// Returns the built-in conventions extended by the ones in `file`. Throws kInput, with file and field.
 Naming read_naming(const std::filesystem::path& file);
 
-// The same for the text of a naming file. Errors begin with `context`.
+// Reads the text of a naming file in the same way. Errors begin with `context`.
 Naming parse_naming(std::string_view text, const std::string& context);
 
 }  // namespace remap

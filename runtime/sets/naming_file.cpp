@@ -1,4 +1,4 @@
-// Reads naming habits from JSON: the built-in table and files that extend it.
+// This file reads naming conventions from JSON: the built-in table and files that extend it.
 #include <algorithm>
 #include <set>
 
@@ -9,12 +9,12 @@
 
 namespace remap {
 
-// The text of naming.json, compiled in so that no file is needed at run time (naming_text.cpp.in).
+// This is the text of naming.json, compiled in so that no file is needed at run time (naming_text.cpp.in).
 extern const std::string_view kNamingText;
 
 namespace {
 
-// Otherwise a mistyped optional field would go unnoticed.
+// Refuses unknown fields, because a mistyped optional field would otherwise go unnoticed.
 void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
   field.require(field.json().fields() != nullptr, "an object");
   for (const auto& [key, value] : *field.json().fields())
@@ -22,7 +22,7 @@ void refuse_unknown_fields(const Field& field, const std::vector<std::string>& k
       field.fail("unknown field '" + key + "'" + suggestion(key, known));
 }
 
-// The value of the enumeration that the text names; `noun` says what it is.
+// Returns the value of the enumeration that the text names. Messages call it `noun`.
 template <typename Value, std::size_t Count>
 Value read_named(const Field& field, const NamedValues<Value, Count>& table, const std::string& noun) {
   const std::string text = field.text();
@@ -32,7 +32,7 @@ Value read_named(const Field& field, const NamedValues<Value, Count>& table, con
 
 Role read_role(const Field& field) { return read_named(field, kRoles, "role"); }
 
-// A converter reads roughness and specular from one map each, so no rule may name one twice.
+// Refuses a rule that names roughness or specular twice, because a converter reads each from one map.
 void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meaning) {
   const auto width = [](const ChannelMeaning& entry) { return is_roughness(entry.role); };
   const auto specular = [](const ChannelMeaning& entry) { return entry.role == Role::kSpecular; };
@@ -45,7 +45,7 @@ std::vector<ChannelMeaning> read_channels(const Field& field) {
   field.require(field.json().fields() != nullptr && !field.json().empty(),
                 "an object of channels and their roles");
   std::vector<std::string> known = names_of(kChannels);
-  known.erase(known.begin());  // the whole map
+  known.erase(known.begin());  // remove the whole map
   refuse_unknown_fields(field, known);
   const bool color = field.contains("RGB");
   field.require(!color || (!field.contains("R") && !field.contains("G") && !field.contains("B")),

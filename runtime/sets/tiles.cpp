@@ -16,7 +16,7 @@ namespace {
 constexpr int kFirstUdim = 1001;
 constexpr int kLastUdim = 1999;
 constexpr int kUdimColumns = 10;
-// The only power of two among them: a resolution if no other tile exists.
+// This is the only power of two among UDIMs. It is treated as a resolution if no other tile exists.
 constexpr int kAmbiguousUdim = 1024;
 constexpr std::size_t kMostDigits = 9;
 
@@ -25,7 +25,7 @@ constexpr std::array<std::pair<std::string_view, TileStyle>, 3> kTokens = {
 
 bool is_udim(int number) { return number >= kFirstUdim && number <= kLastUdim; }
 
-// The number that `digits` spells; none for other text and for more digits than an int holds.
+// Returns the number that `digits` spells. Returns nothing for other text and for too many digits.
 std::optional<int> digits_value(std::string_view digits) {
   if (digits.empty() || digits.size() > kMostDigits || !std::all_of(digits.begin(), digits.end(), is_digit))
     return std::nullopt;
@@ -34,7 +34,7 @@ std::optional<int> digits_value(std::string_view digits) {
   return value;
 }
 
-// A placeholder in a name.
+// A Place is a placeholder in a name.
 struct Place {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -42,14 +42,14 @@ struct Place {
   int digit_count = 0;
 };
 
-// `%d` or `%04d` at the beginning of `text`.
+// Finds `%d` or `%04d` at the beginning of `text`.
 std::optional<Place> printf_place(std::string_view text, std::size_t begin) {
   std::size_t end = begin + 1;
   while (end < text.size() && is_digit(text[end])) ++end;
   if (end >= text.size() || text[end] != 'd') return std::nullopt;
   const std::string_view width = text.substr(begin + 1, end - begin - 1);
   if (width.empty()) return Place{begin, end + 1, TileStyle::kFrame, 1};
-  // Without the leading zero of the width, printf would pad with spaces.
+  // Refuse a width without a leading zero, because printf would pad with spaces.
   if (width.front() != '0' || width.size() != 2 || width.back() == '0') return std::nullopt;
   return Place{begin, end + 1, TileStyle::kFrame, width.back() - '0'};
 }
@@ -71,7 +71,7 @@ TilePattern pattern_of(std::string_view name, const Place& place) {
           place.style, place.digit_count};
 }
 
-// The UDIM of a tile such as u3_v2, given as its two parts.
+// Returns the UDIM of a tile such as u3_v2, given as its two parts.
 std::optional<int> uv_number(std::string_view u, std::string_view v) {
   if (u.size() < 2 || v.size() < 2 || lower(u.front()) != 'u' || lower(v.front()) != 'v') return std::nullopt;
   if (u[1] == '0' || v[1] == '0') return std::nullopt;
@@ -92,7 +92,7 @@ std::string number_in_style(const TilePattern& pattern, int number) {
   return digits;
 }
 
-// A file name that may belong to a tile.
+// A Candidate is a file name that may belong to a tile.
 struct Candidate {
   std::string name;
   TilePattern pattern;
@@ -100,7 +100,7 @@ struct Candidate {
   bool ends_name = false;  // only the extension follows
 };
 
-// The last number of `name` that may be a UDIM.
+// Finds the last number of `name` that may be a UDIM.
 std::optional<Candidate> find_candidate(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   const std::string_view stem = std::string_view(name).substr(0, dot);
@@ -120,7 +120,7 @@ std::optional<Candidate> find_candidate(const std::string& name) {
       const Place place{pieces[i - 1].begin, pieces[i].end, TileStyle::kUvTile, 0};
       Candidate candidate{name, pattern_of(name, place), *uv, last};
       candidate.pattern.token = "<UVTILE>";
-      // The pattern could not reproduce a name in capitals.
+      // Other spellings are refused, because the pattern could not reproduce a name in capitals.
       if (tile_name(candidate.pattern, *uv) == name) return candidate;
     }
   }

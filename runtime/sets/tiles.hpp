@@ -1,4 +1,4 @@
-// Maps of several files: UDIM tiles and sequences of frames.
+// This file handles maps of several files: UDIM tiles and sequences of frames.
 #pragma once
 
 #include <filesystem>
@@ -10,26 +10,26 @@
 
 namespace remap {
 
-// How a file name holds the number of a tile.
+// A TileStyle is the way in which a file name holds the number of a tile.
 enum class TileStyle {
   kUdim,    // `<UDIM>` or `%(UDIM)d`: 1001 + u + 10 v, 1001 to 1999
   kUvTile,  // `<UVTILE>`: u1_v1 is the tile 1001, as in Mudbox and MaterialX; u from 1 to 10
   kFrame,   // `####`, `%04d`: a number of at least this many digits
 };
 
-// A file name with one placeholder for a number.
+// A TilePattern is a file name with one placeholder for a number.
 struct TilePattern {
   std::string before;  // the text before the number
   std::string token;   // the placeholder as it was written: `<UDIM>`, `####`
   std::string after;
   TileStyle style = TileStyle::kUdim;
-  int digit_count = 0;  // the least digits of a frame, padded with zeros
+  int digit_count = 0;  // least number of digits of a frame, padded with zeros
 
   std::string text() const { return before + token + after; }
   bool operator==(const TilePattern&) const = default;
 };
 
-// One file of a tiled map.
+// A Tile is one file of a tiled map.
 struct Tile {
   int number = 0;  // UDIM or frame
   std::filesystem::path path;
@@ -37,32 +37,32 @@ struct Tile {
   bool operator==(const Tile&) const = default;
 };
 
-// The pattern of `name`, a file name without folder; none if it has no placeholder. A real file may be called
-// C#.png, so ask only for names of which no file exists. Throws kUsage for several placeholders.
+// Returns the pattern of `name`, a file name without folder, or nothing if it has no placeholder. A real file
+// may be called C#.png, so call this only if no such file exists. Throws kUsage for several placeholders.
 std::optional<TilePattern> tile_pattern(std::string_view name);
 
-// The file name of one tile. Throws kUsage for a number outside the range of the style.
+// Returns the file name of one tile. Throws kUsage for a number outside the range of the style.
 std::string tile_name(const TilePattern& pattern, int number);
 
-// The number of the tile with this file name; none if it is not a tile of this map.
+// Returns the number of the tile with this file name, or nothing if it is not a tile of this map.
 std::optional<int> tile_number(const TilePattern& pattern, std::string_view name);
 
-// The existing tiles of `path`, a folder and a pattern, by number. Throws kUsage if the file name has no
-// placeholder or a folder name has one, kInput if the folder cannot be read.
+// Returns the existing tiles of `path`, a folder and a pattern, by number. Throws kUsage if the file name has
+// no placeholder or a folder name has one, and kInput if the folder cannot be read.
 std::vector<Tile> existing_tiles(const std::filesystem::path& path);
 
-// The files of one folder that form one map.
+// A TileGroup is the files of one folder that form one map.
 struct TileGroup {
   std::string name;                    // the file name, or the text of the pattern
   std::optional<TilePattern> pattern;  // none for a single file
   std::vector<int> numbers;            // of the tiles, ascending; empty for a single file
 };
 
-// Groups the UDIM and u1_v1 tiles among the file names of one folder. Other names stay single, and so do
-// frames, which only a pattern distinguishes from numbered maps. A UDIM is the last number from 1001 to 1999
-// between separators or the ends of a name. A number that no other file completes to a group counts only if
-// it is 1001 or ends the name, so castle_1905_rough.png is not a tile; a single 1024 is a resolution. Groups
-// are sorted by name, by bytes.
+// Groups the UDIM and u1_v1 tiles among the file names of one folder. Other names stay single. Frames stay
+// single, too, because only a pattern distinguishes them from numbered maps. A UDIM is the last number from
+// 1001 to 1999 between separators or the ends of a name. A number that no other file completes to a group
+// counts only if it is 1001 or ends the name, so castle_1905_rough.png is not a tile. A single 1024 is a
+// resolution. Groups are sorted by name, by bytes.
 std::vector<TileGroup> group_tiles(std::span<const std::string> names);
 
 }  // namespace remap

@@ -45,7 +45,7 @@ ConverterInfo info_of(const ConverterData& data, InstructionSet set) {
   return info;
 }
 
-// The terms in rows of one length; returns the longest row.
+// Pads the terms to rows of one length. Returns the length of the longest row.
 std::size_t pad(const FactorTerms& factor, FormPass::Terms& rows) {
   std::size_t longest = 0;
   for (std::size_t j = 0; j < factor.size(); ++j) {
@@ -113,7 +113,7 @@ class BrdfStage final : public Stage {
     return true;
   }
 
-  // On rows that are longer than a block and reach beyond the domain, grey and RGB.
+  // Compares rows that are longer than a block and reach beyond the domain, grey and RGB.
   bool agrees_with_baseline() const {
     constexpr std::size_t kCount = 301;
     using Row = std::array<float, kCount>;

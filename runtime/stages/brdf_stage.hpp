@@ -1,4 +1,4 @@
-// Converters of width and specular by the data of lowered fits.
+// This file makes converters of width and specular from the data of lowered fits.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace remap {
 
-// Runs `data` as it is. Throws kNumeric for a domain that is empty or negative.
+// Uses `data` unchanged. Throws kNumeric for a domain that is empty or negative.
 std::unique_ptr<Converter> make_converter(const ConverterData& data,
                                           InstructionSet set = best_instruction_set());
 

@@ -8,7 +8,7 @@
 namespace remap {
 namespace {
 
-// A position between two neighbours of `count` evenly spaced nodes.
+// A NodePosition lies between two neighbours of `count` evenly spaced nodes.
 struct NodePosition {
   std::size_t first = 0;
   double fraction = 0.0;
@@ -20,7 +20,7 @@ NodePosition position_of(double place, std::size_t count) noexcept {
   return {first, clamped - static_cast<double>(first)};
 }
 
-// From 0 at the least alpha to 1 at the largest one.
+// Returns a value from 0 at the least alpha to 1 at the largest alpha.
 double width_share(const AppearanceCoordinates& space, float alpha) noexcept {
   const double least = static_cast<double>(space.least_alpha);
   const double clamped = static_cast<double>(std::clamp(alpha, space.least_alpha, space.largest_alpha));

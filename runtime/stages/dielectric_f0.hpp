@@ -1,4 +1,4 @@
-// The F0 that the dielectrics of maps in the specular workflow have.
+// This file estimates the F0 of dielectrics from maps in the specular workflow.
 #pragma once
 
 #include <array>
@@ -9,29 +9,29 @@
 
 namespace remap {
 
-// One texel; colors linear, all values 0 to 1. `width` is the workflow's own parameter.
+// A SpecularMaterial is one texel. Colors are linear, values 0 to 1. `width` is the workflow's own parameter.
 struct SpecularMaterial {
   std::array<float, 3> diffuse{}, specular{};
   float width = 0.0f;
 };
 
-// The texel as the projection reads it.
+// Returns the texel in the form that the projection reads.
 workflow_code::Texel texel_of(const workflow_code::Conventions& use, const SpecularMaterial& material);
 bool has_nan(const SpecularMaterial& material);
 
-// The F0 of dielectrics in maps, estimated as the F0 with the least residual.
+// A DielectricF0 is an estimate for the dielectrics in maps: the F0 with the least residual.
 struct DielectricF0 {
   double f0 = kCommonDielectricF0;
   double residual = 0.0;  // root mean square over the texels, at this F0
-  // Whether the residual at a distance of 0.01 is at least twice as large. It is not if all texels are metal,
-  // or if the maps do not follow any metallic material.
+  // Is true if the residual at a distance of 0.01 is at least twice as large. This fails if all texels are
+  // metal, or if the maps do not follow any metallic material.
   bool is_certain = false;
 };
 
-// `materials`: texels of a map; some thousand from all its parts suffice, and those with NaN are skipped.
-// The workflows give the conventions; the F0 of `metallic` is not used. The diffuse convention must be known,
-// because it does not show in the residual. F0 is searched in 0 to 0.12. Throws kInput if all texels have
-// NaN.
+// `materials` are texels of a map. A few thousand from all its parts suffice, and texels with NaN are
+// skipped. The workflows give the conventions; the F0 of `metallic` is not used. The diffuse convention must
+// be known, because it does not show in the residual. F0 is searched in 0 to 0.12. Throws kInput if all
+// texels have NaN.
 DielectricF0 estimate_dielectric_f0(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
                                     std::span<const SpecularMaterial> materials);
 

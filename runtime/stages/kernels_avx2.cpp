@@ -1,3 +1,3 @@
-// The kernels for processors with AVX2; runtime/CMakeLists.txt has their flags.
+// This file compiles the kernels for processors with AVX2; runtime/CMakeLists.txt has its flags.
 #define REMAP_KERNELS avx2_kernels
 #include "stages/kernels.inc"

@@ -1,3 +1,3 @@
-// The kernels for every processor; runtime/CMakeLists.txt has their flags.
+// This file compiles the kernels for every processor; runtime/CMakeLists.txt has its flags.
 #define REMAP_KERNELS baseline_kernels
 #include "stages/kernels.inc"

@@ -31,7 +31,7 @@ PackedQuadratic packed_terms(const AppearanceCoordinates&, const QuadraticTerms&
   return result;
 }
 
-// From the least alpha to the largest.
+// Returns the number of steps from the least alpha to the largest alpha.
 float width_places(const AppearanceCoordinates& space, const SeparableTerms& terms) {
   return static_cast<float>(width_node_count(space, terms) - 1);
 }

@@ -1,5 +1,5 @@
-// The memory layout of a compiled warp for warp/code. Generated headers contain the same numbers, so that
-// both give the same bits.
+// This file holds the memory layout of a compiled warp for warp/code. Generated headers contain the same
+// numbers, so that both give the same bits.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace remap {
 
 struct PackedSeparable {
   std::vector<float> diffuse;      // 3 x 4: weights of a channel for each dimension, then 0
-  std::vector<float> width_nodes;  // nodes of alpha x 4 x 4: the same for specular, then offsets
-  std::int32_t last_width = 0;     // the last node of alpha but one
+  std::vector<float> width_nodes;  // nodes of alpha x 4 x 4: weights for specular, then offsets
+  std::int32_t last_width = 0;     // index of the last node of alpha but one
 };
 
 struct PackedQuadratic {
@@ -41,7 +41,7 @@ struct PackedWarp {
   std::variant<PackedBlended, PackedCopied> table;
 };
 
-// `warp` must be valid (require_valid).
+// Packs `warp`, which must be valid (require_valid).
 PackedWarp packed(const CompiledWarp& warp);
 
 }  // namespace remap

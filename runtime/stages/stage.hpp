@@ -1,4 +1,4 @@
-// Stages of a converter, which run one after another over a block of texels.
+// This file declares the stages of a converter, which run one after another over a block of texels.
 #pragma once
 
 #include <array>
@@ -11,46 +11,46 @@
 
 namespace remap {
 
-// Texels that pass through all stages before the next: the rows that two stages share, 2 KB each, stay in the
-// first-level cache.
+// So many texels pass through all stages before the next block. The rows that two stages share, 2 KB each,
+// then stay in the first-level cache.
 inline constexpr std::size_t kBlockTexels = 1024;
 
-// Where the rows of each parameter of a block are. At first in the source; a stage finds rows and makes
-// others in their place. The last one makes those of the target itself.
+// A Block knows where the rows of each parameter are. At first they are in the source. A stage reads rows and
+// replaces them by others. The last stage makes the rows of the target itself.
 class Block {
  public:
-  // `in` and `out` as in Converter::convert.
+  // `in` and `out` are the arguments of Converter::convert.
   Block(const MaterialRows<const float>& in, const MaterialRows<float>& out);
 
-  // The block of `size` texels, kBlockTexels or less, from `start`.
+  // Selects the block of `size` texels, kBlockTexels or less, from `start`.
   void begin(std::size_t start, std::size_t size);
-  // Whether what runs now is the last that runs: it makes rows of the target in place.
+  // Returns true if the current stage is the last one. Its rows are then the rows of the target.
   bool is_last() const noexcept { return is_last_; }
   void set_last(bool is_last) noexcept { is_last_ = is_last; }
-  // Copies to the target what is in other rows. Grey is copied to all channels.
+  // Copies all remaining rows to the target. Grey is copied to all channels.
   void finish();
 
   std::size_t size() const noexcept { return size_; }
   bool has(Parameter parameter) const noexcept { return rows_[parameter].count > 0; }
   bool is_grey(Parameter parameter) const noexcept { return rows_[parameter].count == 1; }
-  // Whether the target has rows for it.
+  // Returns true if the target has rows for the parameter.
   bool is_wanted(Parameter parameter) const noexcept { return out_[parameter].count > 0; }
   const float* row(Parameter parameter) const noexcept { return rows_[parameter].row[0]; }
-  // Grey stands for three equal channels.
+  // Returns three rows. Grey becomes three equal channels.
   std::array<const float*, 3> color(Parameter parameter) const noexcept;
 
-  // Rows for a new value of a parameter, where row() and color() find it from now on. They may be exactly the
-  // rows of its old value, so a stage asks for those first.
+  // Returns rows for a new value of a parameter; row() and color() return them from now on. They may be
+  // exactly the rows of its old value, so a stage must ask for the old rows first.
   float* make(Parameter parameter) { return make_color(parameter, 1)[0]; }
   std::array<float*, 3> make_color(Parameter parameter, std::size_t channels = 3);
-  // A row for what nobody reads.
+  // Returns a row for values that nobody reads.
   float* make_unused() { return scratch(kParameterCount); }
 
  private:
   using Row = std::array<float, kBlockTexels>;
   float* scratch(std::size_t parameter, std::size_t channel = 0);
 
-  // The parameters that have rows: a block is short, and most converters have two.
+  // Lists the parameters that have rows. This saves time, because most converters have two.
   struct Parameters {
     std::array<Parameter, kParameterCount> all{};
     std::size_t count = 0;
@@ -65,7 +65,7 @@ class Block {
   MaterialRows<const float> rows_;
   std::size_t start_ = 0, size_ = 0;
   bool is_last_ = true;
-  std::unique_ptr<std::array<std::array<Row, 3>, kParameterCount + 1>> scratch_;  // when a stage asks for it
+  std::unique_ptr<std::array<std::array<Row, 3>, kParameterCount + 1>> scratch_;  // allocated on demand
 };
 
 class Stage {
@@ -74,12 +74,12 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  // Whether texels can be outside of what it covers.
+  // Returns true if texels can be outside the stage's domain.
   virtual bool has_domain() const noexcept { return false; }
-  // Replaces rows of the block. With a domain: returns the number of texels outside, and sets `outside`, if
-  // not null, to 1 for each of them and to 0 for each other. Can be called from many threads.
+  // Replaces rows of the block. A stage with a domain returns the number of texels outside. It sets
+  // `outside`, if not null, to 1 for each of them and to 0 for each other. Many threads may call it.
   virtual std::size_t run(Block& block, std::uint8_t* outside) const = 0;
-  // Throws as Converter::self_test.
+  // Throws like Converter::self_test.
   virtual bool self_test() const { return true; }
 
  protected:
@@ -89,7 +89,7 @@ class Stage {
 // Runs all stages over the block. Counts and flags the texels that are outside for any of them.
 std::size_t run_stages(std::span<const std::shared_ptr<const Stage>> stages, Block& block,
                        std::uint8_t* outside);
-// Whether all stages pass their tests.
+// Returns true if all stages pass their tests.
 bool self_test(std::span<const std::shared_ptr<const Stage>> stages);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// The pass of a compiled warp over rows of texels.
+// This file runs a compiled warp over rows of texels.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 #endif
 
 namespace remap::warp_code {
-// Each depends on those before it.
+// Each file depends on the files before it.
 // clang-format off
 #include "stages/code/bits.inc"
 #include "stages/code/floats.inc"

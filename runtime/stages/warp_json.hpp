@@ -1,4 +1,4 @@
-// Warp fits as JSON.
+// This file reads and writes warp fits as JSON.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ namespace remap {
 
 class Field;
 
-// The text of the file, ending with a newline. Throws the errors of require_valid().
+// Returns the text of the file, which ends with a newline. Throws the errors of require_valid().
 std::string fit_to_json(const WarpMapFit& fit);
 
-// The fit whose file has this root. Throws kInput.
+// Reads the fit whose file has this root. Throws kInput.
 WarpMapFit read_warp_fit(const Field& root);
 
 }  // namespace remap

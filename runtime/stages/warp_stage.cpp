@@ -35,7 +35,7 @@ class WarpStage final : public Stage {
                                                           specular[1],
                                                           specular[2],
                                                           block.row(Parameter::kRoughness)};
-    if (outside != nullptr) flag_outside(block.size(), in, outside);  // before rows are written over
+    if (outside != nullptr) flag_outside(block.size(), in, outside);  // must come before rows are overwritten
     const auto new_diffuse = block.make_color(Parameter::kDiffuse),
                new_specular = block.make_color(Parameter::kSpecular);
     return kernel_(warp_, block.size(), in,
@@ -44,7 +44,7 @@ class WarpStage final : public Stage {
   }
 
  private:
-  // Parameters of a warp lie in 0 to 1.
+  // Flags texels with parameters outside 0 to 1, the range of a warp.
   static void flag_outside(std::size_t size, const std::array<const float*, kWarpParameters>& rows,
                            std::uint8_t* outside) {
     for (std::size_t i = 0; i < size; ++i)

@@ -1,6 +1,6 @@
-// The formulas of workflow conversions, from the same text as generated headers
-// (compiler/emit/workflow_code.cpp) so that both give the same bits, and those of the diagnosis, which only
-// this program uses.
+// This file holds the formulas of workflow conversions. They are the same text as in generated headers
+// (compiler/emit/workflow_code.cpp), so that both give the same bits. The formulas of the diagnosis exist
+// only in this program.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 #endif
 
 namespace remap::workflow_code {
-// Each depends on those before it.
+// Each file depends on the files before it.
 // clang-format off
 #include "stages/code/bits.inc"
 #include "stages/code/floats.inc"

@@ -1,4 +1,4 @@
-// The conventions of both workflows as the formulas need them.
+// This file prepares the conventions of both workflows for the formulas.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace remap {
 // dielectric F0 out of range.
 void require_valid(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
                    const std::string& context);
-// The same for a prior out of range.
+// Throws the same error for a prior out of range.
 void require_prior(double prior, const std::string& context);
 
 workflow_code::WidthParameter width_parameter(RoughnessEncoding width);
-// The conventions of a conversion to metallic, or to specular.
+// Returns the conventions of a conversion to metallic, or to specular.
 workflow_code::Conventions conventions_of(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
                                           bool to_metallic);
 

@@ -10,7 +10,7 @@ constexpr auto kPlain = DiffuseConvention::kPlain, kScaled = DiffuseConvention::
 constexpr auto kRoughness = RoughnessEncoding::kRoughness, kGlossiness = RoughnessEncoding::kGlossiness;
 
 // All of these have GGX lobes of alpha = roughness^2. The BRDF is the renderer's own lobe if a converter was
-// measured with it, else Mitsuba's GGX.
+// measured with it, otherwise Mitsuba's GGX.
 std::vector<WorkflowModel> make_models() {
   return {
       {MetallicWorkflow{"gltf", kCommonDielectricF0, kScaled, kRoughness}, "mitsuba/ggx", true,
@@ -36,7 +36,7 @@ std::vector<WorkflowModel> make_models() {
   };
 }
 
-// The default materials of engines and tools, as they document them.
+// These are the default materials of engines and tools, as their documentation describes them.
 constexpr std::string_view kLayered = "index 1.5, the diffuse lobe has what the specular lobe leaves";
 constexpr std::string_view kPlainMetal = "base color (1 - metallic), F0 0.04";
 constexpr std::string_view kUnityLit = "Lit and Standard: base color 0.96 (1 - metallic), F0 0.04";
@@ -132,7 +132,7 @@ WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, Roughnes
   WorkflowModel model;
   model.brdf = brdf;
   model.reason = "a " + std::string(name_of(kWorkflowKinds, kind)) + " layer over " + brdf;
-  // Lobes of an exponent are added to diffuse, which loses nothing to them (OpenGL 1.0, section 2.13).
+  // Lobes of an exponent are added to diffuse without reducing it (OpenGL 1.0, section 2.13).
   model.conventions_known = brdf.starts_with("legacy/") || brdf.starts_with("mujoco/");
   if (kind == WorkflowKind::kSpecular)
     model.end = SpecularWorkflow{brdf, kPlain, width};
@@ -154,7 +154,7 @@ bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const s
   const WorkflowModel written =
       known != nullptr ? *known : workflow_over(name, WorkflowKind::kSpecular, kRoughness);
   WorkflowEnd held = written.end;
-  // An open convention was that of the other end.
+  // An open convention is taken from the other end.
   if (known != nullptr && !known->conventions_known)
     std::visit([&](auto& workflow) { workflow.diffuse = diffuse_of(end); }, held);
   return written.brdf == brdf && is_same_material(held, end);

@@ -36,11 +36,11 @@ class ToSpecular final : public Stage {
   decltype(Kernels::to_specular) kernel_;
 };
 
-// Equation (2) with an F0 for each texel. It is linear in F0: a metal over black dielectrics comes from the
-// kernel, and the dielectrics' F0 and what they leave to diffuse are added.
+// LayerDielectrics applies equation (2) with an F0 for each texel. The equation is linear in F0. The kernel
+// makes a metal over black dielectrics; then the dielectrics' F0 and their share of diffuse are added.
 class LayerDielectrics final : public Stage {
  public:
-  // `metal`: equation (2) with an F0 of 0, to plain diffuse.
+  // `metal` applies equation (2) with an F0 of 0, and makes plain diffuse.
   explicit LayerDielectrics(std::shared_ptr<const Stage> metal) : metal_(std::move(metal)) {}
 
   std::size_t run(Block& block, std::uint8_t* outside) const override {
@@ -67,7 +67,7 @@ class LayerDielectrics final : public Stage {
   std::shared_ptr<const Stage> metal_;
 };
 
-// Diffuse that counts what specular leaves to reflectance, or back. Where all light is reflected: black.
+// ScaleDiffuse converts between plain and scaled diffuse. The result is black if specular reflects all light.
 class ScaleDiffuse final : public Stage {
  public:
   explicit ScaleDiffuse(DiffuseConvention to) : to_(to) {}
@@ -78,7 +78,7 @@ class ScaleDiffuse final : public Stage {
     std::array<float, kBlockTexels> left;
     for (std::size_t i = 0; i < block.size(); ++i)
       left[i] = 1.0f - clamped(std::max({specular[0][i], specular[1][i], specular[2][i]}));
-    for (std::size_t c = 3; c-- > 0;)  // red last: grey is its row, which may be the first of `out`
+    for (std::size_t c = 3; c-- > 0;)  // red last: grey uses its row, which may be the first of `out`
       for (std::size_t i = 0; i < block.size(); ++i)
         out[c][i] = to_ == DiffuseConvention::kScaled && left[i] > 0.0f ? diffuse[c][i] / left[i]
                                                                         : diffuse[c][i] * left[i];
@@ -89,10 +89,10 @@ class ScaleDiffuse final : public Stage {
   DiffuseConvention to_;
 };
 
-// The BRDF's stages between two metallic workflows. The dielectric of one is the dielectric of the other,
-// whose F0 is fixed: only the metal's share of specular follows the BRDF. Without this, a dielectric whose F0
-// the BRDF maps to another would become a little metallic. Where the law of specular is affine, metallic
-// comes out as it was.
+// KeepDielectrics runs the BRDF's stages between two metallic workflows. The dielectric of one end becomes
+// the dielectric of the other end, whose F0 is fixed. So only the metal's share of specular follows the BRDF.
+// Otherwise a dielectric would become slightly metallic if the BRDF changes its F0. If the law of specular is
+// affine, metallic stays unchanged.
 class KeepDielectrics final : public Stage {
  public:
   KeepDielectrics(const StageList& brdf, double source_f0, double target_f0)
@@ -129,11 +129,11 @@ class KeepDielectrics final : public Stage {
   float source_f0_, target_f0_;
 };
 
-// To metallic by the projection, with what is asked for of its diagnosis.
+// Project converts to metallic by the projection, with the requested parts of its diagnosis.
 class Project final : public Stage {
  public:
-  // `width`: the parameter that the block has. `reads_alpha`: workflows do not know it, and `use` has alpha.
-  // `widens`: surfaces without a highlight become rough.
+  // `width` is the parameter that the block has. With `reads_alpha` the workflows do not know this parameter,
+  // and `use` has alpha. With `widens`, surfaces without a highlight become rough.
   Project(const workflow_code::Conventions& use, double prior, RoughnessEncoding width, bool reads_alpha,
           bool widens, InstructionSet set)
       : use_(use),
@@ -184,7 +184,7 @@ std::vector<Parameter> targets_of(const WorkflowEnd& end) {
   return targets;
 }
 
-// `gltf-specgloss` as part of an id.
+// Writes a name such as `gltf-specgloss` as part of an id.
 std::string id_part(std::string model) {
   std::replace_if(
       model.begin(), model.end(), [](char c) { return c == '-' || c == '/' || c == '.'; }, '_');
@@ -214,7 +214,8 @@ bool encodes_alpha(RoughnessEncoding width) {
          width == RoughnessEncoding::kGlossiness;
 }
 
-// Between a metallic workflow and the specular one between the stages; both have the width of the block.
+// Returns the conventions between a metallic workflow and the specular workflow inside the converter. Both
+// use the width of the block.
 workflow_code::Conventions conventions_between(MetallicWorkflow metallic, DiffuseConvention diffuse,
                                                RoughnessEncoding width, bool to_metallic,
                                                const std::string& context) {
@@ -224,8 +225,8 @@ workflow_code::Conventions conventions_between(MetallicWorkflow metallic, Diffus
   return conventions_of(specular, metallic, to_metallic);
 }
 
-// Of diffuse between the stages: that of the specular end, so that a conversion without BRDF is the one of a
-// header, bit for bit; plain where specular changes on the way.
+// Returns the diffuse convention between the stages. It is the convention of the specular end, so that a
+// conversion without BRDF equals a header bit for bit. It is plain if specular changes in between.
 DiffuseConvention diffuse_between(const WorkflowStages& stages) {
   const bool is_one_way = kind_of(stages.source) != kind_of(stages.target);
   if (stages.brdf != nullptr || !is_one_way) return DiffuseConvention::kPlain;

@@ -1,4 +1,4 @@
-// Stages between the workflows of whole materials.
+// This file makes stages between the workflows of whole materials.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,16 @@
 
 namespace remap {
 
-// Base color and metallic to diffuse and specular by equation (2); the width stays. `diffuse`, `width`: what
-// diffuse becomes, and what the width is. Throws kInput, beginning with `context`, as require_valid() does.
+// Converts base color and metallic to diffuse and specular by equation (2); the width stays unchanged.
+// `diffuse` is the convention of the result, and `width` the meaning of the width. Throws kInput, beginning
+// with `context`, like require_valid().
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
                                             RoughnessEncoding width, InstructionSet set,
                                             const std::string& context);
 
-// As make_workflow_converter() without BRDF, from a metallic workflow whose dielectrics have an F0 for each
-// texel: kSpecular of the source (KHR_materials_specular). The F0 of `stages.source` does not count; diffuse
-// is what max(F0) leaves.
+// Works like make_workflow_converter() without BRDF, from a metallic workflow with an F0 for the dielectrics
+// of each texel: kSpecular of the source (KHR_materials_specular). It ignores the F0 of `stages.source`.
+// Diffuse is scaled by 1 - max(F0).
 std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stages, InstructionSet set);
 
 }  // namespace remap

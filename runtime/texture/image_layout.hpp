@@ -1,4 +1,4 @@
-// Layouts of images in files, and what a new image changes in that of another.
+// This file describes layouts of images in files, and how a new image may differ from its model.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Channel {
   bool operator==(const Channel&) const = default;
 };
 
-// The layout of the texels of an image in memory and in the file.
+// An ImageLayout is the layout of an image's texels in memory and in the file.
 struct ImageLayout {
   int width = 0;
   int height = 0;
@@ -27,23 +27,23 @@ struct ImageLayout {
   int y = 0;
   std::vector<Channel> channels;
   std::size_t texel_bytes = 0;              // texels are interleaved and packed
-  int alpha_channel = -1;                   // index; -1 for none
+  int alpha_channel = -1;                   // index, or -1
   int tile_height = 0;                      // 0 for a file that is stored by rows
   std::string format;                       // name in OpenImageIO: "openexr", "tiff", "png", "jpeg", ...
   std::string lossy_compression;            // empty for a lossless file
-  bool has_compression_level = false;       // its compression takes a level
-  std::optional<Transfer> tagged_transfer;  // of colors, where the file has a tag for it
+  bool has_compression_level = false;       // the compression has a level
+  std::optional<Transfer> tagged_transfer;  // of colors, if the file has a tag for it
 
   std::size_t row_bytes() const noexcept { return static_cast<std::size_t>(width) * texel_bytes; }
 };
 
-// Whether two images have the same number of channels with the same types.
+// Returns true if two images have the same number of channels with the same types.
 inline bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) noexcept {
   return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
                     [](const Channel& x, const Channel& y) { return x.type == y.type; });
 }
 
-// A channel of rows with this layout in memory.
+// Returns a channel of rows that have this layout in memory.
 template <typename Byte>
 BasicChannelView<Byte> channel_view(Byte* texels, const ImageLayout& layout, std::size_t channel) {
   return {texels + layout.channels[channel].offset, layout.channels[channel].type,
@@ -52,10 +52,10 @@ BasicChannelView<Byte> channel_view(Byte* texels, const ImageLayout& layout, std
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;  // name and text
 
-// How a new image stores its colors, by the pixel type that it has.
+// A ColorStorage decides how a new image stores its colors, depending on its pixel type.
 struct ColorStorage {
   std::optional<Transfer> chosen;    // by the user
-  std::optional<Transfer> followed;  // by the whole numbers of the map that the colors follow
+  std::optional<Transfer> followed;  // from a map of integers that the colors follow
 
   Transfer of(PixelType type) const {
     const Transfer usual = usual_color_transfer(type);
@@ -63,13 +63,13 @@ struct ColorStorage {
   }
 };
 
-// The differences of a new image from the image that it follows.
+// An ImageChanges lists how a new image differs from the image that it follows.
 struct ImageChanges {
   std::optional<PixelType> type;                     // of all channels
   std::optional<std::vector<std::string>> channels;  // new channels, all of the type of the first old one
   std::optional<ColorStorage> colors;                // none: all channels are data
-  std::optional<int> compression_level;              // 1 (fast) to 9 (small), of a compression that takes one
-  Metadata metadata;                                 // added; TIFF and JPEG hold it in the tag Software
+  std::optional<int> compression_level;              // 1 (fast) to 9 (small), if the compression has levels
+  Metadata metadata;                                 // added; TIFF and JPEG store it in the tag Software
 };
 
 }  // namespace remap

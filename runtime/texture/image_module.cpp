@@ -1,4 +1,4 @@
-// The module that alone links OpenImageIO, as the programs load it.
+// This file loads the module of images, the only part that links OpenImageIO.
 #include <dlfcn.h>
 
 #include "core/system.hpp"
@@ -10,8 +10,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// REMAP_IMAGE_MODULE leads from the folder of the programs to the module, in the build tree as in an
-// installed one.
+// REMAP_IMAGE_MODULE is the path from the folder of the programs to the module. It is the same in the build
+// tree and after installation.
 fs::path module_file() { return (program_file().parent_path() / REMAP_IMAGE_MODULE).lexically_normal(); }
 
 }  // namespace
@@ -23,7 +23,7 @@ const ImageLibrary& load_image_library() {
   };
   if (std::error_code ignored; !fs::exists(file, ignored))
     fail("file not found; it reads and writes images (install it with the programs, by cmake --install)");
-  // Never unloaded: the objects that it makes live as long as the program likes.
+  // The module is never unloaded, because the program may keep its objects until the end.
   void* const module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (module == nullptr) {
     const char* const reason = ::dlerror();

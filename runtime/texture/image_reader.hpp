@@ -1,4 +1,4 @@
-// Reads and writes images in bands of rows, in the pixel types of the file.
+// This file reads and writes images in bands of rows, in the pixel types of the file.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@
 
 namespace remap {
 
-// A StoredImage (image_library.hpp) that can be resampled.
+// An ImageReader is a StoredImage (image_library.hpp) that can be resampled.
 class ImageReader {
  public:
-  // Loads the module of images, but not for what cannot be an image file.
+  // Loads the module of images, except for paths that cannot be image files.
   explicit ImageReader(const std::filesystem::path& path, int part = 0);
-  // A part of a file that is open, for example for another part.
+  // Opens a part of an open file.
   ImageReader(std::shared_ptr<const InputFile> file, int part);
 
   const std::shared_ptr<const InputFile>& file() const noexcept { return file_; }
@@ -35,8 +35,8 @@ class ImageReader {
   }
   const StoredImage& stored() const noexcept { return *image_; }
 
-  // Makes layout() and read_rows() return the picture at this size, as floats; an image that follows this one
-  // gets the size, too. `width` and `height` are at least those of the file; `transfers` has the curve of
+  // Makes layout() and read_rows() return the picture at this size, as floats. An image that follows this one
+  // gets the size, too. `width` and `height` are at least the size in the file; `transfers` has the curve of
   // each channel. Throws kInput for a picture with mip levels or with a data window other than its display
   // window.
   void resample(int width, int height, const std::vector<Transfer>& transfers);

@@ -1,4 +1,4 @@
-// The arrangement of results in files.
+// This file describes the arrangement of results in files.
 #pragma once
 
 #include <optional>
@@ -15,64 +15,64 @@
 
 namespace remap {
 
-// A parameter that a conversion makes or takes along, in one channel or, of a color, in three.
+// A LayoutParameter is a parameter that a conversion makes or passes through, in one channel or three.
 struct LayoutParameter {
   Parameter parameter = Parameter::kRoughness;
-  std::optional<RoughnessEncoding> width;  // of kRoughness: roughness or glossiness
+  std::optional<RoughnessEncoding> width;  // for kRoughness: roughness or glossiness
 };
-// A parameter that is never converted (`occlusion`).
+// A LayoutCarried is a parameter that is never converted (`occlusion`).
 struct LayoutCarried {
   std::string name;
-  float otherwise = 1.0f;  // stored where the set does not have it
+  float otherwise = 1.0f;  // stored if the set lacks the parameter
 };
-// Roughness, metallic, ..., occlusion, or a stored value from 0 to 1.
+// A LayoutContent is roughness, metallic, ..., occlusion, or a stored value from 0 to 1.
 using LayoutContent = std::variant<LayoutParameter, LayoutCarried, float>;
 
 struct LayoutFile {
-  std::string name;  // without extension; `*` stands for the name of the set, which comes first without it
+  std::string name;                    // without extension; `*` is the set's name, otherwise put in front
   std::vector<LayoutContent> content;  // of 1, 3 or 4 channels
 };
 
 struct Layout {
   std::string name;
   bool keeps_names = false;       // each map with a converted channel keeps its name
-  std::vector<LayoutFile> files;  // other results have a file each, named as the parameter
+  std::vector<LayoutFile> files;  // other results have one file each, named after the parameter
 
-  // The encoding of the roughness in its files; none if roughness has a separate file.
+  // Returns the encoding of the roughness in its files, or nothing if roughness has a separate file.
   std::optional<RoughnessEncoding> width() const;
-  // The file with `parameter`; null for none.
+  // Returns the file with `parameter`, or null.
   const LayoutFile* file_with(Parameter parameter) const;
-  // Whether a file has a channel for a parameter that is carried, such as `occlusion` or `metallic`.
+  // Returns true if a file has a channel for a carried parameter, such as `occlusion` or `metallic`.
   bool has_place_for(std::string_view carried) const;
   bool operator==(const Layout& other) const { return name == other.name; }
 };
 
-// Each map with a converted channel keeps its name.
+// Returns the layout in which each map with a converted channel keeps its name.
 Layout as_inputs();
-// One file each for roughness, colors and carried parameters.
+// Returns the layout with one file each for roughness, colors and carried parameters.
 Layout separate();
 
-// A layout with a name. That of an engine or tool has the maps that it reads, by its documentation
-// (docs/presets.md has the links).
+// A NamedLayout is a layout with a name. If it belongs to an engine or tool, it has the maps that the tool
+// reads by its documentation (docs/presets.md has the links).
 struct NamedLayout {
   std::string_view name;
-  std::string_view words;   // of `--to` that mean it; `--to gltf` means the material alone
+  std::string_view words;   // words of `--to` that mean it; `--to gltf` means only the material
   std::string_view files;   // as layout_from() reads it; empty: separate
-  std::string_view format;  // extension; empty for a layout of no engine, and as the inputs
+  std::string_view format;  // extension; empty for as-inputs and for layouts without an engine
   std::optional<PixelType> type;
-  std::optional<NormalGreen> normals;  // how it reads green of normal maps, where its documentation says so
+  std::optional<NormalGreen> normals;  // its convention for green of normal maps, if documented
 };
-// `as-inputs`, `separate`, `orm`, `arm`, `specgloss`; and those of engines: `gltf`, `unity`, `unreal`, ...
+// Returns `as-inputs`, `separate`, `orm`, `arm`, `specgloss`, and engines: `gltf`, `unity`, `unreal`, ...
 std::span<const NamedLayout> named_layouts();
 std::span<const NamedLayout> engine_layouts();
-// The layout of the engine with that name, or that a word of `--to` means; null for none.
+// Returns the engine's layout for a name or for a word of `--to`, or null.
 const NamedLayout* engine_layout(std::string_view name);
 const NamedLayout* engine_layout_of(std::string_view word);
 
-// A layout by its name, or in words: `MaskMap=metallic,occlusion,0,smoothness; Albedo=base_color`
-// lists files and, by channel, what they hold: roughness, glossiness or smoothness, metallic, occlusion,
-// specular, diffuse or base_color (three channels each), or a number from 0 to 1. Throws kUsage, naming
-// `option`, for unknown words and other numbers of channels than 1, 3 and 4.
+// Reads a layout by its name, or in words: `MaskMap=metallic,occlusion,0,smoothness; Albedo=base_color` lists
+// files and the content of each channel. The content is roughness, glossiness or smoothness, metallic,
+// occlusion, specular, diffuse or base_color (three channels each), or a number from 0 to 1. Throws kUsage,
+// with `option`, for unknown words and for other numbers of channels than 1, 3 and 4.
 Layout layout_from(const std::string& option, const std::string& text);
 
 }  // namespace remap

@@ -14,10 +14,9 @@ namespace {
 constexpr int kBands = 16, kTexelsARow = 256;
 constexpr std::size_t kEstimatedTexels = 2048;
 
-// One row of every map, as stored.
 using StoredRows = std::map<std::size_t, std::vector<std::byte>>;
 
-// Every `step`-th value of a channel.
+// Returns every `step`-th value of a channel.
 std::vector<float> values_of(const TextureSet& set, const StoredRows& rows, const ChannelPlace& place,
                              int step) {
   const ImageLayout& layout = set.maps[place.map].layout();

@@ -1,4 +1,4 @@
-// Samples the maps of a material before the conversion: conventions that no file states.
+// This file samples the maps of a material before the conversion, to find conventions that no file states.
 #pragma once
 
 #include <map>
@@ -11,8 +11,8 @@
 
 namespace remap {
 
-// Covered texels of a grid over the whole picture. Each parameter has one or three rows of linear values,
-// with factors applied; the roughness is in the encoding of the maps.
+// A MaterialSample holds covered texels of a grid over the whole picture. Each parameter has one or three
+// rows of linear values, with factors applied. The roughness is in the encoding of the maps.
 struct MaterialSample {
   std::size_t texel_count = 0;
   std::map<Parameter, std::vector<std::vector<float>>> rows;
@@ -21,8 +21,8 @@ struct MaterialSample {
 // Samples about 4000 texels in 16 bands of rows. Each map is read once, up to the last band.
 MaterialSample sample_materials(TextureSet& set);
 
-// The F0 of the dielectrics after `stages.brdf`, for `stages` from a specular to a metallic workflow. `width`
-// is the encoding of the sampled roughness. None if no texel allows an estimate.
+// Estimates the F0 of the dielectrics after `stages.brdf`, for `stages` from a specular to a metallic
+// workflow. `width` is the encoding of the sampled roughness. Returns nothing if no texel allows an estimate.
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
                                          RoughnessEncoding width);
 

@@ -1,4 +1,4 @@
-// The images of a program that is built without any (REMAP_BUILD_IMAGES).
+// This file replaces the images in a program that is built without them (REMAP_BUILD_IMAGES).
 #include "remap/error.hpp"
 #include "texture/image_library.hpp"
 

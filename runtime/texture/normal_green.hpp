@@ -1,5 +1,5 @@
-// Green of normal maps: whether it points up (OpenGL) or down (DirectX) by the name of a map, and copies with
-// green turned.
+// This file handles green of normal maps. It reads from a map's name whether green points up (OpenGL) or down
+// (DirectX), and makes copies with inverted green.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,18 @@ namespace remap {
 
 enum class NormalGreen { kUp, kDown };
 
-// What the name of a normal map says, and the name of the same map with green turned: `wood_nor_gl_4k.png`
-// and `wood_nor_dx_4k.png`.
+// A StatedGreen is the direction in the name of a normal map, and the name of the same map with inverted
+// green: `wood_nor_gl_4k.png` and `wood_nor_dx_4k.png`.
 struct StatedGreen {
   NormalGreen green = NormalGreen::kUp;
   std::string turned_name;
 };
-// Returns none if the name has none of the words OpenGL, DirectX, GL and DX.
+// Returns nothing if the name has none of the words OpenGL, DirectX, GL and DX.
 std::optional<StatedGreen> stated_green(const std::string& name);
 
-// A finished copy, not yet under its name `to`, whose green is 1 - green; -green where values have a sign.
-// All else is that of `from`. Throws kInput if `from` cannot be read or has no green, kOutput if the copy
-// cannot be written.
+// Returns a finished copy with green replaced by 1 - green, or by -green if values have a sign. It does not
+// yet have its name `to`. Everything else is copied from `from`. Throws kInput if `from` cannot be read or
+// has no green, and kOutput if the copy cannot be written.
 std::unique_ptr<NewImage> turned_copy(const std::shared_ptr<const InputFile>& from,
                                       const std::filesystem::path& to);
 

@@ -1,4 +1,4 @@
-// Enlarges an image while its rows are read.
+// This file enlarges an image while its rows are read.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@
 
 namespace remap {
 
-// Interpolates bilinearly between texel centers and extends the edge beyond the outermost ones. Values with a
-// transfer curve are interpolated as linear light. Holds the stored rows of one band.
+// ResampledRows interpolates bilinearly between texel centers and extends the edge beyond the outermost ones.
+// Values with a transfer curve are interpolated as linear light. It holds the stored rows of one band.
 class ResampledRows {
  public:
   // Reads `count` stored rows from `first`; for tiled files with the rules of StoredImage::read_rows.
   using ReadStored = std::function<void(int first, int count, std::byte* texels)>;
 
-  // `stored` is the layout in the file; `width` and `height` are at least those of the file; `transfers` has
-  // one curve per channel.
+  // `stored` is the layout in the file. `width` and `height` are at least the size in the file. `transfers`
+  // has one curve per channel.
   ResampledRows(const ImageLayout& stored, int width, int height, std::vector<Transfer> transfers);
 
-  // The layout of the resampled rows: floats in the encoding of the file.
+  // Returns the layout of the resampled rows: floats in the encoding of the file.
   const ImageLayout& layout() const noexcept { return layout_; }
   const ImageLayout& stored() const noexcept { return stored_; }
 
@@ -29,12 +29,12 @@ class ResampledRows {
   void read(int first_row, int row_count, std::byte* texels, const ReadStored& read_stored);
 
  private:
-  // A position between texels `first` and `second`; `weight` belongs to the second.
+  // A Place is a position between texels `first` and `second`; `weight` belongs to the second.
   struct Place {
     std::size_t first, second;
     float weight;
   };
-  // A stored row as floats, channel by channel.
+  // A FloatRow is a stored row as floats, channel by channel.
   struct FloatRow {
     int number = -1;
     std::vector<float> values;
@@ -52,7 +52,7 @@ class ResampledRows {
   std::vector<std::byte> held_;  // stored rows [held_begin_, held_end_)
   int held_begin_ = 0;
   int held_end_ = 0;
-  FloatRow rows_[2];  // one even and one odd row: two neighbours
+  FloatRow rows_[2];  // one even and one odd row, which are neighbours
   std::vector<float> blended_;
 };
 

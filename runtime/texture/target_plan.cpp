@@ -14,7 +14,7 @@
 namespace remap {
 namespace fs = std::filesystem;
 
-// PNG is lossless and has more than 8 bits.
+// Returns PNG for WebP inputs, because PNG is lossless and has more than 8 bits.
 std::string written_extension(const fs::path& input) {
   const std::string extension = input.extension().string();
   return extension == ".webp" ? ".png" : extension;
@@ -93,7 +93,7 @@ ImageChanges changes_of(const TargetChoice& choice) {
 
 const std::vector<std::string> kGrey = {"Y"}, kColor = {"R", "G", "B"}, kColorAndAlpha = {"R", "G", "B", "A"};
 
-// The name of a result: `pattern` with the name of the set for `*`, or after it.
+// Returns the name of a result. The set's name replaces `*` in `pattern`, or comes first.
 std::string named(const std::string& pattern, const ResultNames& names) {
   const std::size_t star = pattern.find('*');
   if (star == std::string::npos)
@@ -112,7 +112,7 @@ std::string own_name(const std::string& name, bool is_grey, const TextureSet& se
   return name + extension;
 }
 
-// The first color that is converted into one of the channels.
+// Returns the first color that is converted into one of the channels.
 std::optional<Parameter> color_of(const std::vector<TargetChannel>& channels) {
   for (const TargetChannel& channel : channels)
     if (const auto* converted = std::get_if<ConvertedChannel>(&channel);
@@ -121,7 +121,7 @@ std::optional<Parameter> color_of(const std::vector<TargetChannel>& channels) {
   return std::nullopt;
 }
 
-// The parameter whose file a result follows: the same parameter, or a color that it is made from.
+// Returns the parameter whose file a result follows: the same parameter, or a color that it is made from.
 const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
   if (const SetParameter* own = set.map_of(parameter)) return own;
   for (const Parameter other : {Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kSpecular})
@@ -129,7 +129,7 @@ const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
   return nullptr;
 }
 
-// Colors in whole numbers follow the map that they are made from.
+// Returns how a color is stored. Colors in integers follow the map that they are made from.
 ColorStorage color_storage(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   ColorStorage storage;
   if (const auto chosen = choice.color_transfers.find(parameter); chosen != choice.color_transfers.end())
@@ -139,7 +139,7 @@ ColorStorage color_storage(const TextureSet& set, Parameter parameter, const Tar
   return storage;
 }
 
-// A new map, for a parameter that is a constant in the set or is in another file there.
+// Returns a new map, for a parameter that is a constant in the set or is in another file there.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
   TargetPart part{set.first_map(), changes_of(choice), std::move(channels)};
@@ -147,7 +147,7 @@ PlannedMap new_map(const std::string& name, const std::vector<std::string>& chan
   return {choice.folder / own_name(name, channel_names.size() == 1, set, choice), {part}};
 }
 
-// Three channels, or one if the color is grey in the set and stays grey.
+// Returns three channels, or one if the color is grey in the set and stays grey.
 std::vector<TargetChannel> color_channels(const TextureSet& set, Parameter parameter,
                                           const TargetChoice& choice) {
   const auto found = set.parameters.find(parameter);
@@ -178,7 +178,7 @@ TargetChannel carried_channel(const SetParameter& parameter) {
   return parameter.constants.front();
 }
 
-// The channels of a map that is one parameter, or a constant in its place.
+// Returns the channels that hold one parameter, or a constant if the parameter is missing.
 std::vector<TargetChannel> channels_of(const LayoutContent& content, const TextureSet& set,
                                        const TargetChoice& choice) {
   if (const auto* number = std::get_if<float>(&content)) return {*number};
@@ -197,7 +197,7 @@ std::vector<TargetChannel> channels_of(const LayoutContent& content, const Textu
   return channels;
 }
 
-// Returns whether a file of the layout has any value of the material. Nobody needs the other files.
+// Returns true if a file of the layout has any value of the material. Nobody needs the other files.
 bool holds_something(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
   return std::ranges::any_of(file.content, [&](const LayoutContent& content) {
     if (const auto* own = std::get_if<LayoutParameter>(&content)) return is_wanted(choice, own->parameter);
@@ -208,7 +208,7 @@ bool holds_something(const LayoutFile& file, const TextureSet& set, const Target
   });
 }
 
-// Channels without a meaning have no place in layouts that name their files.
+// Reports channels without a meaning, because they have no place in layouts that name their files.
 std::vector<std::string> unplaced(const TextureSet& set) {
   std::vector<std::string> messages;
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
@@ -226,7 +226,7 @@ std::vector<std::string> unplaced(const TextureSet& set) {
   return messages;
 }
 
-// The maps of the set that are parts of the file of `first`, in the order of the file.
+// Returns the maps of the set that are parts of the file of `first`, in the order of the file.
 std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first) {
   std::vector<std::size_t> parts;
   for (std::size_t map = 0; map < set.maps.size(); ++map)
@@ -248,14 +248,13 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bo
   plan.copies.push_back({source, path, {}, turns_green});
 }
 
-// A file that holds one parameter.
 PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   if (is_color(parameter)) return color_map(set, parameter, choice);
   return new_map(file_name(parameter, choice, choice.names), kGrey, {ConvertedChannel{parameter}}, set,
                  choice);
 }
 
-// The color of a file with one grey channel and nothing else, if the result must have three channels.
+// Returns the color of a file with one grey channel and nothing else, if the result must have three channels.
 std::optional<Parameter> grey_alone(const PlannedMap& planned, const TargetChoice& choice) {
   if (choice.colors_stay_grey || planned.parts.size() != 1) return std::nullopt;
   const std::vector<TargetChannel>& channels = planned.parts.front().channels;
@@ -328,7 +327,6 @@ void require_held(const TargetChoice& choice) {
                                          " (a channel would be empty)");
 }
 
-// The file of a layout.
 PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
   if (file.content.size() == 1)
     if (const auto* own = std::get_if<LayoutParameter>(&file.content.front()))
@@ -342,7 +340,7 @@ PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const Targe
   return new_map(named(file.name, choice.names), names, std::move(channels), set, choice);
 }
 
-// The files of the layout, then one for each parameter that has no place in them.
+// Returns the files of the layout, then one file for each parameter that has no place in them.
 std::vector<PlannedMap> layout_maps(const TextureSet& set, const TargetChoice& choice) {
   require_held(choice);
   std::vector<PlannedMap> all;
@@ -370,7 +368,7 @@ std::string diagnosis_name(const TargetChannel& diagnosis, const ResultNames& na
 
 namespace {
 
-// The place whose stored values a channel repeats.
+// Returns the place whose stored values a channel repeats.
 std::optional<ChannelPlace> repeated_place(const TextureSet& set, const TargetChannel& channel,
                                            const TargetChoice& choice) {
   if (const auto* place = std::get_if<ChannelPlace>(&channel)) return *place;
@@ -384,7 +382,7 @@ std::optional<ChannelPlace> repeated_place(const TextureSet& set, const TargetCh
   return own->channels[made->index];
 }
 
-// The file that a result would repeat, channel by channel, in the same type and format.
+// Returns the file that a result would repeat, channel by channel, in the same type and format.
 std::optional<fs::path> repeated_file(const TextureSet& set, const PlannedMap& planned,
                                       const TargetChoice& choice) {
   if (planned.parts.size() != 1) return std::nullopt;

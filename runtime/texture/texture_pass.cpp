@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-// EXR compresses 1, 16 or 32 rows together (256 for dwab). Bands do not split such groups.
+// EXR compresses 1, 16 or 32 rows together (256 for dwab). Bands must not split such groups.
 constexpr std::size_t kChunkRows = 32;
 
 // No valid image needs more for a band, but a damaged file may.
@@ -21,17 +21,17 @@ constexpr std::size_t kLargestBand = std::size_t{2} << 30;
 // Scans, filters and JPEG leave differences of up to 18 of 255 between channels of a grey map.
 constexpr float kGreyTolerance = 20.0f / 255.0f;
 
-// Rows [first_row, first_row + row_count) of every map, as stored.
+// A Band holds the rows [first_row, first_row + row_count) of every map, as stored.
 struct Band {
   int first_row = 0;
   int row_count = 0;
   std::vector<std::vector<std::byte>> maps;
 };
 
-// The channel of the set that a channel copies; null if it does not.
+// Returns the channel of the set that a channel copies, or null.
 const ChannelPlace* copied(const TargetChannel& channel) { return std::get_if<ChannelPlace>(&channel); }
 
-// A part of a file, with its writer.
+// A Target is a part of a file, with its writer.
 struct Target {
   NewImage* writer = nullptr;
   const TargetPart* part = nullptr;
@@ -43,7 +43,6 @@ bool converts(const std::vector<Target>& targets) {
   });
 }
 
-// The maps that the targets need.
 std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Target>& targets) {
   std::set<std::size_t> maps;
   if (converts(targets)) maps = set.maps_of_material();
@@ -53,8 +52,8 @@ std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Ta
   return {maps.begin(), maps.end()};
 }
 
-// Parts that are written together. All files of one part form one round; of files with several parts, each
-// part is a round, because parts must be written in order.
+// A Round is the parts that are written together. All files of one part form one round. Each part of a file
+// with several parts is a separate round, because parts must be written in order.
 struct Round {
   Round(const TextureSet& set, std::vector<Target> written, int number)
       : targets(std::move(written)),
@@ -81,17 +80,17 @@ std::vector<Round> rounds_of(const TextureSet& set, std::vector<TargetMap>& targ
   return rounds;
 }
 
-// One mip level of a round.
+// A Pass converts one mip level of a round.
 class Pass {
  public:
   Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options);
-  // Called after each band with the number of finished rows.
+  // Progress is called after each band with the number of finished rows.
   using Progress = std::function<void(int)>;
   MapStatistics run(const Progress& progress);  // reads the next band while one is converted
 
  private:
-  // Index of the input band that can be overwritten in place, because `target` copies its other channels; -1
-  // if none.
+  // Returns the index of the input band that can be overwritten in place, because `target` copies its other
+  // channels. Returns -1 if there is none.
   int map_in_place(const Target& target) const;
   int rows_of_a_band() const;
   void stop_if_cancelled() const;
@@ -311,7 +310,7 @@ MapStatistics Pass::convert(Band& band) {
   return statistics;
 }
 
-// The number of mip levels of the files of a round. Throws if one of their maps has another number.
+// Returns the number of mip levels of the files of a round. Throws if one of their maps has another number.
 int level_count(const TextureSet& set, const Round& round) {
   int levels = 0;
   for (const Target& target : round.targets)
@@ -346,7 +345,7 @@ MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
         if (options.progress)
           options.progress((static_cast<double>(i) + of_round) / static_cast<double>(rounds.size()));
       });
-      // The texels of the full picture count once, however many files they go to.
+      // Count the texels of the full picture once, even if several files hold them.
       if (level == 0 && statistics.texel_count == 0) statistics = plane;
     }
   }

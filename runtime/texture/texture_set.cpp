@@ -28,10 +28,10 @@ std::string listed(std::span<const std::string> names) {
   return text;
 }
 
-// The size from which a remark is made about an image that cannot be streamed.
+// From this size on, remarks mention an image that cannot be streamed.
 constexpr std::size_t kWholeImageWorthSaying = std::size_t{64} << 20;
 
-// Returns none if one of the parts is not a number.
+// Returns nothing if one of the parts is not a number.
 std::optional<std::vector<float>> numbers(std::string_view text) {
   std::vector<float> values;
   for (const std::string& part : parts_between(text, ',')) {
@@ -64,7 +64,7 @@ std::optional<std::size_t> find_channel(const ImageLayout& layout, std::string_v
   return static_cast<std::size_t>(found - layout.channels.begin());
 }
 
-// Finds a channel by its name, or by the names of its part and itself: `base.R`.
+// Finds a channel by its name, or by its part's name and its own: `base.R`.
 std::optional<std::size_t> find_channel(const ImageReader& reader, std::string_view name) {
   const std::string part = reader.part_name() + ".";
   if (const auto found = find_channel(reader.layout(), name)) return found;
@@ -73,7 +73,7 @@ std::optional<std::size_t> find_channel(const ImageReader& reader, std::string_v
   return find_channel(reader.layout(), name.substr(part.size()));
 }
 
-// R, G and B, or Y, or the only channel except alpha; empty if the file has none of these.
+// Returns R, G and B, or Y, or the only channel except alpha. Returns nothing if the file has none of these.
 std::vector<std::size_t> color_channels(const ImageLayout& layout) {
   const auto red = find_channel(layout, "R"), green = find_channel(layout, "G"),
              blue = find_channel(layout, "B");
@@ -84,7 +84,7 @@ std::vector<std::size_t> color_channels(const ImageLayout& layout) {
   return {layout.alpha_channel == 0 && has_alpha ? std::size_t{1} : std::size_t{0}};
 }
 
-// The words that layers of a parameter have in their names.
+// Returns words that occur in the names of a parameter's layers.
 const std::vector<std::string_view>& layer_words(Parameter parameter) {
   static const std::map<Parameter, std::vector<std::string_view>> kWords = {
       {Parameter::kRoughness, {"rough", "gloss", "smooth"}},
@@ -97,8 +97,8 @@ const std::vector<std::string_view>& layer_words(Parameter parameter) {
   return found == kWords.end() ? kNone : found->second;
 }
 
-// The color channels of a layer: those of names such as `ViewLayer.Combined.R`, without the last word. Of
-// several layers the one counts whose name has a word of the parameter. Empty for none, or several.
+// Returns the color channels of a layer, such as `ViewLayer.Combined.R` without the last word. If there are
+// several layers, the name must have a word of the parameter. Returns nothing unless one layer fits.
 std::vector<std::size_t> layer_channels(const ImageLayout& layout, std::optional<Parameter> parameter) {
   std::map<std::string, ImageLayout> layers;
   std::map<std::string, std::vector<std::size_t>> places;
@@ -130,7 +130,7 @@ std::vector<std::size_t> layer_channels(const ImageLayout& layout, std::optional
   return found.size() == 1 ? found.front() : std::vector<std::size_t>{};
 }
 
-// Empty if the part lacks one of them.
+// Returns nothing if the part lacks one of the channels.
 std::vector<std::size_t> named_channels(const ImageReader& reader, const std::vector<std::string>& asked) {
   std::vector<std::size_t> channels;
   for (const std::string& name : asked) {
@@ -155,7 +155,7 @@ void require_same_texels(const ImageReader& first, const ImageReader& other) {
                                      first.path().string() + " (" + window_text(a) + "); use --resample");
 }
 
-// The parameters that are maps.
+// Returns the parameters that are maps.
 std::vector<const SetParameter*> mapped_parameters(const TextureSet& set) {
   std::vector<const SetParameter*> mapped;
   const auto add = [&](const SetParameter& parameter) {
@@ -170,7 +170,7 @@ ImageReader& map_of(TextureSet& set, const SetParameter& parameter) {
   return set.maps[parameter.channels.front().map];
 }
 
-// The curve of each channel of a map: colors are interpolated as linear light.
+// Returns the curve of each channel of a map, because colors are interpolated as linear light.
 std::vector<Transfer> transfers_of(const TextureSet& set, std::size_t map) {
   std::vector<Transfer> transfers(set.maps[map].layout().channels.size(), Transfer::kLinear);
   for (const auto& [parameter, values] : set.parameters)
@@ -193,7 +193,7 @@ void resample_to_largest(TextureSet& set) {
   }
 }
 
-// The indices of the parts of a file among the maps of the set. Opens the file if it is not in the set yet.
+// Returns the indices of the parts of a file among the maps of the set. Opens the file if the set lacks it.
 std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
   std::vector<std::size_t> parts;
   for (std::size_t i = 0; i < set.maps.size(); ++i)
@@ -220,7 +220,7 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
                                      expected + " (choose with FILE:CHANNEL)");
 }
 
-// The named channels, or the color channels, in the only part of the file that has them.
+// Finds the named channels, or the color channels, in the only part of the file that has them.
 std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Parameter> parameter,
                                         const std::string& expected, TextureSet& set) {
   const std::vector<std::size_t> parts = open_file(name.file, set);
@@ -243,7 +243,7 @@ std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Param
                                      "FILE:PART.R,PART.G,PART.B)");
 }
 
-// The user's word comes before the tag of the file, which speaks of whole numbers alone.
+// The user's word overrides the tag of the file, which only concerns integers.
 void choose_transfer(const TextureSet& set, std::optional<Transfer> asked, SetParameter& color) {
   const ChannelPlace first = color.channels.front();
   const ImageLayout& layout = set.maps[first.map].layout();
@@ -293,7 +293,7 @@ std::optional<ChannelPlace> find_coverage(const TextureSet& set) {
   return std::nullopt;
 }
 
-// `--roughness, --specular`.
+// Returns a text such as `--roughness, --specular`.
 std::string listed_options(const TextureSet& set) {
   std::vector<std::string> options;
   for (const auto& [parameter, values] : set.parameters) options.push_back(parameter_option(parameter));

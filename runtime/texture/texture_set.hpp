@@ -1,4 +1,4 @@
-// The maps of one material: which channels of which files hold the parameters of a converter.
+// This file describes the maps of one material: which channels of files hold a converter's parameters.
 #pragma once
 
 #include <cstddef>
@@ -18,63 +18,61 @@
 
 namespace remap {
 
-// Linear values in place of a map: one, or one each for red, green and blue.
+// A ConstantValues holds linear values instead of a map: one, or one each for red, green and blue.
 using ConstantValues = std::vector<float>;
 
-// A file and names of its channels; without names, the color channels or the only channel.
+// A MapName is a file and names of its channels. Without names: the color channels or the only channel.
 struct MapName {
   std::filesystem::path file;
   std::vector<std::string> channels;
 };
 
-// One requested parameter.
 struct ParameterRequest {
   std::variant<MapName, ConstantValues> source;
-  std::vector<float> factors;        // of the linear values: none, one, or one per channel
-  std::optional<Transfer> transfer;  // of a color; by default as the file says, else the usual one
-  std::string one_channel = {};      // the option that takes one channel of the map, for messages
+  std::vector<float> factors;        // for the linear values: none, one, or one per channel
+  std::optional<Transfer> transfer;  // of a color; by default from the file, otherwise the usual one
+  std::string one_channel = {};      // the option for one channel of the map, for messages
 };
 
-// Parses the value of an option: `0.5` and `0.9,0.6,0.2` are constants; `maps.png:G` and `maps.exr:R,G,B`
-// name channels of a file, unless a file with this whole name exists; any other text is a file. Throws
-// kUsage, naming `option`, for other than one or three numbers, for a negative or infinite number, and for a
+// Parses the value of an option. `0.5` and `0.9,0.6,0.2` are constants. `maps.png:G` and `maps.exr:R,G,B`
+// name channels of a file, unless a file with this whole name exists. Any other text is a file. Throws
+// kUsage, with `option`, for other than one or three numbers, for a negative or infinite number, and for a
 // percentage.
 std::variant<MapName, ConstantValues> parameter_source(std::string_view option, std::string_view text);
 
-// Parses one or three finite factors from 0; throws as above.
+// Parses one or three finite factors of at least 0. Throws like parameter_source().
 std::vector<float> parse_factors(std::string_view option, std::string_view text);
 
-// A parameter that is not converted but has a place in a layout.
+// A CarriedRequest is a parameter that is not converted but has a place in a layout.
 struct CarriedRequest {
-  std::string name;  // `occlusion`, `metallic`
+  std::string name;  // such as `occlusion` or `metallic`
   ParameterRequest parameter;
 };
 
 struct TextureSetRequest {
   std::map<Parameter, ParameterRequest> parameters;
   std::vector<CarriedRequest> carried;          // one channel each
-  std::optional<RoughnessEncoding> convention;  // of the roughness map; by default that of the model
+  std::optional<RoughnessEncoding> convention;  // of the roughness map; by default the model's own
   bool resample = false;                        // enlarge maps to the largest width and height among them
 };
 
-// The place of a channel in the set.
 struct ChannelPlace {
   std::size_t map = 0;
   std::size_t channel = 0;  // index into the channels of its layout
   bool operator==(const ChannelPlace&) const = default;
 };
 
-// The origin of the transfer curve of a color.
+// A TransferReason is the origin of a color's transfer curve.
 enum class TransferReason {
-  kUsual,  // nobody: usual_color_transfer()
+  kUsual,  // no file and no user: usual_color_transfer()
   kFile,
   kUser,
 };
 
-// One parameter of an open set.
+// A SetParameter is one parameter of an open set.
 struct SetParameter : ParameterValues {
-  // Empty for a constant. Several channels of a parameter other than a color are nearly equal, and the first,
-  // which is green, holds its value.
+  // Empty for a constant. If a parameter other than a color has several channels, they are nearly equal, and
+  // the first, which is green, holds its value.
   std::vector<ChannelPlace> channels;
   TransferReason transfer_reason = TransferReason::kUsual;
   bool is_whole_numbers = false;  // the file holds integers
@@ -89,41 +87,41 @@ struct CarriedParameter {
   SetParameter parameter;  // one channel or one constant
 };
 
-// An open set. Each texel has one value of each parameter, colors one or three. A map is one part of a file.
-// The set has all parts of its files; parts without a parameter may have any size. A file that is named twice
-// is opened once. At least one parameter is a map.
+// A TextureSet is an open set. Each texel has one value of each parameter, colors one or three. A map is one
+// part of a file. The set has all parts of its files; parts without a parameter may have any size. A file
+// that is named twice is opened once. At least one parameter is a map.
 struct TextureSet {
   std::vector<ImageReader> maps;
   std::map<Parameter, SetParameter> parameters;
   std::vector<CarriedParameter> carried;
-  // Opacity: the alpha of the file of diffuse or base color, if it is not used as a parameter.
+  // This is the opacity: the alpha of the file of diffuse or base color, if no parameter uses it.
   std::optional<ChannelPlace> coverage;
   std::optional<RoughnessEncoding> convention;
 
-  // Null if the parameter is missing or a constant.
+  // Returns null if the parameter is missing or a constant.
   const SetParameter* map_of(Parameter parameter) const {
     const auto found = parameters.find(parameter);
     return found == parameters.end() || !found->second.is_map() ? nullptr : &found->second;
   }
-  // Whether a parameter, carried ones included, has this channel.
+  // Returns true if a parameter, even a carried one, has this channel.
   bool holds(const ChannelPlace& place) const;
-  // The maps with channels of parameters or coverage.
+  // Returns the maps with channels of parameters or coverage.
   std::set<std::size_t> maps_of_material() const;
-  // The map of the first parameter that has one. It has the size of the set. Throws kUsage if no parameter is
-  // a map.
+  // Returns the map of the first parameter that has one. It has the size of the set. Throws kUsage if no
+  // parameter is a map.
   std::size_t first_map() const;
 };
 
 // Opens the files and finds the channels. Throws kInput if a file cannot be read, if a channel is missing, or
-// if two maps differ in size and `resample` is not set; kUsage for an unknown channel name and if no
+// if two maps differ in size and `resample` is not set. Throws kUsage for an unknown channel name and if no
 // parameter is a map.
 TextureSet open_texture_set(const TextureSetRequest& request);
 
-// Integers store 0 to 1, but exponents are larger. Throws kInput if the roughness map holds integers, is read
-// as an exponent (`width`), and has no factor.
+// Throws kInput if the roughness map holds integers, is read as an exponent (`width`), and has no factor.
+// Integers store 0 to 1, but exponents are larger.
 void require_scale(const TextureSet& set, RoughnessEncoding width);
 
-// Warnings about the set, one message each.
+// Returns warnings about the set, one message each.
 std::vector<std::string> remarks(const TextureSet& set);
 
 }  // namespace remap

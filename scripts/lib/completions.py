@@ -5,7 +5,7 @@ What follows an option is one of: its choices, a name that the program lists, fi
 import re
 
 FILES = re.compile(r"FILE|FOLDER|DIR|MAP|PATH|IMAGE|MASK|\bOUT\b")
-# Shell commands that print what a value or an argument may be.
+# These shell commands print the possible values of an option or an argument.
 LISTED = {"MODEL": "{program} list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p'",
           "fit": "{program} list 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p'"}
 LISTED_ARGUMENTS = {"fit": "fit", "fits": "fit", "steps": "fit"}

@@ -1,7 +1,8 @@
-# To be sourced by scripts/package: the hashes of bits, and tests, by other compilers and on other machines.
+# scripts/package sources this file. It compares the hashes of bits, and runs tests, with other compilers and on other
+# machines.
 
-# What a variant cannot be built with is a reason to skip it. Debian's package of libc++ is never installed: it replaces a library that
-# the whole build needs. It is unpacked into a folder of the build.
+# Skips a variant if its tools are missing. Debian's package of libc++ is never installed, because it replaces a library
+# that the whole build needs. It is unpacked into a folder of the build.
 libcxx_folder() {
   local -r folder=$PWD/build/check/libcxx
   if [[ ! -d $folder/usr ]]; then
@@ -14,7 +15,7 @@ libcxx_folder() {
   echo "$folder"
 }
 
-# build_variant NAME TARGETS OPTION...: in build/check/NAME.
+# build_variant NAME TARGETS OPTION... builds in build/check/NAME.
 build_variant() {
   local -r name=$1 targets=$2 folder=build/check/$1
   local -a options=(-DCMAKE_BUILD_TYPE=Release -DREMAP_BUILD_BITS=ON -DREMAP_BUILD_EXAMPLES=OFF -DREMAP_INSTALL=OFF "${@:3}")
@@ -24,7 +25,7 @@ build_variant() {
 
 program_of() { ls "build/check/$1/bin/$2"{,.exe} 2>/dev/null | head -n 1; }
 
-# check_bits NAME EMULATOR, check_tests NAME EMULATOR, check_commands NAME EMULATOR: what was built, run by the words of EMULATOR.
+# check_bits, check_tests and check_commands NAME EMULATOR run what was built by the words of EMULATOR.
 # shellcheck disable=SC2086 # the emulator is words
 check_bits() { tests/bits/check.bash $2 "$(program_of "$1" bits)"; }
 
@@ -49,7 +50,7 @@ check_variant() {
   return "$status"
 }
 
-# check_cross NAME COMPILER EMULATOR TARGETS OPTION...: by cmake/cross/NAME.cmake.
+# check_cross NAME COMPILER EMULATOR TARGETS OPTION... checks a variant by cmake/cross/NAME.cmake.
 check_cross() {
   local -r name=$1 compiler=$2 emulator=$3 targets=$4
   local program
@@ -63,7 +64,7 @@ check_cross() {
     -DREMAP_BUILD_MACHINE_TEST=ON "${@:5}"
 }
 
-# package_check: every variant, also after one has failed.
+# package_check checks every variant, even after one has failed.
 package_check() {
   local status=0 libcxx
   mkdir -p build/check
@@ -79,7 +80,7 @@ package_check() {
       -DCMAKE_EXE_LINKER_FLAGS="-nostdlib++ -L$lib/lib -lc++ -lc++abi" || status=1
   fi
   check_cross aarch64 aarch64-linux-gnu-g++ qemu-aarch64-static "bits machine_test" -DREMAP_BUILD_PROGRAMS=OFF || status=1
-  # Debian has wine64 in no folder of programs. What wine writes for itself, and what it says of itself, is nobody's matter.
+  # Debian has wine64 in no folder of programs. Files and messages of wine itself are discarded.
   export WINEPREFIX=$PWD/build/check/wine WINEDEBUG=-all
   local wine=wine64
   type -P wine64 >/dev/null || [[ ! -x /usr/lib/wine/wine64 ]] || wine=/usr/lib/wine/wine64

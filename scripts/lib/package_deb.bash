@@ -1,5 +1,5 @@
-# The Debian packages remap-tools, libremap-dev and remap-doc, for the Debian that this runs on. To be sourced by
-# scripts/package.
+# scripts/package sources this file. It makes the Debian packages remap-tools, libremap-dev and remap-doc, for the Debian
+# that this runs on.
 
 usage_deb() {
   cat <<'TEXT'
@@ -21,7 +21,7 @@ configure_deb() {
   local -a options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DREMAP_DEBIAN=ON -DREMAP_BUILD_TESTS=OFF
     -DREMAP_BUILD_EXAMPLES=OFF)
   [[ -z ${REMAP_MAINTAINER-} ]] || options+=("-DREMAP_MAINTAINER=$REMAP_MAINTAINER")
-  # Debian's flags map the source folder to ".". Symbols for debuggers are stripped anyway, and -O3 is kept.
+  # Debian's flags map the source folder to ".". Symbols for debuggers are stripped later, and -O3 is kept.
   export DEB_CXXFLAGS_STRIP="-g -O2"
   CXXFLAGS="$(dpkg-buildflags --get CPPFLAGS) $(dpkg-buildflags --get CXXFLAGS)" LDFLAGS=$(dpkg-buildflags --get LDFLAGS) \
     cmake -S . -B $deb_build -G Ninja "${options[@]}"

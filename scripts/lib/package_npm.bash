@@ -1,6 +1,6 @@
-# To be sourced by scripts/package: the package for node and browsers.
+# scripts/package sources this file. It makes the package for node and browsers.
 
-# package_npm [--test]: with --test it is also installed into an empty folder, and used from there.
+# package_npm [--test] makes the package. With --test it also installs it into an empty folder, and uses it from there.
 package_npm() {
   local -r folder=$repository/build/packages/npm
   case ${1-} in

@@ -1,4 +1,4 @@
-# The page for browsers. To be sourced by scripts/package.
+# scripts/package sources this file. It makes the page for browsers.
 
 usage_web() {
   cat <<'TEXT'
@@ -11,7 +11,7 @@ which is everything in one file and runs from disk. Needs emscripten and node; n
 TEXT
 }
 
-# What the page is bundled from, as web/package-lock.json pins it. No package runs a script when it is installed.
+# Installs the packages of the page, as web/package-lock.json pins them. No package runs a script during installation.
 install_modules() {
   mkdir -p build/web
   cp web/package.json web/package-lock.json build/web

@@ -1,4 +1,4 @@
-# The wheels of the Python package. To be sourced by scripts/package.
+# scripts/package sources this file. It makes the wheels of the Python package.
 
 usage_wheel() {
   cat <<'TEXT'
@@ -14,7 +14,7 @@ TEXT
 
 readonly wheel_core=build/wheel/core wheel_tools=build/wheel/tools
 
-# One Python of each version, 3.12 in place of later ones where it is there.
+# Finds one Python of each version. If 3.12 exists, it replaces later ones.
 find_pythons() {
   local version found
   for version in 3.9 3.10 3.11 3.12 3.13; do
@@ -30,7 +30,7 @@ build_core() {
   cmake -S . -B $wheel_core -G Ninja "${options[@]}" && cmake --build $wheel_core --target remap_commands
 }
 
-# make_wheel PYTHON: with the build tools in an environment of that version.
+# make_wheel PYTHON makes a wheel with the build tools in an environment of that version.
 make_wheel() {
   local -r python=$1
   local name
@@ -53,7 +53,7 @@ audit_wheels() {
   ! unzip -l build/packages/wheel/*.whl | grep -F .libs/
 }
 
-# test_wheel PYTHON: as somebody who has nothing but Python.
+# test_wheel PYTHON tests a wheel for a user who has only Python.
 test_wheel() {
   local -r python=$1
   local folder wheel tag
@@ -97,7 +97,7 @@ package_wheel() {
   rm -rf build/wheel/raw
   local python
   for python in "${pythons[@]}"; do
-    # One of 3.12 is that of 3.13 as well.
+    # The wheel of 3.12 also serves 3.13.
     [[ $python == *3.13 && " ${pythons[*]} " == *3.12* ]] || step "A wheel by $python" make_wheel "$python"
   done
   step "What the wheels need" audit_wheels

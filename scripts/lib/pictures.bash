@@ -1,9 +1,9 @@
-# Labels for pictures. To be sourced after steps.bash.
+# This file draws labels for pictures. Source it after steps.bash.
 
 readonly label_font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
 
-# label_columns PICTURE OUTPUT LABEL...: a dark strip below the picture, with a label centered under each of as many columns as
-# there are labels. `|` in a label starts a second, smaller line.
+# label_columns PICTURE OUTPUT LABEL... adds a dark strip below the picture, with one centered label per column. `|` in a
+# label starts a second, smaller line.
 label_columns() {
   local -r unlabelled=$1 labelled=$2
   shift 2
@@ -23,11 +23,12 @@ label_columns() {
   oiiotool --nosoftwareattrib "${words[@]}" -d uint8 -o "$labelled"
 }
 
-# percent_off FILE N: the Nth "rms" of a JSON report as a percentage.
+# percent_off FILE N prints the Nth "rms" of a JSON report as a percentage.
 percent_off() { LC_ALL=C printf '%.0f %% off' "$(json_number "$1" rms "$2")e2"; }
 
-# lit_spheres OUTPUT SOURCE_LABEL TARGET_LABEL REMAPC FIT PREVIEW_OPTION...: source, numbers copied and numbers converted under an
-# environment, each with its label and how far it is from the source (RMS of display values).
+# lit_spheres OUTPUT SOURCE_LABEL TARGET_LABEL REMAPC FIT PREVIEW_OPTION... draws three spheres under an environment:
+# source, numbers copied and numbers converted. Each has its label and its difference from the source (RMS of display
+# values).
 lit_spheres() {
   local -r result=$1 source_label=$2 target_label=$3 program=$4
   shift 4

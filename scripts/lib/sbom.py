@@ -72,7 +72,7 @@ def links_of(path):
         with zipfile.ZipFile(path) as wheel:
             metadata = next(name for name in wheel.namelist() if name.endswith(".dist-info/METADATA"))
             fields = Parser().parsestr(wheel.read(metadata).decode())
-        # What an extra asks for ("; extra == ...") is no part of the package.
+        # Packages of an extra ("; extra == ...") do not belong to the package.
         needed = [re.match(r"[\w.-]+", line)[0] for line in fields.get_all("Requires-Dist", []) if "extra ==" not in line]
         return [("STATIC_LINK", debian(name)) for name in IN_COMMANDS] + [("STATIC_LINK", library("pypi", "nanobind", pinned("nanobind")))] + [
             ("DEPENDS_ON", library("pypi", name, None)) for name in needed]

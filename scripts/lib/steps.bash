@@ -1,5 +1,5 @@
-# What scripts/demo, scripts/test and .ci/run share: one line a step on the terminal, everything else in a log
-# file, whose end is shown when a step fails. To be sourced.
+# scripts/demo, scripts/test and .ci/run source this file. It prints one line per step on the terminal, and writes
+# everything else to a log file. It shows the end of the log when a step fails.
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 cd "$repository"
@@ -7,7 +7,7 @@ log=/dev/null
 cmake_options=()  # of build_preset
 last_seconds=0.0
 
-# open_log NAME: from here on steps write to build/logs/NAME.log.
+# open_log NAME makes steps write to build/logs/NAME.log from here on.
 open_log() {
   log=$repository/build/logs/$1.log
   mkdir -p "${log%/*}"
@@ -16,13 +16,13 @@ open_log() {
 
 microseconds() { echo "${EPOCHREALTIME//[!0-9]/}"; }
 
-# seconds_since MICROSECONDS: with one decimal.
+# seconds_since MICROSECONDS prints seconds with one decimal.
 seconds_since() {
   local -r tenths=$((($(microseconds) - $1) / 100000))
   echo "$((tenths / 10)).$((tenths % 10))"
 }
 
-# step TITLE COMMAND [ARGUMENT...]: leaves its time in last_seconds.
+# step TITLE COMMAND [ARGUMENT...] runs a step, and leaves its time in last_seconds.
 step() {
   local -r title=$1 start=$(microseconds)
   local status=0
@@ -41,27 +41,27 @@ step() {
   return "$status"
 }
 
-# save_output FILE COMMAND...: for a step whose standard output is a result.
+# save_output FILE COMMAND... runs a step whose standard output is a result.
 save_output() {
   local -r file=$1
   shift
   "$@" >"$file"
 }
 
-# json_number FILE KEY [N]: the Nth number (default: first) of that name, where each stands on a line of its own.
+# json_number FILE KEY [N] prints the Nth number (default: first) of that name. Each must be on a separate line.
 json_number() {
   sed -n 's/.*"'"$2"'": *\(-\{0,1\}[0-9][0-9.eE+-]*\).*/\1/p' "$1" | sed -n "${3:-1}p"
 }
 
-# build_preset PRESET [TARGET...]: configures and builds; all targets when none is named.
+# build_preset PRESET [TARGET...] configures and builds. Without a target it builds all.
 build_preset() {
   local -r preset=$1
   shift
   cmake --preset "$preset" "${cmake_options[@]}" && cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
-# run_tests PRESET [CTEST_OPTION...]: shows what fails, ctest's summary and why tests were skipped. Passed and skipped
-# tests are lines in the log only.
+# run_tests PRESET [CTEST_OPTION...] shows failures, ctest's summary and why tests were skipped. Passed and skipped tests
+# are only in the log.
 run_tests() {
   local -r preset=$1 hidden='^ *(Start +[0-9]+:|[0-9]+/[0-9]+ +Test +#[0-9]+:.*( Passed |\*\*\*Skipped ))'
   local -a statuses
@@ -73,12 +73,12 @@ run_tests() {
   return "${statuses[0]}"
 }
 
-# skip_reasons CTEST_LOG: why tests were skipped, each reason with the number of tests; nothing where none was.
+# skip_reasons CTEST_LOG prints why tests were skipped, each reason with the number of tests. It prints nothing if none was.
 skip_reasons() {
   sed -n 's/^skipped: //p' "$1" | sort | uniq -c | sort -rn | sed '1i Skipped (tests, reason):'
 }
 
-# count_tests LOG: "PASSED FAILED SKIPPED" of the last run of tests in a log. No summary is one failure.
+# count_tests LOG prints "PASSED FAILED SKIPPED" of the last run of tests in a log. No summary means one failure.
 count_tests() {
   local summary
   summary=$(sed -n 's/.*tests passed, \([0-9]*\) tests failed out of \([0-9]*\)$/\1 \2/p' "$1" | tail -n 1)

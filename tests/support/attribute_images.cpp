@@ -33,7 +33,7 @@ OIIO::ImageSpec& set(OIIO::ImageSpec& spec, std::string_view attributes) {
   return spec;
 }
 
-// What a picture may say of itself in any format that lets it; Exif; IPTC.
+// These are attributes that a picture may have in any format that allows them; Exif; IPTC.
 constexpr const char* kCommon =
     "DateTime=2021:03:04 05:06:07; Orientation:int=6; XResolution:float=300; YResolution:float=150; "
     "ResolutionUnit=in; PixelAspectRatio:float=2; wrapmodes=periodic,black; fovcot:float=1.25; "
@@ -52,7 +52,7 @@ void describe(OIIO::ImageSpec& spec) {
   set(spec, kCommon);
 }
 
-// The head and one tag of an ICC profile: as small as OpenImageIO reads one.
+// Adds the head and one tag of an ICC profile, as small as OpenImageIO accepts.
 void add_profile(OIIO::ImageSpec& spec) {
   std::array<std::uint8_t, 160> bytes{};
   const auto put = [&bytes](std::size_t at, std::string_view text) {
@@ -72,13 +72,13 @@ void add_profile(OIIO::ImageSpec& spec) {
   bytes[143] = 16;   // and how long it is
   put(144, "text");
   put(152, "nobody");
-  // D50, the light that the connection space must have.
+  // Set D50, the light that the connection space must have.
   for (const auto& [at, value] : {std::pair{70, 0xf6}, {71, 0xd6}, {73, 1}, {78, 0xd3}, {79, 0x2d}})
     bytes[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(value);
   spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, bytes.size()), bytes.data());
 }
 
-// One of every type that an EXR holds, and what film scanners and renderers write.
+// Adds one attribute of every type that an EXR holds, and what film scanners and renderers write.
 void add_typed(OIIO::ImageSpec& spec) {
   using OIIO::TypeDesc;
   const auto set = [&spec](const char* name, TypeDesc type, const auto& values) {
@@ -127,11 +127,11 @@ OIIO::ImageSpec rich_spec(const std::vector<std::string>& channels, OIIO::TypeDe
   return spec;
 }
 
-// Images of one format.
+// Images collects images of one format.
 class Images {
  public:
   explicit Images(const char* extension) : extension_(extension) {}
-  // For what is special about it.
+  // Adds an image. The title names its special property.
   OIIO::ImageSpec& add(const std::string& title, const OIIO::ImageSpec& spec, bool has_levels = false) {
     images_.push_back({title, extension_, {spec}, has_levels});
     return images_.back().parts.front();
@@ -172,7 +172,7 @@ std::vector<float> noise_of(const OIIO::ImageSpec& spec, int plane) {
   return values;
 }
 
-// Halved as the rounding mode of the file says; the display window of a level is its own.
+// Returns the next level, halved by the rounding mode of the file. Each level has its own display window.
 OIIO::ImageSpec next_level(OIIO::ImageSpec spec, bool round_up) {
   spec.width = std::max((spec.width + (round_up ? 1 : 0)) / 2, 1);
   spec.height = std::max((spec.height + (round_up ? 1 : 0)) / 2, 1);
@@ -234,7 +234,7 @@ std::vector<AttributeImage> exr_structure_images() {
   set(parts[2], "view=left");
   set_window(parts[1], crop, parts[0].roi_full());
   images.add_parts("three parts", parts);
-  // OpenImageIO writes no file of which some parts are tiled and some are not.
+  // Make all parts tiled, because OpenImageIO cannot write a file with tiled and untiled parts.
   for (OIIO::ImageSpec& part : parts) part.tile_width = part.tile_height = 16;
   images.add_parts("three parts, tiled", parts);
   return images.all();

@@ -1,4 +1,4 @@
-// Images that carry as many attributes as their formats can, in every variant of each format.
+// This file makes images with as many attributes as their formats can hold, in every variant of each format.
 #pragma once
 
 #include <filesystem>
@@ -23,10 +23,11 @@ std::vector<AttributeImage> tiff_images();
 std::vector<AttributeImage> png_images();
 std::vector<AttributeImage> small_format_images();  // JPEG, Targa, BMP, Radiance
 
-// Noise in all planes. Throws std::runtime_error where OpenImageIO fails.
+// Writes noise in all planes. Throws std::runtime_error if OpenImageIO fails.
 void write_attribute_image(const std::filesystem::path& path, const AttributeImage& image);
 
-// All parts and levels as OpenImageIO describes them, and their texels as they are stored.
+// A StoredPlane describes one of all parts and levels as OpenImageIO does, with its texels as they are
+// stored.
 struct StoredPlane {
   OIIO::ImageSpec spec;
   std::vector<unsigned char> bytes;

@@ -1,4 +1,4 @@
-// What a test program does before its first case, when it has no thread, handler or open file of its own.
+// This file runs work before the first case of a test program, while it has no thread, handler or open file.
 #pragma once
 
 namespace remap {

@@ -1,4 +1,5 @@
-// For tests that train or search: how long they took, and whether this build is slow enough to do less.
+// This file serves tests that train or search. It measures their time, and detects slow builds, which do
+// less.
 #pragma once
 
 #include <ctime>
@@ -15,14 +16,14 @@
 
 namespace remap {
 
-// Under a sanitizer.
+// This build uses a sanitizer.
 #ifdef REMAP_SLOW_BUILD
 inline constexpr bool kSlowBuild = true;
 #else
 inline constexpr bool kSlowBuild = false;
 #endif
 
-// Of processor time: other programs on the machine do not count.
+// Returns processor time, because other programs on the machine must not count.
 inline double seconds_of(const std::function<void()>& work) {
   const std::clock_t start = std::clock();
   work();

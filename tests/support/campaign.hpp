@@ -1,4 +1,4 @@
-// How long a test of random cases runs.
+// This file decides how long a test of random cases runs.
 #pragma once
 
 #include <cstdlib>
@@ -14,8 +14,8 @@ inline bool is_full_campaign() {
   return length != nullptr && std::string(length) == "full";
 }
 
-// All `full` cases in a full campaign, and the first tenth of them otherwise and under a sanitizer. A test
-// that uses either function has the tag [campaign].
+// Returns all `full` cases in a full campaign. Otherwise, and under a sanitizer, it returns the first tenth.
+// A test that uses either function has the tag [campaign].
 inline int campaign_length(int full) { return is_full_campaign() && !kSlowBuild ? full : full / 10; }
 
 }  // namespace remap

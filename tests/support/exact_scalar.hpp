@@ -1,4 +1,5 @@
-// The formulas of model/evaluate.hpp in long double: eleven bits beyond what is tested against them.
+// This file evaluates the formulas of lower/evaluate.hpp in long double, eleven bits more than the code under
+// test.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// A small fit for tests that need one and do not care which.
+// This file makes a small fit for tests that need any fit.
 #pragma once
 
 #include "lower/fit.hpp"

@@ -1,7 +1,7 @@
-// A library to preload (LD_PRELOAD) over what opens files. The first FAULT_COUNT opens of names that contain
-// FAULT_NAME fail with the errno FAULT_CODE: storage that does not answer for a while. With FAULT_SIGNAL they
-// end the process by that signal instead, as a reader does that reads beyond its memory. The names of all
-// files that are opened are lines of the file OPENS_LOG.
+// This library is preloaded (LD_PRELOAD) over functions that open files. The first FAULT_COUNT opens of names
+// that contain FAULT_NAME fail with the errno FAULT_CODE, like storage that does not answer for a while. With
+// FAULT_SIGNAL they end the process by that signal instead, like an importer that reads beyond its memory.
+// The file OPENS_LOG lists the names of all opened files.
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -50,7 +50,7 @@ std::FILE* next_fopen(const char* symbol, const char* path, const char* mode) {
   return fails(path) ? nullptr : next<OpenStream>(symbol)(path, mode);
 }
 
-// The permissions of a new file, which follow the flags.
+// Returns the permissions of a new file, which follow the flags.
 unsigned mode_in(int flags, std::va_list arguments) {
   return (flags & (O_CREAT | __O_TMPFILE)) != 0 ? va_arg(arguments, unsigned) : 0;
 }

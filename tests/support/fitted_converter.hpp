@@ -1,4 +1,4 @@
-// Converters that are made from a fit: by the interpreter, in double precision, and by lowering it.
+// This file makes converters from a fit: by the interpreter, in double precision, and by lowering it.
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ inline std::unique_ptr<Converter> make_interpreted_converter(Fit fit) {
                                      StageList{std::make_shared<InterpretedStage>(std::move(fit))});
 }
 
-// The fit with its converter.
+// Returns the fit with its converter.
 inline Fit lowered_fit(Fit fit, const LoweringOptions& options = {}) {
   add_converter(&fit, options);
   return fit;

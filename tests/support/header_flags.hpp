@@ -1,4 +1,4 @@
-// The flags that generated headers are clean under.
+// Generated headers compile without warnings under these flags.
 #pragma once
 
 inline constexpr const char* kHeaderFlags =

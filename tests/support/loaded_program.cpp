@@ -12,7 +12,7 @@
 
 #include "support/before_cases.hpp"
 
-// Of the leak sanitizer, where there is one. It ends the process where it finds a leak.
+// This function belongs to the leak sanitizer, if there is one. It ends the process if it finds a leak.
 extern "C" {
 [[gnu::weak]] void __lsan_do_leak_check();
 [[gnu::weak]] void __sanitizer_set_report_fd(void* file);
@@ -21,7 +21,7 @@ extern "C" {
 namespace remap {
 namespace {
 
-const char* program_path = nullptr;  // null where there is no program
+const char* program_path = nullptr;  // null if there is no program
 int (*program_main)(int argc, char** argv) = nullptr;
 int connection = -1;  // to the loaded process
 std::mutex one_request;
@@ -32,7 +32,7 @@ struct Ended {
   rusage usage{};
 };
 
-// Both return whether all bytes went through.
+// Both return true if all bytes were transferred.
 bool put(int to, const void* bytes, std::size_t count) {
   for (const char* at = static_cast<const char*>(bytes); count > 0;) {
     const ssize_t sent = ::send(to, at, count, MSG_NOSIGNAL);
@@ -105,11 +105,11 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
     __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(errors_of_test)));
     __lsan_do_leak_check();
   }
-  // A library that OpenImageIO brings waits in exit() for its thread, which a copy does not have.
+  // Do not call exit(): a library of OpenImageIO would wait there for its thread, which a copy does not have.
   ::_exit(code);
 }
 
-// The loaded process: starts copies of itself until the test program has ended.
+// Runs the loaded process, which starts copies of itself until the test program has ended.
 [[noreturn]] void serve() {
   for (char request = 0; get(connection, request);) {
     if (request == 's') {

@@ -26,10 +26,11 @@ std::string content(const fs::path& path) {
   return text.str();
 }
 
-// Between fork and exec: only calls that are safe there.
+// Runs between fork and exec, so it makes only calls that are safe there.
 [[noreturn]] void become(char* const* arguments, const ProcessStart& start, bool keeps_permissions) {
   enter(start);
-  // What root loses here, exec does not give back; anybody else has nothing to lose, and it fails.
+  // exec does not restore the rights that root drops here. For other users the call fails, and they have no
+  // such rights.
   if (keeps_permissions)
     for (const int right : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH}) ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);
   ::execv(arguments[0], arguments);
@@ -45,7 +46,7 @@ std::string ProcessResult::last_error() const {
   return line == std::string::npos ? text : text.substr(line + 1);
 }
 
-// A copy would keep what root may do: only exec takes it away.
+// Uses exec, because only exec takes rights away from root; a copy would keep them.
 Process::Process(const Words& arguments, const ProcessLimits& limits)
     : is_copy_(is_loaded(arguments[0]) && !limits.keeps_permissions) {
   ProcessStart start{arguments, limits.folder, folder_.path() / "output", folder_.path() / "errors",
@@ -62,7 +63,7 @@ Process::Process(const Words& arguments, const ProcessLimits& limits)
   pid_ = ::fork();
   if (pid_ < 0) throw std::runtime_error("fork failed");
   if (pid_ == 0) become(pointers.data(), start, limits.keeps_permissions);
-  // Until exec closes the other end, signals meet the handlers of this program.
+  // Until exec closes the other end, handlers of this program receive signals.
   ::close(ends[1]);
   char none = 0;
   while (::read(ends[0], &none, 1) < 0 && errno == EINTR) {

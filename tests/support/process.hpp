@@ -1,4 +1,4 @@
-// Runs a program the way a shell would and keeps what it said.
+// This file runs a program like a shell and keeps its output.
 #pragma once
 
 #include <filesystem>
@@ -15,17 +15,17 @@
 namespace remap {
 
 struct ProcessResult {
-  int exit_code = -1;  // -1 where a signal ended the process
+  int exit_code = -1;  // -1 if a signal ended the process
   int signal = 0;      // that signal
   std::string output;  // standard output
   std::string errors;  // standard error
   long peak_kilobytes = 0;
 
-  // The last line of standard error: some libraries talk before the program does.
+  // Returns the last line of standard error, because some libraries print before the program does.
   std::string last_error() const;
 };
 
-// The words of a command: a list of them, or a text with blanks between them and no quotes.
+// A Words holds the words of a command: a list of them, or a text with blanks between them and no quotes.
 struct Words : std::vector<std::string> {
   using vector::vector;
   Words(const std::vector<std::string>& words) : vector(words) {}
@@ -36,15 +36,15 @@ struct Words : std::vector<std::string> {
 };
 
 struct ProcessLimits {
-  std::filesystem::path folder;      // where it runs, if not where the test does
+  std::filesystem::path folder;      // the working folder, if it differs from the test's
   std::optional<rlim_t> file_bytes;  // as by `ulimit -f`: writing beyond fails
-  bool keeps_permissions = false;    // the modes of files hold for it, even where the test runs as root
+  bool keeps_permissions = false;    // file modes apply to it, even if the test runs as root
 };
 
-// A process that runs beside the test. The destructor kills it if it was not waited for.
+// A Process runs beside the test. The destructor kills it if it was not waited for.
 class Process {
  public:
-  // `arguments` begins with the path of the program. Throws std::runtime_error where it cannot be started.
+  // `arguments` begins with the path of the program. Throws std::runtime_error if it cannot be started.
   explicit Process(const Words& arguments, const ProcessLimits& limits = {});
   ~Process();
   Process(const Process&) = delete;
@@ -52,7 +52,7 @@ class Process {
 
   void send(int signal) const;
   bool is_running();
-  // Whether the program has a handler of `signal`: it takes as long to start as the machine is busy.
+  // Returns true if the program has a handler of `signal`. On a busy machine it takes long to start.
   bool catches(int signal) const;
   ProcessResult wait();
 
@@ -68,7 +68,7 @@ class Process {
 // Starts it and waits for it.
 ProcessResult run(const Words& arguments, const ProcessLimits& limits = {});
 
-// A folder of its own, in which programs run.
+// A CommandFolder is a separate folder in which programs run.
 class CommandFolder {
  public:
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -82,8 +82,8 @@ class CommandFolder {
   TemporaryFolder folder_;
 };
 
-// The result of a program that must have ended with exit code 0. Else the test ends with what the program
-// said.
+// Returns the result of a program that must have ended with exit code 0. Otherwise the test ends with the
+// program's output.
 inline ProcessResult require_success(ProcessResult result) {
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);

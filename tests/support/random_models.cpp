@@ -16,18 +16,18 @@ class Random {
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
   }
-  // Even in the logarithm.
+  // Returns a value that is uniform in the logarithm.
   double magnitude(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
   bool chance(double share) { return between(0.0, 1.0) < share; }
   std::size_t count(std::size_t low, std::size_t high) {
     return std::min(high, low + static_cast<std::size_t>(between(0.0, static_cast<double>(high - low + 1))));
   }
-  // Few more often than many.
+  // Returns small counts more often than large ones.
   std::size_t few(std::size_t low, std::size_t high) {
     return static_cast<std::size_t>(magnitude(static_cast<double>(low), static_cast<double>(high) + 0.99));
   }
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
-  // Sums of twelve even numbers: bell-shaped, the same on every machine.
+  // Returns sums of twelve uniform numbers: bell-shaped, the same on every machine.
   double normal() {
     double sum = -6.0;
     for (int i = 0; i < 12; ++i) sum += between(0.0, 1.0);
@@ -55,7 +55,7 @@ AlphaCurve random_curve(Random* random, double wildness) {
     if (random->chance(0.1)) return random->magnitude(1e-12, 1e-3);
     return random->magnitude(0.01, 3000.0);
   };
-  // phi is at most 1 / rate: a factor that grows with the rate keeps the term in sight.
+  // phi is at most 1 / rate, so a factor that grows with the rate keeps the term relevant.
   const auto factor = [&](double of_rate) {
     return random->normal() * wildness * (random->chance(0.5) ? std::max(1.0, of_rate) : 1.0);
   };
@@ -94,7 +94,7 @@ Parametric random_parametric(Random* random) {
   return form;
 }
 
-// Of an input over a range: about [0, 1], with or without a pole.
+// Returns a scaling of an input over a range: about [0, 1], with or without a pole.
 Scaling random_scaling(Random* random, const Range& range, bool may_have_pole) {
   Scaling scaling;
   if (may_have_pole && random->chance(0.5)) scaling.pole = random->magnitude(0.01, 1.0);
@@ -166,7 +166,7 @@ MappingKind random_regressed(const std::string& kind, Random* random, const Doma
   return Mlp{alpha, random_network(random, domain, random->chance(0.9), activation)};
 }
 
-// Near 1, with terms that get smaller.
+// Returns a factor close to 1, with terms that get smaller.
 FactorTerms random_factor(Random* random, bool is_long) {
   FactorTerms factor(is_long ? random->count(7, 8) : random->count(1, 5));
   for (std::size_t j = 0; j < factor.size(); ++j)
@@ -185,7 +185,7 @@ RandomModel random_model(const std::string& kind, std::uint64_t seed) {
   const auto number = std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
   Random random(seed * 3 + static_cast<std::uint64_t>(number));
   Domain domain = random_domain(&random);
-  // Most do not vanish with specular.
+  // Most domains do not vanish with specular.
   domain.specular.min = std::max(domain.specular.min, 0.02 * domain.specular.max);
   return {random_regressed(kind, &random, domain), domain};
 }

@@ -1,4 +1,4 @@
-// A warp with numbers drawn at random, as a registration could have made it.
+// This file makes a warp with random numbers, as a registration could have made it.
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ inline CopiedNodes random_copied(WarpDraw* draw, std::size_t count) {
   return entries;
 }
 
-// Of either kind of coordinates and of table.
+// A WarpShape is either kind of coordinates and of table.
 struct WarpShape {
   std::size_t dimension = 2;
   bool quadratic = false, copied = false;

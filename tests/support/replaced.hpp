@@ -1,4 +1,4 @@
-// Files that are wrong in one place.
+// This file makes files that are wrong in one place.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace remap {
 
-// `text` with `other` in the place of the first `part`, which must be there.
+// Returns `text` with `other` instead of the first `part`, which must occur.
 inline std::string replaced(std::string text, const std::string& part, const std::string& other) {
   const std::size_t start = text.find(part);
   REQUIRE(start != std::string::npos);

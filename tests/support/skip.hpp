@@ -1,24 +1,25 @@
-// Tests that need something which not every machine has.
+// This file serves tests that need something which not every machine has.
 #pragma once
 
 #include <string>
 
 namespace remap {
 
-// ctest runs the cases of a file as one test, and a case that may be skipped alone, so that it counts. A case
-// that calls any of these functions has the tag [needs], or it is [slow]; without, it fails.
+// ctest runs the cases of a file as one test. But it runs a case that may be skipped separately, so that the
+// skip counts. A case that calls any of these functions must have the tag [needs] or [slow]; otherwise it
+// fails.
 void may_skip();
 
-// Says that the running test lacks `what`, one word as in REMAP_REQUIRE: a program, a library's data, a
-// right. The caller returns, or goes on with the checks that need nothing more. A test that passes but for
-// this counts as skipped and prints `skipped: WHAT: REASON`; one that fails counts as failed. Where
-// REMAP_REQUIRE, names with commas between them, holds `what`, the test fails instead.
+// Records that the running test lacks `what`, one word as in REMAP_REQUIRE: a program, a library's data, a
+// right. The caller returns, or continues with the checks that need nothing more. A test that otherwise
+// passes counts as skipped and prints `skipped: WHAT: REASON`. A test that fails counts as failed. If
+// REMAP_REQUIRE, a list of names with commas, holds `what`, the test fails instead.
 void skip(const std::string& what, const std::string& reason);
 
-// Whether `program` can be started. Else skips.
+// Returns true if `program` can be started. Otherwise skips.
 bool has_program(const std::string& program);
 
-// Whether the processor has AVX2 and FMA. Else skips.
+// Returns true if the processor has AVX2 and FMA. Otherwise skips.
 bool has_avx2();
 
 }  // namespace remap

@@ -13,7 +13,7 @@ std::string text(const OIIO::ParamValue* value) {
   return value == nullptr ? kNothing : type_name(value->type()) + " " + std::string(value->get_string());
 }
 
-// Strings are pointers: their characters count. Everything else: its bytes.
+// Compares strings by their characters, because they are pointers, and everything else by its bytes.
 bool same_value(const OIIO::ParamValue& a, const OIIO::ParamValue& b) {
   if (a.type() != b.type()) return false;
   if (a.type().basetype == OIIO::TypeDesc::STRING) return a.get_string(1 << 20) == b.get_string(1 << 20);

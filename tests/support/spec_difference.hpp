@@ -1,4 +1,4 @@
-// What two descriptions of images say differently, attribute by attribute.
+// This file compares two descriptions of images, attribute by attribute.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@ namespace remap {
 
 struct SpecDifference {
   std::string name;    // of the attribute, or of the field of the description
-  std::string before;  // type and value; `nothing` where it is not there
+  std::string before;  // type and value, or `nothing`
   std::string after;
   bool operator==(const SpecDifference&) const = default;
 };
 
-// Every attribute that is not in both with the same type and the same bytes, then every field: windows,
-// tiles, channels, their types and roles.
+// Returns every attribute that is not in both with the same type and the same bytes, then every field:
+// windows, tiles, channels, their types and roles.
 std::vector<SpecDifference> differences(const OIIO::ImageSpec& before, const OIIO::ImageSpec& after);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// The curve of sRGB, IEC 61966-2-1, in doubles and apart from the code under test.
+// This file has the curve of sRGB, IEC 61966-2-1, in doubles and separate from the code under test.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// A folder of its own for a test, gone when the test is over.
+// This file makes a separate folder for a test, which is removed when the test is over.
 #pragma once
 
 #include <filesystem>

@@ -23,7 +23,7 @@ void divide(TestImage& image) {
 
 }  // namespace
 
-// The finaliser of SplitMix64 (Steele, Lea and Flood, 2014).
+// This is the finaliser of SplitMix64 (Steele, Lea and Flood, 2014).
 OIIO::ImageSpec test_spec(int width, int height, const std::vector<std::string>& channels,
                           OIIO::TypeDesc type) {
   OIIO::ImageSpec spec(width, height, static_cast<int>(channels.size()), type);
@@ -59,7 +59,7 @@ TestImage read_image(const std::filesystem::path& path) {
   image.bytes.resize(image.spec.image_bytes(true));
   require(input->read_image(0, 0, 0, channels, OIIO::TypeFloat, image.values.data()), input->geterror());
   require(input->read_image(0, 0, 0, channels, OIIO::TypeUnknown, image.bytes.data()), input->geterror());
-  // OpenImageIO multiplies by a rounded 1 / 255; tests compare to the last bit.
+  // Divide exactly, because OpenImageIO multiplies by a rounded 1 / 255 and tests compare to the last bit.
   if (image.spec.format == OIIO::TypeUInt8) divide<std::uint8_t>(image);
   if (image.spec.format == OIIO::TypeUInt16) divide<std::uint16_t>(image);
   return image;

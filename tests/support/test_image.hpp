@@ -1,5 +1,5 @@
-// Images for tests, written and read by OpenImageIO alone, so that they can judge the image I/O of the
-// project.
+// This file writes and reads images for tests only by OpenImageIO, so that they can judge the image I/O of
+// the project.
 #pragma once
 
 #include <cstdint>
@@ -27,15 +27,15 @@ struct TestImage {
 
 using TexelFunction = std::function<float(int x, int y, int channel)>;
 
-// A description with channels of these names (R, G, B, A, Y, ... get their usual roles).
+// Returns a description with channels of these names (R, G, B, A, Y, ... get their usual roles).
 OIIO::ImageSpec test_spec(int width, int height, const std::vector<std::string>& channels,
                           OIIO::TypeDesc type);
 
-// Throws std::runtime_error where OpenImageIO fails.
+// Writes an image. Throws std::runtime_error if OpenImageIO fails.
 void write_image(const std::filesystem::path& path, const OIIO::ImageSpec& spec, const TexelFunction& texel);
 TestImage read_image(const std::filesystem::path& path);
 
-// Whether images of one size hold the same values in a channel.
+// Returns true if images of one size hold the same values in a channel.
 bool same_channel(const TestImage& a, const TestImage& b, int channel);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// Texels of the specular workflow as rows: diffuse, specular, alpha.
+// This file holds texels of the specular workflow as rows: diffuse, specular, alpha.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct WarpRows {
   }
 };
 
-// A few values are beyond 0 to 1.
+// Returns random rows. A few values are beyond 0 to 1.
 inline WarpRows random_rows(std::size_t count) {
   WarpRows rows(count);
   std::mt19937 engine(3);
@@ -42,8 +42,8 @@ inline WarpRows random_rows(std::size_t count) {
   return rows;
 }
 
-// Random rows with NaN, infinity, negative and the least numbers in each channel of some texels, and with
-// texels that are such a number in every channel.
+// Returns random rows with NaN, infinity, negative and the least numbers in each channel of some texels. Some
+// texels are such a number in every channel.
 inline WarpRows odd_rows(std::size_t count) {
   WarpRows rows = random_rows(count);
   const float nan = std::numeric_limits<float>::quiet_NaN(),
@@ -58,7 +58,7 @@ inline WarpRows odd_rows(std::size_t count) {
   return rows;
 }
 
-// The same bits, or NaN in both.
+// Returns true for the same bits, or NaN in both.
 inline bool same_rows(const WarpRows& a, const WarpRows& b) {
   for (std::size_t r = 0; r < kWarpParameters; ++r)
     for (std::size_t i = 0; i < a.row[r].size(); ++i)
@@ -68,8 +68,8 @@ inline bool same_rows(const WarpRows& a, const WarpRows& b) {
   return true;
 }
 
-// How many texels differ from the warp in double precision, beyond the few copied nodes that floats and
-// doubles round to two sides.
+// Returns how many texels differ from the warp in double precision. It tolerates the few copied nodes that
+// floats and doubles round to different sides.
 inline std::size_t wrong_texels(const CompiledWarp& warp, const WarpRows& in, const WarpRows& out) {
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < in.row[0].size(); ++i) {

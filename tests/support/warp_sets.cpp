@@ -96,7 +96,7 @@ WarpSet set_of(const std::string& name, std::size_t size, Law source, Law target
   return set;
 }
 
-// Smooth noise, uniformly distributed in 0 to 1.
+// Returns smooth noise, uniformly distributed in 0 to 1.
 std::vector<double> ranked_noise(std::size_t size, double roughness, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<double> values(size * size, 0.0);

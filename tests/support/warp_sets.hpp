@@ -1,6 +1,6 @@
-// Synthetic pairs of materials with a known result. Both materials are nonlinear, monotone functions of the
-// same latent variables in different patterns, so that each source texel has one correct template
-// reflectance.
+// This file makes synthetic pairs of materials with a known result. Both materials are nonlinear, monotone
+// functions of the same latent variables in different patterns, so that each source texel has one correct
+// template reflectance.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace remap {
 
 using Latents = std::vector<std::array<double, 3>>;
 
-// Maps of width and height `size`, row-major.
+// A WarpSet holds maps of width and height `size`, row-major.
 struct WarpSet {
   std::string name;
   std::size_t size = 0;
@@ -23,7 +23,7 @@ struct WarpSet {
   std::vector<WarpTexel> truth;  // the template's reflectance at the source's latents
 };
 
-// `leaf`: age and stem. `rust`: rust, grime and polish.
+// `leaf` has age and stem; `rust` has rust, grime and polish.
 WarpSet leaf_set(std::size_t size);
 WarpSet rust_set(std::size_t size);
 

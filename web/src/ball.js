@@ -1,4 +1,4 @@
-// The ball: one sphere, drawn on the left of the wipe with the material before, on the right with that after.
+// The ball is one sphere. The left of the wipe shows the material before the conversion, the right the material after it.
 import {
   DataTexture, DirectionalLight, LinearFilter, LinearMipmapLinearFilter, Mesh, MeshPhysicalMaterial, MeshStandardMaterial,
   NeutralToneMapping, NoColorSpace, PMREMGenerator, PerspectiveCamera, RepeatWrapping, SRGBColorSpace, Scene, SphereGeometry,
@@ -6,7 +6,7 @@ import {
 } from 'three';
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
 
-const DISTANCE = 4.7;  // of the camera, where the view is wider than high
+const DISTANCE = 4.7;  // of the camera, if the view is wider than high
 const COLORS = new Set(['base color', 'diffuse', 'specular']);
 
 function textureOf({ role, width, height, rgba }) {
@@ -26,7 +26,7 @@ function textureOf({ role, width, height, rgba }) {
 const toLinear = (byte) => (byte / 255 <= 0.04045 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
 const toByte = (value) => 255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055);
 
-// Diffuse that counts what specular leaves: times 1 - max(specular).
+// Converts scaled diffuse to plain: times 1 - max(specular).
 function scaledDiffuse(diffuse, specular) {
   const width = Math.max(diffuse.width, specular.width);
   const height = Math.max(diffuse.height, specular.height);
@@ -60,7 +60,7 @@ function threeMaterial({ workflow, maps }, isScaled) {
       color: diffuse ? 0xffffff : 0x000000,
     });
   }
-  // A model alone is all specular, as a metal.
+  // A model without a workflow is all specular, like a metal.
   const color = workflow === 'brdf' ? { ...specular, role: 'specular' } : mapOf('base color');
   const metallic = mapOf('metallic');
   return new MeshStandardMaterial({

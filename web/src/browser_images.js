@@ -1,5 +1,6 @@
-// JPEG and WebP by the browser's decoders, through a texture of WebGL: the only way that gives stored values, also of files
-// with profiles, gamma or opacity. (A 2-D canvas multiplies opacity in; colors would be converted without `none`.)
+// This file reads JPEG and WebP by the browser's decoders, through a texture of WebGL. Only this gives stored values, even
+// for files with profiles, gamma or opacity. (A 2-D canvas multiplies opacity in; colors would be converted without
+// `none`.)
 
 const textAt = (bytes, at, length) => String.fromCharCode(...bytes.subarray(at, at + length));
 const isJpeg = (bytes) => bytes[0] === 0xff && bytes[1] === 0xd8;
@@ -10,13 +11,13 @@ export const isOfBrowser = (bytes) => isJpeg(bytes) || isWebp(bytes);
 const EXIF = 0xe1, START_OF_SCAN = 0xda;
 const isStartOfFrame = (marker) => marker >= 0xc0 && marker <= 0xcf && ![0xc4, 0xc8, 0xcc].includes(marker);
 
-// The number of components, and the file without EXIF, whose orientation would turn the image.
+// Returns the number of components, and the file without EXIF, whose orientation would turn the image.
 function lookIntoJpeg(bytes) {
   const kept = [bytes.subarray(0, 2)];
   let components = 0;
   let at = 2;
   while (at + 4 <= bytes.length && bytes[at] === 0xff && bytes[at + 1] !== START_OF_SCAN) {
-    if (bytes[at + 1] === 0xff) {  // a byte that fills
+    if (bytes[at + 1] === 0xff) {  // a fill byte
       ++at;
       continue;
     }
@@ -44,7 +45,7 @@ function graphics() {
   return context;
 }
 
-// RGBA of the image, as it is stored.
+// Returns RGBA of the image, as it is stored.
 function texelsOf(bitmap) {
   const gl = graphics();
   const { width, height } = bitmap;

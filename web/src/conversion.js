@@ -1,4 +1,4 @@
-// One conversion, as `texremap convert` makes it, and what the page shows of it.
+// This file makes one conversion, like `texremap convert`, and prepares what the page shows of it.
 import { isGltf, openAsset } from './gltf.js';
 import { materialOfSet, materialsOfAssets } from './preview.js';
 
@@ -7,7 +7,7 @@ const IN = 'in', OUT = 'out';
 const isAsset = (path) => isGltf(path) || /\.(mtl|obj)$/i.test(path);
 const baseName = (path) => path.slice(path.lastIndexOf('/') + 1);
 
-// The words of a line, quoted as in a shell.
+// Returns the words of a line, quoted as in a shell.
 export function wordsOf(line) {
   return [...line.matchAll(/"([^"]*)"|'([^']*)'|(\S+)/g)].map((match) => match[1] ?? match[2] ?? match[3]);
 }

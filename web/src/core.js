@@ -1,4 +1,4 @@
-// The worker, from the side of the page: a promise for each call.
+// A Core is the page's side of the worker: a promise for each call.
 export class Core {
   #worker;
   #waiting = new Map();

@@ -1,4 +1,5 @@
-// Maps themselves, side by side, for models that three.js does not have; the wipe goes through each.
+// This file shows the maps themselves, side by side, for models that three.js does not have. The wipe goes through each
+// map.
 
 function canvasOf({ width, height, rgba }) {
   const canvas = document.createElement('canvas');
@@ -9,7 +10,7 @@ function canvasOf({ width, height, rgba }) {
 }
 
 const GAP = 12;
-// What is beside a map that the other workflow does not have.
+// These are the counterparts of maps that the other workflow does not have.
 const PARTNERS = { diffuse: 'base color', 'base color': 'diffuse', specular: 'metallic', metallic: 'specular' };
 
 export class Flat {

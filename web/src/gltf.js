@@ -1,4 +1,4 @@
-// What the page shows of glTF files: their images and materials. Conversion never comes here; that is the program's.
+// This file reads what the page shows of glTF files: their images and materials. The program does the conversion.
 
 const isGlb = (bytes) => bytes.length >= 20 && new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true) === 0x46546c67;
 
@@ -20,7 +20,7 @@ function bytesOfDataUri(uri) {
   return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 }
 
-// { document, binary } of a .glb or .gltf file.
+// Returns { document, binary } of a .glb or .gltf file.
 function opened(bytes) {
   if (!isGlb(bytes)) return { document: JSON.parse(new TextDecoder().decode(bytes)) };
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -64,7 +64,7 @@ export function openAsset(files, path) {
   }
 }
 
-// A material with the images of its maps by index, in one of two shapes.
+// Returns a material with the images of its maps by index, in one of two shapes.
 function materialOf(material, index, imageOf) {
   const name = material.name ?? `material ${index + 1}`;
   const gloss = material.extensions?.KHR_materials_pbrSpecularGlossiness;

@@ -1,5 +1,5 @@
-// Whole image files, decoded and encoded while the program waits. PNG can be decoded at once. The browser decodes JPEG and
-// WebP in its own time, so they are decoded before the program runs and found again by their bytes.
+// This file decodes and encodes whole image files while the program waits. PNG can be decoded at once. The browser decodes
+// JPEG and WebP in its own time, so they are decoded before the program runs and found again by their bytes.
 import { decodedPng, encodedPng, isPng } from '../../packages/npm/png.js';
 import { decodeByBrowser, isOfBrowser } from './browser_images.js';
 

@@ -1,24 +1,24 @@
-// Files as they are dropped or chosen: [{ path, file }], paths with the folders that were given.
+// This file collects dropped or chosen files: [{ path, file }]. Paths include the folders that were given.
 
 const isHidden = (path) => path.split('/').some((part) => part.startsWith('.'));
 
 const promised = (start) => new Promise((done, fail) => start(done, fail));
 
-// By handles of the File System API, which pages from disk have as well.
+// Uses handles of the File System API, which pages from disk have as well.
 async function filesOfHandle(handle, folder, found) {
   const path = folder + handle.name;
   if (handle.kind === 'file') found.push({ path, file: await handle.getFile() });
   else for await (const inside of handle.values()) await filesOfHandle(inside, `${path}/`, found);
 }
 
-// By entries, which every browser has, where the page is served.
+// Uses entries, which every browser has if the page is served.
 async function filesOfEntry(entry, found) {
   if (entry.isFile) {
     found.push({ path: entry.fullPath.slice(1), file: await promised((done, fail) => entry.file(done, fail)) });
     return;
   }
   const reader = entry.createReader();
-  for (;;) {  // a reader gives a part at a time
+  for (;;) {  // a call returns only a part
     const entries = await promised((done, fail) => reader.readEntries(done, fail));
     if (entries.length === 0) return;
     for (const inside of entries) await filesOfEntry(inside, found);

@@ -1,4 +1,4 @@
-// The page: files in, a conversion by the worker, its report and files out.
+// This is the page: files in, a conversion by the worker, its report and files out.
 import { zipSync } from 'fflate';
 import { startWorker, wasmBytes } from 'parts';
 
@@ -34,7 +34,7 @@ function optionGroup(label, options) {
 
 const named = ({ title, name, model }) => [name, model === name ? title : `${title} (${model})`];
 
-let engines = new Set();  // programs whose files have names of their own
+let engines = new Set();  // their programs expect their own file names
 
 function fillNames({ programs, formats, models, engines: names }) {
   engines = new Set(names);
@@ -82,7 +82,7 @@ function offer(results) {
   Object.assign($('download'), { href: link, download: name, textContent: `Download ${name} (${sized(bytes.length)})` });
 }
 
-// The conversion stands, whatever becomes of the pictures.
+// The conversion stays valid, even if the pictures fail.
 async function draw(lines) {
   try {
     stage.show(await core.call('preview'));
@@ -131,7 +131,7 @@ function listen() {
     $(`choose-${kind}`).addEventListener('click', () => $(kind).click());
     $(kind).addEventListener('change', () => take(filesOfInput($(kind))));
   }
-  // Anywhere on the page: a file that misses the box would replace the page.
+  // Accept files anywhere on the page, because a file that misses the box would replace the page.
   addEventListener('dragover', (event) => {
     event.preventDefault();
     $('drop').classList.add('over');

@@ -1,4 +1,4 @@
-// The parts of the page where it is a folder that is served.
+// These are the parts of a page that is a served folder.
 export const startWorker = () => new Worker('worker.js');
 
 export async function wasmBytes() {

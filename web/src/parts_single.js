@@ -1,4 +1,4 @@
-// The parts of the page where it is one file: texts inside it.
+// These are the parts of a page that is one file, with texts inside it.
 const textOf = (id) => document.getElementById(id).textContent;
 
 export const startWorker = () => new Worker(URL.createObjectURL(new Blob([textOf('worker')], { type: 'text/javascript' })));

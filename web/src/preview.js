@@ -1,4 +1,4 @@
-// Materials as the page draws them, made in the worker: textures of 8 bits, at most LARGEST texels a side.
+// This file prepares materials for drawing, in the worker: textures of 8 bits, at most LARGEST texels a side.
 //   { name, workflow: 'metallic', 'specular' or 'brdf', size, maps: [{ role, width, height, rgba }] }
 // Colors are sRGB, roughness is perceptual (the square root of alpha).
 import { isGltf, openAsset } from './gltf.js';
@@ -16,7 +16,7 @@ const toRoughness = {
 const toSrgb = (value) => (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055);
 const toLinear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
 
-// RGBA of a map, nearest texels; `valuesAt(texel)` gives red, green and blue from 0 to 1.
+// Returns RGBA of a map, by closest texels. `valuesAt(texel)` gives red, green and blue from 0 to 1.
 function drawn(image, valuesOf) {
   const step = Math.max(1, Math.ceil(Math.max(image.width, image.height) / LARGEST));
   const width = Math.max(1, Math.floor(image.width / step));
@@ -81,7 +81,7 @@ export function materialsOfAssets(files) {
   });
 }
 
-// What `plan` of the program's report says of a map: a file, and its channels after a colon.
+// Returns the place of a map from `plan` of the program's report: a file, and its channels after a colon.
 function placeOf(words) {
   const [, file, channel] = /^(.*?)(?::([A-Z,]+))?$/.exec(words);
   return { file, channel };

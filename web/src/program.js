@@ -1,4 +1,4 @@
-// One instance of the program: files in memory, and runs over them.
+// This file makes one instance of the program: files in memory, and runs over them.
 import makeInstance from 'page.mjs';
 
 import { startProgram } from '../../packages/npm/memory_program.js';

@@ -1,8 +1,8 @@
-// Before and after: the ball where three.js has both models, else the maps themselves.
+// This file shows before and after: the ball if three.js has both models, otherwise the maps themselves.
 import { Ball } from './ball.js';
 import { Flat, figureOf } from './flat.js';
 
-// What MeshStandardMaterial and MeshPhysicalMaterial draw.
+// MeshStandardMaterial and MeshPhysicalMaterial draw these models.
 const DRAWN = ['mitsuba/ggx', 'mitsuba3/ggx', 'threejs-r187/standard-metal'];
 
 const $ = (id) => document.getElementById(id);
@@ -33,7 +33,7 @@ export class Stage {
     this.#choose();
   }
 
-  // The end without a counterpart in three.js; none for glTF files.
+  // Returns the end without a counterpart in three.js, or nothing for glTF files.
   #foreign({ source, target }) {
     const brdfOf = ({ name }) => this.#materials.find((material) => material.name === name)?.brdf ?? name;
     return [source, target].find((end) => end && !DRAWN.includes(brdfOf(end)));

@@ -1,4 +1,4 @@
-// The worker: one instance of the program a conversion, so that memory is given back.
+// The worker makes one instance of the program for each conversion, so that its memory is freed.
 import { Conversion } from './conversion.js';
 import { Images } from './images.js';
 import { makeProgram } from './program.js';
@@ -16,11 +16,11 @@ const calls = {
     last = new Conversion(await makeProgram(compiled, images), images);
     return last.run(files, request);
   },
-  // Later, so that files need not wait for pictures.
+  // Draws later, so that files need not wait for pictures.
   preview: () => last.preview(),
 };
 
-// The program itself ends by `abort` for one reason: its memory, of 2 GB at most, is full.
+// The program itself calls `abort` only if its memory, of 2 GB at most, is full.
 const textOf = (error) =>
   error instanceof WebAssembly.RuntimeError || error instanceof RangeError
     ? `not enough memory (convert fewer files at a time): ${error.message}` : `${error.message ?? error}`;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLargestDeviation = 1e-3;
 
-// The inputs and outputs of the network for one row.
+// A MaterialRow holds the inputs and outputs of the network for one row.
 struct MaterialRow {
   std::array<double, 6> specular{};  // diffuse, F0
   std::array<double, 4> metallic{};  // base color, metallic
@@ -54,7 +54,7 @@ std::vector<MaterialRow> material_rows(const MaterialTable& table) {
   return rows;
 }
 
-// The RMS deviation of a table from equation (2), in F0 and diffuse.
+// A FamilyDeviation is the RMS deviation of a table from equation (2), in F0 and diffuse.
 struct FamilyDeviation {
   double dielectric_f0 = 0.0;  // the value that fits the rows best, to six digits
   double f0 = 0.0, diffuse = 0.0;

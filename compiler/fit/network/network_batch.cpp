@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// The derivative of the activation at x, where its value is y.
+// Returns the derivative of the activation at x, where its value is y.
 double activation_slope(Activation activation, double x, double y) {
   switch (activation) {
     case Activation::kRelu:
@@ -26,7 +26,7 @@ double activation_slope(Activation activation, double x, double y) {
   return 1.0;
 }
 
-// The place of each layer in a parameter vector, then the length of the vector.
+// Returns the place of each layer in a parameter vector, then the length of the vector.
 std::vector<std::size_t> layer_offsets(const NetworkShape& shape) {
   std::vector<std::size_t> offsets = {0};
   for (std::size_t l = 0; l + 1 < shape.sizes.size(); ++l)

@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Keeps the parameters with the least validation error and decides when to stop.
+// A ValidationWatch keeps the parameters with the least validation error and decides when to stop.
 class ValidationWatch {
  public:
   ValidationWatch(const NetworkShape& shape, const NetworkSamples& samples, const OptimiserSettings& settings)
@@ -48,13 +48,13 @@ class ValidationWatch {
   OptimisedNetwork best_;
 };
 
-// Residuals of all samples and outputs and one residual per weight for the decay, with their Jacobian.
+// NetworkResiduals gives residuals of all outputs and one per weight for the decay, and the Jacobian.
 class NetworkResiduals : public ceres::CostFunction {
  public:
   NetworkResiduals(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
       : batch_(shape, samples.training_inputs),
         expected_(samples.training_outputs),
-        // Ceres minimizes half the sum of squares; the loss is their mean.
+        // Scale the decay, because Ceres minimizes half the sum of squares, but the loss is their mean.
         decay_(std::sqrt(weight_decay * static_cast<double>(expected_.size())) * weight_mask(shape)) {
     const auto count = static_cast<int>(shape.parameter_count());
     set_num_residuals(static_cast<int>(expected_.size()) + (weight_decay > 0.0 ? count : 0));
@@ -84,7 +84,7 @@ class NetworkResiduals : public ceres::CostFunction {
   VectorXd decay_;
 };
 
-// The same loss as a single number with its gradient.
+// NetworkLoss gives the same loss as a single number with its gradient.
 class NetworkLoss : public ceres::FirstOrderFunction {
  public:
   NetworkLoss(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
@@ -112,7 +112,7 @@ class NetworkLoss : public ceres::FirstOrderFunction {
   VectorXd decay_;
 };
 
-// Passes the parameters to the watch and the report after each iteration of Ceres.
+// An IterationWatch passes the parameters to the watch and the report after each iteration of Ceres.
 class IterationWatch : public ceres::IterationCallback {
  public:
   IterationWatch(ValidationWatch& watch, const VectorXd& parameters, int iterations, const StepReport& report)
@@ -131,7 +131,7 @@ class IterationWatch : public ceres::IterationCallback {
   const StepReport& report_;
 };
 
-// The tolerances end only searches that have come to rest, because the validation error decides when to stop.
+// The tolerances end only searches that no longer move, because the validation error decides when to stop.
 template <typename Options>
 void set_limits(Options& options, const OptimiserSettings& settings, ceres::IterationCallback& callback) {
   options.max_num_iterations = settings.iterations;

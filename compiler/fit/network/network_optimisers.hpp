@@ -1,5 +1,5 @@
-// The optimisers of network_training.hpp: one training from one set of initial parameters. Only this part of
-// the networks uses Ceres.
+// This file declares the optimisers of network_training.hpp. Each runs one training from one set of initial
+// parameters. Only this part of the networks uses Ceres.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// Normalised samples, one column each. Validation samples determine when the training stops.
+// A NetworkSamples holds normalised samples, one column each. Validation samples stop the training.
 struct NetworkSamples {
   Eigen::MatrixXd training_inputs, training_outputs;
   Eigen::MatrixXd validation_inputs, validation_outputs;
@@ -27,34 +27,34 @@ struct OptimiserSettings {
 };
 
 struct OptimisedNetwork {
-  Eigen::VectorXd parameters;   // those with the least validation error
+  Eigen::VectorXd parameters;   // parameters with the least validation error
   double validation_rms = 0.0;  // infinity if no error was finite
   int iterations = 0;
   int best_iteration = 0;
 };
 
-// Called after each iteration with the share of the work done, 0 to 1. Must not throw; false stops the
-// training.
+// A StepReport is called after each iteration with the finished fraction, 0 to 1. It must not throw; false
+// stops.
 using StepReport = std::function<bool(double share)>;
 
-// Levenberg-Marquardt with a dense analytic Jacobian, for networks of up to some hundred parameters. The time
-// of an iteration is proportional to samples times parameters squared.
+// Runs Levenberg-Marquardt with a dense analytic Jacobian, for networks of up to some hundred parameters. The
+// time of an iteration is proportional to samples times parameters squared.
 OptimisedNetwork run_levenberg_marquardt(const NetworkShape& shape, const NetworkSamples& samples,
                                          const Eigen::VectorXd& start, const OptimiserSettings& settings,
                                          const StepReport& report);
 
-// Adam (Kingma and Ba 2015) on mini-batches: the step increases over the first twentieth of the iterations
-// and then decreases to 0 along a cosine. An iteration is one pass over the samples.
+// Runs Adam (Kingma and Ba 2015) on mini-batches. The step increases over the first twentieth of the
+// iterations and then decreases to 0 along a cosine. An iteration is one pass over the samples.
 OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& samples,
                           const Eigen::VectorXd& start, const OptimiserSettings& settings,
                           const StepReport& report);
 
-// L-BFGS on all samples.
+// Runs L-BFGS on all samples.
 OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samples,
                            const Eigen::VectorXd& start, const OptimiserSettings& settings,
                            const StepReport& report);
 
-// RMS difference of normalised outputs.
+// Returns the RMS difference of normalised outputs.
 double rms_difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected);
 
 }  // namespace remap

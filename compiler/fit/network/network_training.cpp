@@ -35,7 +35,7 @@ constexpr int kLevenbergIterations = 300;
 constexpr int kLevenbergPatience = 80;
 constexpr int kRefitIterations = 60;
 constexpr double kStartsShare = 0.95;  // of the progress; the rest is the refit
-// The number of multiplications that determines the number of Adam passes, within bounds.
+// This number of multiplications determines the number of Adam passes, within bounds.
 constexpr double kAdamWork = 1e10;
 constexpr double kFewestPasses = 10.0, kMostPasses = 400.0;
 constexpr int kLbfgsIterations = 300;
@@ -69,7 +69,7 @@ void require_sound(const Samples& samples, const TrainingOptions& options) {
                       " must be finite and at least 0");
 }
 
-// One column per sample.
+// Returns a matrix with one column per sample.
 Eigen::Map<const MatrixXd> columns_of(const std::vector<double>& values, std::size_t width) {
   return {values.data(), static_cast<Index>(width), static_cast<Index>(values.size() / width)};
 }
@@ -151,8 +151,8 @@ NetworkShape shape_of(const Samples& samples, const TrainingOptions& options) {
   return shape;
 }
 
-// Uniform weights after Glorot and Bengio (2010) for tanh and after He et al. (2015) for other activations.
-// Hidden biases are uniform in [-1, 1], so that the units bend at different positions of the input range.
+// Returns uniform weights after Glorot and Bengio (2010) for tanh and after He et al. (2015) for other
+// activations. Hidden biases are uniform in [-1, 1], so that units bend at different positions.
 VectorXd initial_parameters(const NetworkShape& shape, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
@@ -170,8 +170,8 @@ VectorXd initial_parameters(const NetworkShape& shape, std::uint64_t seed) {
   return parameters;
 }
 
-// Combines the progress of all starts into a share that never decreases. Exceptions must not pass through
-// Ceres, so an exception is stored, ends every start and is rethrown after all have ended.
+// A StartsProgress combines the progress of all starts into a fraction that never decreases. Exceptions must
+// not pass through Ceres, so an exception is stored, ends every start and is rethrown after all have ended.
 class StartsProgress {
  public:
   StartsProgress(std::size_t starts, const FitProgress& progress)
@@ -204,7 +204,7 @@ class StartsProgress {
   std::atomic<bool> stopped_ = false;  // read without the lock
 };
 
-// One training from initial weights given by a seed.
+// A Training is one training from initial weights given by a seed.
 using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepReport& report)>;
 
 struct BestStart {
@@ -242,7 +242,7 @@ std::string shape_text(const NetworkShape& shape) {
   return text + " " + std::string(activation_name(shape.activation));
 }
 
-// The result of either way of training.
+// A TrainingOutcome is the result of either way of training.
 struct TrainingOutcome {
   BestStart best;
   NetworkSamples samples;
@@ -270,7 +270,7 @@ TrainingOutcome train_small(const NetworkShape& shape, const NormalisedSamples& 
   outcome.method = "Levenberg-Marquardt, " + outcome.best.words;
   if (options.validation_fraction == 0.0) return outcome;
 
-  // A short refit stays near the validated parameters and uses the additional rows.
+  // A short refit stays close to the validated parameters and uses the additional rows.
   NetworkSamples& samples = outcome.samples;
   const Index used = samples.training_inputs.cols() + samples.validation_inputs.cols();
   samples.training_inputs = all.inputs.leftCols(used);

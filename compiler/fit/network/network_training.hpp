@@ -1,4 +1,4 @@
-// Trains fully connected networks with any number of inputs and outputs.
+// This file trains fully connected networks with any number of inputs and outputs.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// The samples that a network is trained on: rows of `input_count` inputs and `output_count` outputs.
+// A Samples holds the training data: rows of `input_count` inputs and `output_count` outputs.
 struct Samples {
   std::size_t input_count = 0;
   std::size_t output_count = 0;
@@ -22,14 +22,13 @@ struct Samples {
 // accurate as two layers of 16 and train in an eighth of the time. tests/compiler/fit/network/mlp_test.cpp
 // states the errors.
 struct TrainingOptions {
-  std::vector<std::size_t> hidden = {8, 8};  // units of each hidden layer; empty: a linear map
+  std::vector<std::size_t> hidden = {8, 8};  // units of each hidden layer; if empty, a linear map
   Activation activation = Activation::kTanh;
   std::uint64_t seed = 1;             // of the initial weights and the validation rows
   std::size_t starts = 4;             // independent trainings, at least 1; the best is kept
   double validation_fraction = 0.15;  // of the rows, 0 to 0.5; 0: validate on the training rows
-  // Factor of the sum of squared weights in the loss. On the published table, 1e-9 halves the error of a
-  // polynomial of low degree fitted to the network, and increases the error on unseen rows from 1.3e-5
-  // to 2.1e-5.
+  // This weights the sum of squared weights. On the published table, 1e-9 halves the error of a polynomial of
+  // low degree fitted to the network. The error on unseen rows rises from 1.3e-5 to 2.1e-5.
   double weight_decay = 1e-9;
   unsigned jobs = 0;  // threads; 0: one per core. The result does not depend on it
 };
@@ -46,15 +45,15 @@ struct TrainedNetwork {
 // Minimizes squared errors of outputs with mean 0 and variance 1, for inputs in [-1, 1] over the rows.
 // Constant inputs and outputs are only shifted.
 //
-// Networks of up to 600 parameters are trained by Levenberg-Marquardt; the best start is then refitted to all
-// rows, including the validation rows (on the published table, this reduces the error on unseen rows by 7 %
-// on average). Larger networks are trained by Adam and then by L-BFGS. Each start keeps the weights with its
+// Networks of up to 600 parameters are trained by Levenberg-Marquardt. The best start is then refitted to all
+// rows, including the validation rows. On the published table, this reduces the error on unseen rows by 7 %
+// on average. Larger networks are trained by Adam and then by L-BFGS. Each start keeps the weights with its
 // best validation error. For very many rows, a random subset bounds the time; `rows` and `method` record it.
 //
 // The same samples and options give the same bytes on one machine for any `jobs`. One thread at a time calls
-// `progress`, with shares that never decrease; an exception from it ends all threads and is rethrown. Throws
-// kInput for fewer than 10 rows, rows of different length or numbers that are not finite, kUsage for a layer
-// without units or options out of range, kNumeric if no start gives finite errors.
+// `progress`, with fractions that never decrease. An exception from it ends all threads and is rethrown.
+// Throws kInput for fewer than 10 rows, rows of different length or numbers that are not finite. Throws
+// kUsage for a layer without units or options out of range, and kNumeric if no start gives finite errors.
 TrainedNetwork train_network(const Samples& samples, const TrainingOptions& options,
                              const FitProgress& progress = {});
 

@@ -22,7 +22,7 @@ double grid_value(const Range& range, int i, int steps) {
   return i == steps ? range.max : range.min + (range.max - range.min) * i / steps;
 }
 
-// The least value of a quantity that must be positive, and its place.
+// A Least is the least value of a quantity that must be positive, with its place.
 struct Least {
   double value = 1e300;
   double alpha = 0.0;
@@ -32,7 +32,7 @@ struct Least {
   }
 };
 
-// The least value of `quantity` over a grid of the domain; `flat`: it is the same at every specular.
+// Returns the least value of `quantity` over a grid of the domain. `flat` means equal at every specular.
 Least least_over(const Domain& domain, bool flat, const auto& quantity) {
   Least least;
   for (int i = 0; i <= kAlphaSteps; ++i) {

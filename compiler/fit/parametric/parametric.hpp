@@ -1,5 +1,5 @@
-// The parametric regression of section 7 (Sztrajman et al. 2019): roughness as a polynomial, specular as a
-// curve of exponentials.
+// This file does the parametric regression of section 7 (Sztrajman et al. 2019): roughness as a polynomial,
+// specular as a curve of exponentials.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace remap {
 
-// Fits `form` to the rows by least squares, separately for target alpha and target specular. `domain`: the
-// range in which the curves must be sound. A curve is sound if alpha2 increases with alpha1 at every
-// specular; if the factor of a proportional specular is positive, or otherwise specular2 increases with
-// specular1 and is positive at the least specular of the rows. Throws kInput for too few distinct alpha1 or
-// specular1, kNumeric with the place if the solver does not converge or a curve is not sound.
+// Fits `form` to the rows by least squares, separately for target alpha and target specular. The curves must
+// be sound in `domain`. A curve of alpha is sound if alpha2 increases with alpha1 at every specular. A
+// proportional specular needs a positive factor. Otherwise specular2 must increase with specular1 and be
+// positive at the least specular of the rows. Throws kInput for too few distinct alpha1 or specular1. Throws
+// kNumeric with the place if the solver does not converge or a curve is not sound.
 Parametric fit_parametric(const std::vector<TableRow>& rows, const Domain& domain,
                           const ParametricForm& form);
 
-// `form`: a name of find_form(); empty: that of the paper.
+// `form` is a name of find_form(). If it is empty, the paper's form is fitted.
 Regression fit_parametric_kind(const std::vector<TableRow>& rows, const Domain& domain,
                                const std::string& form);
 
-// The parts of the regression, for the code that chooses or refits a form; fit_specular_terms() is another.
+// The following parts serve code that chooses or refits a form; fit_specular_terms() is another.
 
-// The least squares coefficients for alpha2. Throws kInput if the rows do not determine them.
+// Returns the least squares coefficients for alpha2. Throws kInput if the rows do not determine them.
 std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form);
 
 // Throws kNumeric with the place if alpha2 does not increase with alpha1 everywhere in `domain`.
@@ -33,7 +33,7 @@ void require_rising_alpha(const Parametric& form, const Domain& domain);
 // increase with specular1 or is negative at `least_specular`.
 void require_rising_specular(const Parametric& form, const Domain& domain, double least_specular);
 
-// The least specular1 above 0.
+// Returns the least specular1 above 0.
 double least_positive_specular(const std::vector<TableRow>& rows);
 
 }  // namespace remap

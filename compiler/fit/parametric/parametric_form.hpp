@@ -1,5 +1,5 @@
-// The forms of the parametric kind, as data: which coefficients are free. Roughness and specular are fitted
-// separately, so a form consists of one of each.
+// This file lists the forms of the parametric kind, as data: which coefficients are free. Roughness and
+// specular are fitted separately, so a form consists of one of each.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// alpha2 = sum over j of specular1^j times a polynomial of alpha1 without constant term, of degree
-// degrees[j].
+// A RoughnessForm is alpha2 = sum over j of specular1^j times a polynomial of alpha1 without constant term,
+// of degree degrees[j].
 struct RoughnessForm {
   std::string_view name;
   std::string_view summary;  // shown to users
@@ -18,20 +18,19 @@ struct RoughnessForm {
   std::size_t coefficient_count() const;
 };
 
-// specular2 = sum over `powers` p of specular1^p times a curve of alpha1 (remap::AlphaCurve). A repeated
-// power has the sum of two curves.
+// A SpecularForm is specular2 = sum over `powers` p of specular1^p times a curve of alpha1
+// (remap::AlphaCurve). A repeated power has the sum of two curves.
 struct SpecularForm {
   std::string_view name;
   std::string_view summary;
   std::vector<int> powers;  // in increasing order, repetitions allowed; includes 1
-  bool pole = false;        // whether the factor of specular1 has the term pole / alpha1
-  // Whether the term has the same power as the term before it. The earlier term then holds the constant of
-  // both.
+  bool pole = false;        // true if the factor of specular1 has the term pole / alpha1
+  // Returns true if the term has the same power as the term before it. The earlier one holds both constants.
   bool is_repeated(std::size_t term) const;
   std::size_t coefficient_count() const;
 };
 
-// All forms, in order of complexity. The first is that of the paper (Sztrajman et al. 2019, section 7).
+// Return all forms, in order of complexity. The first is the paper's (Sztrajman et al. 2019, section 7).
 std::span<const RoughnessForm> roughness_forms();
 std::span<const SpecularForm> specular_forms();
 
@@ -40,7 +39,7 @@ struct ParametricForm {
   const SpecularForm* specular = nullptr;
 };
 
-// `paper`, or `paper+pole` with the term c5 / alpha of the authors' scripts. Throws kUsage for another name.
+// Finds `paper`, or `paper+pole` with the term c5 / alpha of the authors' scripts. Throws kUsage otherwise.
 ParametricForm find_form(const std::string& name);
 
 }  // namespace remap

@@ -21,21 +21,20 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kFewestAlphas = 6;
-// Rates at which the search starts, from straight lines over the domain to the narrowest bump that a table
-// resolves.
+// The search starts at these rates, from straight lines to the narrowest bump that a table resolves.
 constexpr std::array<double, 12> kStartRates = {0.0, 0.25, 0.5,  1.0,  2.0,   4.0,
                                                 8.0, 16.0, 32.0, 64.0, 256.0, 1024.0};
 // Limits the rates: at the second smallest alpha of a table, an exponential is at least exp(-kLargestDecay).
 // A faster one would only follow the rows of the smallest alpha.
 constexpr double kLargestDecay = 5.0;
-// The cost in rms error of a contribution of 1 at the largest alpha. It is negligible compared with the error
-// of a fit, but prevents curves of magnitude 1000 that cancel each other.
+// This is the cost in rms error of a contribution of 1 at the largest alpha. It is negligible compared with
+// the error of a fit, but prevents curves of magnitude 1000 that cancel each other.
 constexpr double kContributionPenalty = 1e-6;
 constexpr std::size_t kPolishedStarts = 4;
 constexpr std::size_t kStartAlphas = 256;  // alphas for the grid of starts, evenly drawn
 
-// The rows of one alpha, combined: with f the values of the curves at alpha, |weights f - target|^2 is their
-// squared error up to a constant. Exact, by a QR decomposition of the powers of specular.
+// A Samples combines the rows of one alpha. With f the values of the curves at alpha, |weights f - target|^2
+// is their squared error up to a constant. It is exact, by a QR decomposition of the powers of specular.
 struct Samples {
   VectorXd alpha;
   MatrixXd weights;  // one column per term
@@ -82,16 +81,16 @@ Samples join_rows(const std::map<double, std::vector<const TableRow*>>& by_alpha
   return samples;
 }
 
-// The derivative of phi(rate, x) by the rate; uses the series where the closed form is 0 / 0.
+// Returns the derivative of phi(rate, x) by the rate. Uses the series where the closed form is 0 / 0.
 double rise_derivative(double rate, double x) {
   const double y = rate * x;
   if (y < 1e-3) return -x * x * (1.0 / 2.0 - y * (1.0 / 3.0 - y * (1.0 / 8.0 - y / 30.0)));
   return (y * std::exp(-y) + std::expm1(-y)) / (rate * rate);
 }
 
-// The squared error as a function of the rates alone, with the least squares coefficients for them (Golub and
-// Pereyra 1973; Jacobian after Kaufman 1975, whose gradient is exact). The rates are ramp_rate and bump_rate
-// of each term in turn.
+// VariableProjection gives the squared error as a function of only the rates, with the least squares
+// coefficients for them (Golub and Pereyra 1973; Jacobian after Kaufman 1975, whose gradient is exact). The
+// rates are ramp_rate and bump_rate of each term in turn.
 class VariableProjection {
  public:
   VariableProjection(const Samples& samples, const SpecularForm& form)
@@ -111,7 +110,7 @@ class VariableProjection {
                                     form_.powers.begin());
   }
 
-  // One row per sample, then one row per column for the penalty.
+  // Returns one row per sample, then one row per column for the penalty.
   MatrixXd basis(const std::vector<double>& rates) const {
     const Index terms = samples_.weights.cols(), count = sample_count();
     MatrixXd columns = MatrixXd::Zero(size(), column_count());
@@ -178,7 +177,7 @@ class VariableProjection {
   Index sample_count() const { return samples_.alpha.size(); }
   Index column_count() const { return 3 * samples_.weights.cols() + (form_.pole ? 1 : 0); }
 
-  // The derivative of the column that depends on rate `r`.
+  // Returns the derivative of the column that depends on rate `r`.
   VectorXd column_derivative(Index r, double rate) const {
     const Index count = sample_count();
     const auto argument = [&](double alpha) { return r % 2 == 1 ? alpha * alpha : alpha; };
@@ -245,7 +244,7 @@ Rates polish(const VariableProjection& projection, Rates rates) {
   return rates;
 }
 
-// Searches rates on the grid term by term, the slope first: the best few pairs of one term are combined with
+// Searches rates on the grid term by term, the slope first. The best few pairs of one term are combined with
 // every pair of the next.
 std::vector<Rates> search_starts(const VariableProjection& projection) {
   std::vector<Rates> beams = {{std::vector<double>(2 * projection.term_count(), 0.0)}};
@@ -274,7 +273,7 @@ std::vector<Rates> search_starts(const VariableProjection& projection) {
   return beams;
 }
 
-// The cost is infinite if no start converges.
+// Returns an infinite cost if no start converges.
 Rates best_or_none(const VariableProjection& projection, const std::vector<Rates>& starts) {
   Rates best;
   for (const Rates& start : starts) {
@@ -307,7 +306,7 @@ void require_samples(std::size_t alpha_count, std::size_t specular_count, const 
 std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
                                              const std::vector<SpecularTerm>* near) {
   std::map<double, std::vector<const TableRow*>> by_alpha;
-  std::set<double> alphas, speculars;  // where specular counts
+  std::set<double> alphas, speculars;  // of rows where specular counts
   for (const TableRow& row : rows) {
     by_alpha[row.alpha1].push_back(&row);
     if (!(row.specular1 > 0.0)) continue;

@@ -1,5 +1,5 @@
-// The specular half of the parametric regression: fits curves of exponentials over alpha, one for each power
-// of specular, together.
+// This file fits the specular half of the parametric regression: curves of exponentials over alpha, one for
+// each power of specular, together.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@
 namespace remap {
 
 // Returns the terms of `form` that minimize the squared error in specular2 over the rows, by variable
-// projection: Ceres searches the rates from a grid of starts, and least squares gives the linear coefficients
-// for them. `near`: terms of the same form, fitted to similar rows, whose rates are the only start if it
-// converges. Throws kInput for rows with too few distinct alpha1 (6) or specular1 (one per power), kNumeric
-// if no start converges.
+// projection. Ceres searches the rates from a grid of starts, and least squares gives the linear coefficients
+// for them. `near` holds terms of the same form, fitted to similar rows. Their rates are the only start if it
+// converges. Throws kInput for rows with too few distinct alpha1 (6) or specular1 (one per power), and
+// kNumeric if no start converges.
 std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
                                              const std::vector<SpecularTerm>* near = nullptr);
 

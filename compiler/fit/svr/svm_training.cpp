@@ -1,4 +1,4 @@
-// Converts samples to libsvm's data structures, trains, and converts the model to a sum of Gaussians.
+// This file converts samples to libsvm's data structures, trains, and converts the model to Gaussians.
 #include "fit/svr/svm_training.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ constexpr long kIterationBound = 10'000'000;  // the limit of libsvm (Solver::So
 constexpr double kLargestTolerance = 1e-3;    // of the optimality conditions; the default of libsvm
 constexpr double kToleranceOfEpsilon = 3.0;   // a larger value costs accuracy, a smaller one only time
 
-// The number of iterations, parsed from libsvm's messages. libsvm does not report it in another way, and its
-// print function is shared by all threads.
+// This is the number of iterations, parsed from libsvm's messages. libsvm does not report it in another way,
+// and its print function is shared by all threads.
 thread_local long iteration_count = 0;
 
 void listen(const char* message) {
@@ -37,7 +37,8 @@ struct ModelDeleter {
   void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
 };
 
-// The samples in libsvm's format: one list of (index, value) per sample, terminated by index -1.
+// An OwnedProblem holds the samples in libsvm's format: a list of (index, value) per sample that ends with
+// index -1.
 struct OwnedProblem {
   OwnedProblem(const SvrSamples& samples, const std::vector<Scaling>& scalings) : outputs(samples.outputs) {
     const std::size_t width = samples.input_count + 1;

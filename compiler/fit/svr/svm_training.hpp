@@ -1,4 +1,4 @@
-// One training by libsvm. svm_training.cpp is the only file that uses libsvm.
+// This file runs one training by libsvm. svm_training.cpp is the only file that uses libsvm.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace remap {
 
-// Hyper-parameters of one output, in normalised units: alpha (or alpha / (alpha + alpha_pole)) and the output
-// are scaled to [0, 1] over the training rows, specular to [0, specular_span]. Target specular is curved in
-// alpha, mostly near 0, and nearly straight in specular. With a pole and a span below 1, one gamma fits both
-// inputs.
+// An SvrHyperParameters holds hyper-parameters of one output, in normalised units. Alpha (or alpha / (alpha +
+// alpha_pole)) and the output are scaled to [0, 1] over the training rows, specular to [0, specular_span].
+// Target specular is curved in alpha, mostly near 0, and nearly straight in specular. With a pole and a span
+// below 1, one gamma fits both inputs.
 struct SvrHyperParameters {
   double cost = 100.0;         // C, the penalty of errors above epsilon; > 0
   double gamma = 1.0;          // of exp(-gamma |x - y|^2); > 0
@@ -23,7 +23,7 @@ struct SvrHyperParameters {
   bool operator==(const SvrHyperParameters&) const = default;
 };
 
-// Samples of one output: alpha unchanged, specular and output normalised to [0, 1].
+// An SvrSamples holds samples of one output: alpha unchanged, specular and output normalised to [0, 1].
 struct SvrSamples {
   std::size_t input_count = 1;  // 1: alpha; 2: alpha, specular
   std::vector<double> inputs;   // rows of input_count values
@@ -33,13 +33,13 @@ struct SvrSamples {
 
 // Trains an epsilon-SVR with Gaussian kernel on `samples` (at least 1, finite). Alpha is normalised over the
 // samples and specular is multiplied by specular_span. The result contains these scalings, so it has the
-// units of `samples`. Empty if libsvm stopped at its limit of 10^7 iterations or found no finite solution.
-// Thread-safe; the same samples in the same order give the same bits. Throws kUsage if libsvm refuses the
-// hyper-parameters.
+// units of `samples`. Returns nothing if libsvm stopped at its limit of 10^7 iterations or found no finite
+// solution. Thread-safe; the same samples in the same order give the same bits. Throws kUsage if libsvm
+// refuses the hyper-parameters.
 std::optional<KernelExpansion> train_expansion(const SvrSamples& samples,
                                                const SvrHyperParameters& parameters);
 
-// For example `libsvm 3.24`.
+// Returns for example `libsvm 3.24`.
 std::string solver_name();
 
 }  // namespace remap

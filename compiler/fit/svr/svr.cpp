@@ -1,4 +1,4 @@
-// Converts rows to samples, trains one expansion per output and records the method.
+// This file converts rows to samples, trains one expansion per output and records the method.
 #include "fit/svr/svr.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr std::size_t kLargestTraining = 2000;  // samples; time grows faster th
 constexpr int kSoftenings = 3;  // reductions of C to a tenth if the final training does not converge
 constexpr double kSoftening = 0.1;
 
-// One output of the table with its scalings.
+// A Problem is one output of the table with its scalings.
 struct Problem {
   std::string name;  // `alpha` or `specular`, as in `method`
   SvrSamples samples;
@@ -123,7 +123,7 @@ KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParamet
   return expansion;
 }
 
-// Combines the progress of both outputs into a share that never decreases.
+// A RisingProgress combines the progress of both outputs into a fraction that never decreases.
 class RisingProgress {
  public:
   explicit RisingProgress(const FitProgress& progress) : progress_(progress) {}

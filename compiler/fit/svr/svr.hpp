@@ -1,5 +1,5 @@
-// Support vector regression (Sztrajman et al. 2019, section 5.1) with libsvm: epsilon-SVR, radial basis
-// functions, one model per output.
+// This file does support vector regression (Sztrajman et al. 2019, section 5.1) with libsvm: epsilon-SVR,
+// radial basis functions, one model per output.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,18 @@ struct SvrOptions {
   std::optional<SvrHyperParameters> alpha, specular;
 };
 
-// Fits `rows` (all of status ok, finite). Target alpha is fitted from source alpha alone unless
-// alpha_needs_specular(). Rows with the same inputs are combined to one sample with their mean output: the
+// Fits `rows` (all of status ok, finite). Target alpha is fitted only from source alpha unless
+// alpha_needs_specular(). Rows with the same inputs are combined to one sample with their mean output. The
 // published table has about twenty rows of target alpha for each alpha1, and their mean gives the same fit in
 // a hundredth of the time. Hyper-parameters are chosen by cross-validation within `rows` (svr_search.hpp).
 // The model is then trained on all samples, or on 2000 evenly drawn samples if there are more (recorded in
-// `method`). Throws kInput for fewer than 10 rows or a constant input, kUsage for hyper-parameters out of
-// range, kNumeric if libsvm does not converge with given hyper-parameters. If they were searched, C is
+// `method`). Throws kInput for fewer than 10 rows or a constant input, and kUsage for hyper-parameters out of
+// range. Throws kNumeric if libsvm does not converge with given hyper-parameters. If they were searched, C is
 // reduced until it converges, and libsvm prints a warning to standard error, which cannot be disabled. An
 // exception from `progress` ends the fit after the current trainings, within a few seconds.
 //
 // `method` contains for each output, with the prefix `alpha.` or `specular.`: C, gamma, epsilon,
-// specular_span, alpha_pole, inputs, vectors, trained_samples; and after a search folds, candidates,
+// specular_span, alpha_pole, inputs, vectors, trained_samples. After a search it also has folds, candidates,
 // search_samples and cross_validation_rms (in the unit of the output).
 Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
                    const FitProgress& progress = {});

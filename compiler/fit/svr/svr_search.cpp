@@ -1,4 +1,4 @@
-// The stages of the search. Threads work on tasks of one candidate and one fold.
+// This file holds the stages of the search. Threads work on tasks of one candidate and one fold.
 #include "fit/svr/svr_search.hpp"
 
 #include <algorithm>
@@ -20,17 +20,17 @@ constexpr std::size_t kFewestSamples = 8;
 constexpr std::size_t kFolds = 5;
 constexpr std::size_t kFirstFolds = 2;  // after which hopeless candidates are dropped
 constexpr double kHopeless = 1.5;       // error relative to the best on the same folds
-constexpr double kProgress = 0.99;      // relative error that counts as an improvement
+constexpr double kProgress = 0.99;      // a relative error up to this is an improvement
 constexpr double kWorthTime = 0.9;  // the same for a tube a third as wide, which takes three times as long
 constexpr std::size_t kNeverJudges = kFolds;
 
-// Measured on the published table: more samples change the choice little, and the time of a training grows
+// More samples change the choice little, as measured on the published table. The time of a training grows
 // faster than their square.
 constexpr std::size_t kGridSamples = 250;
 constexpr std::size_t kPatternSamples = 400;
 constexpr std::size_t kTubeSamples = 600;
 
-// The axes of the search. Steps are a quarter of a decade, for poles half a decade.
+// These are the axes of the search. Steps are a quarter of a decade, for poles half a decade.
 enum Axis { kCost, kGamma, kSpan, kPole, kEpsilon, kAxes };
 using Point = std::array<int, kAxes>;
 
@@ -52,7 +52,7 @@ constexpr TubeRange tube_range(std::size_t sample_count) {
   return sample_count <= kSmallProblem ? TubeRange{-16, -16} : TubeRange{-12, -14};
 }
 
-// 10^(step / 4), rounded to two digits to keep records short.
+// Returns 10^(step / 4), rounded to two digits to keep records short.
 double value_of(int step) {
   constexpr std::array<double, 4> kDigits = {10.0, 18.0, 32.0, 56.0};
   const int decade = (step + 40) / 4 - 10;
@@ -60,7 +60,7 @@ double value_of(int step) {
   return decade >= 1 ? digits * std::pow(10.0, decade - 1) : digits / std::pow(10.0, 1 - decade);
 }
 
-// A larger step gives more resolution at small alpha.
+// Returns the pole of a step. A larger step gives more resolution at small alpha.
 double pole_of(int step) { return step == 0 ? 0.0 : value_of(2 * (1 - step)); }
 
 SvrHyperParameters parameters_at(const Point& point) {
@@ -70,7 +70,7 @@ SvrHyperParameters parameters_at(const Point& point) {
 
 struct FoldedSamples {
   SvrSamples samples;
-  std::vector<std::size_t> fold;  // in which each sample is held out, or kNeverJudges
+  std::vector<std::size_t> fold;  // fold in which each sample is held out, or kNeverJudges
 };
 
 FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
@@ -152,13 +152,12 @@ struct Trial {
   }
 };
 
-// The candidates of one stage. Each point is evaluated once.
+// A Contest holds the candidates of one stage. Each point is evaluated once.
 class Contest {
  public:
   Contest(FoldedSamples folded, unsigned jobs) : folded_(std::move(folded)), jobs_(jobs) {}
 
-  // Evaluates the new points of `points` on the first folds, then those that are not hopeless on the other
-  // folds.
+  // Evaluates the new `points` on the first folds, and the promising ones on the other folds.
   void enter(const std::vector<Point>& points) {
     std::vector<Trial*> entered;
     for (const Point& point : points) {
@@ -175,7 +174,7 @@ class Contest {
     if (progress_) progress_(1.0);
   }
 
-  // The finished candidate with the smallest error; the first in the order of points if several are equal.
+  // Returns the finished candidate with the smallest error, the first of equal ones.
   const Trial& best() const {
     const Trial* best = nullptr;
     for (const auto& [point, candidate] : candidates_)
@@ -186,7 +185,7 @@ class Contest {
     return *best;
   }
 
-  // The smoothest candidate within one standard error of the best.
+  // Returns the smoothest candidate within one standard error of the best.
   const Trial& smoothest() const {
     const Trial* choice = &best();
     const double limit = choice->rms() + choice->standard_error();
@@ -238,7 +237,7 @@ std::vector<Point> grid(std::size_t input_count, int epsilon) {
   return points;
 }
 
-// The points one step away along each axis, and along the diagonal on which C compensates gamma.
+// Returns the points one step away along each axis, and along the diagonal on which C compensates gamma.
 std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_count) {
   std::vector<Point> moves = {{1, 0, 0, 0, 0},  {-1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, -1, 0, 0, 0},
                               {1, -1, 0, 0, 0}, {0, 0, 0, 1, 0},  {0, 0, 0, -1, 0}};
@@ -264,8 +263,8 @@ Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds
   }
 }
 
-// Narrows the tube while that reduces the error; otherwise widens it while the error stays the same. A narrow
-// tube shows differences between kernels that a wide tube hides, so gamma is increased again if that helps.
+// Narrows the tube while this reduces the error. Otherwise widens it while the error stays the same. A narrow
+// tube shows differences between kernels that a wide tube hides, so gamma is increased again if this helps.
 Point choose_tube(Contest& contest, const Point& start, int narrowest) {
   contest.enter({start});
   Point point = follow(contest, start, kEpsilon, -2, {narrowest, kBounds[kEpsilon].high}, kWorthTime);

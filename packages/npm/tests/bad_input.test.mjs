@@ -1,4 +1,4 @@
-// Whatever is given: an answer or an error with a message, and the library works afterwards.
+// These tests check that any input gives an answer or an error with a message, and that the library works afterwards.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 

@@ -1,4 +1,5 @@
-// The command of the package and the program of the C++ build (TEXREMAP_NATIVE), over copies of the same inputs.
+// This file compares the command of the package with the program of the C++ build (TEXREMAP_NATIVE), over copies of the
+// same inputs.
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
 import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
@@ -47,7 +48,8 @@ export function filesBelow(root, below = '') {
     .sort();
 }
 
-// What a PNG file says around the picture: its chunks, its size in the world, notes. OpenImageIO adds notes of its own.
+// Returns what a PNG file holds around the picture: its chunks, its size in the world, notes. OpenImageIO adds its own
+// notes.
 function aroundPicture(file) {
   const notes = [];
   for (let at = 8; at + 12 <= file.length; at += 12 + file.readUInt32BE(at)) {
@@ -58,7 +60,7 @@ function aroundPicture(file) {
   return { notes: notes.sort(), chunks: pngChunks(file) };
 }
 
-// How files of a format are compared, by their extensions: values of images, and what is around them.
+// These functions compare files of a format, by extension: values of images, and the other content.
 const readers = { '.png': (bytes) => ({ ...aroundPicture(bytes), ...pngValues(bytes) }) };
 
 /** The values of a PNG file. */
@@ -80,7 +82,7 @@ async function requireSameImage(extension, own, other, name) {
     .equals(Buffer.from(otherData.buffer, otherData.byteOffset, otherData.byteLength)), `values of ${name}`);
 }
 
-// The document of a .glb without what follows from the sizes of encoded images, and these images.
+// Returns the document of a .glb without parts that depend on the sizes of encoded images, and these images.
 function partsOfGlb(file) {
   const length = file.readUInt32LE(12);
   const document = JSON.parse(file.toString('utf8', 20, 20 + length));
@@ -110,7 +112,7 @@ async function requireSameFile(name, own, other) {
   else assert.equal(own.toString('latin1'), other.toString('latin1'), name);
 }
 
-// The lines of a report, in an order that does not depend on threads, without times.
+// Returns the lines of a report, without times and in an order that does not depend on threads.
 const comparable = (text) =>
   text.split('\n').sort().join('\n').replace(/"seconds": [0-9.e-]+/g, '"seconds": 0').replace(/[0-9.]+ s\b/g, '0 s');
 
@@ -118,7 +120,7 @@ const comparable = (text) =>
 export async function requireSameResults(own, other) {
   const files = filesBelow(own);
   assert.deepEqual(files, filesBelow(other));
-  // The journal has hashes of encoded files.
+  // Skip the journal, because it has hashes of encoded files.
   for (const file of files.filter((name) => name.startsWith('out') && !name.endsWith('.texremap.jsonl')))
     await requireSameFile(file, readFileSync(join(own, file)), readFileSync(join(other, file)));
 }

@@ -1,4 +1,5 @@
-// Arrays in, arrays out, against the golden texels of the converters, which the compiler computed in another way.
+// These tests convert arrays and compare them with the converters' golden texels, which the compiler computed in another
+// way.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
@@ -94,7 +95,7 @@ test('sources are not changed', () => {
   assert.deepEqual(specular, new Float32Array([0.1, 0.2]));
 });
 
-// KHR_materials_pbrSpecularGlossiness and glTF 2.0: a metal has no diffuse, a dielectric F0 of 0.04.
+// By KHR_materials_pbrSpecularGlossiness and glTF 2.0, a metal has no diffuse, and a dielectric has an F0 of 0.04.
 test('materials: metals and dielectrics of specular-gloss become those of metal-rough', () => {
   const made = convert({
     source: 'gltf-specgloss', target: 'gltf', glossiness: new Float32Array([0.75, 0.5]),
@@ -133,7 +134,7 @@ test('encodings of roughness', () => {
   near(same({ roughness: 0.25, sourceEncoding: 'alpha' }), 0.5);
   near(made({ roughness: 0.25, targetEncoding: 'glossiness' }).glossiness, 0.75);
   near(same({ glossiness: 0.25 }), 0.75);
-  // Roughness is roughness, whatever the model calls its own.
+  // `roughness` means roughness, whatever parameter the model uses.
   near(convert({ source: 'gltf-specgloss', target: 'gltf', diffuse: 0.5, specular: 0.04, roughness: 0.25 }).roughness, 0.25);
   const into = { glossiness: new Float32Array(1) };
   made({ roughness: new Float32Array([0.25]), targetEncoding: 'glossiness', into });
@@ -197,7 +198,7 @@ test('arrays in memory of the library give the same, also after memory has grown
     for (const array of Object.values(held)) array.free();
     assert.throws(() => held.roughness.array, /the array was freed/);
     assert.throws(() => convert({ ...names, ...values, roughness: kept }), /roughness: its array of allocate\(\) was freed/);
-    held.roughness.free();  // once more changes nothing
+    held.roughness.free();  // a second call changes nothing
   }
 });
 

@@ -1,4 +1,4 @@
-// remapMaterials() on documents of glTF-Transform, against the program of the C++ build on the same files.
+// These tests compare remapMaterials() on documents of glTF-Transform with the program of the C++ build on the same files.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
@@ -22,7 +22,7 @@ const GLOSS = 'KHR_materials_pbrSpecularGlossiness';
 const isPng = (bytes) => bytes[0] === 0x89 && bytes[1] === 0x50;
 const valuesOf = (bytes) => (isPng(bytes) ? pngValues(bytes) : Buffer.from(bytes));
 
-// Materials as JSON, with the image and the sampler of each texture in place of its index.
+// Returns materials as JSON, with the image and the sampler of each texture instead of its index.
 async function materialsOf(document) {
   const { json, resources } = await io.writeJSON(document, { format: Format.GLTF });
   const visit = (value) => {
@@ -45,7 +45,7 @@ function requireClose(own, other, place) {
   for (const key of Object.keys(own)) requireClose(own[key], other[key], `${place}/${key}`);
 }
 
-// What is no material and no texture: objects of the document, by themselves.
+// Returns the objects of the document that are neither materials nor textures, separately.
 const othersOf = (document) => {
   const root = document.getRoot();
   return [...root.listScenes(), ...root.listNodes(), ...root.listMeshes(), ...root.listMeshes().flatMap((mesh) => mesh.listPrimitives()),
@@ -89,7 +89,7 @@ for (const name of ['01_alpha_mask', '08_combine_orm'].map((one) => join(assets,
   test(`${basename(name)} to spec-gloss`, { skip: !existsSync(name) && `${name} is not there` }, () =>
     requireSameAsCommand(name, { from: 'gltf', to: 'gltf-specgloss' }, ['--to', 'gltf-specgloss']));
 
-// A document of materials with factors, one with maps, and one that is not spec-gloss, without URIs.
+// Returns a document of materials with factors, one with maps, and one that is not spec-gloss, without URIs.
 function generated(seed, count = 3) {
   const random = randomNumbers(seed);
   const document = new Document().setLogger(new Logger(Logger.Verbosity.SILENT));
@@ -169,7 +169,7 @@ test('textures with one URI, or with one outside of the folder', async () => {
   assert.deepEqual(document.getRoot().listTextures().slice(0, 3).map((texture) => texture.getURI()), uris);
 });
 
-// A file for the command to refuse, and a document for the function.
+// Compares refusals: the command gets a file, and the function gets a document.
 async function refusals(words, options) {
   const file = join(mkdtempSync(join(folder, 'refused-')), 'document.gltf');
   await io.write(file, generated(4, 1));

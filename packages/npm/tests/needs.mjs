@@ -1,4 +1,4 @@
-// What a test cannot do without: what is missing is said, and the test counts as skipped (77), or as failed where REMAP_REQUIRE
+// This file checks the needs of a test. It reports what is missing, and the test is skipped (77), or fails if REMAP_REQUIRE
 // holds "npm".
 import { existsSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -26,7 +26,7 @@ export async function needPackage(name) {
   } catch {
     skipAll(`${name} is not installed (packages/npm/tests/install.bash ${packageFolder})`);
   }
-  // Of packages in two forms the one that `import` takes.
+  // If a package has two forms, use the one that `import` takes.
   const other = file.replace(/\.cjs$/, '.js');
   return import(pathToFileURL(existsSync(other) ? other : file).href);
 }

@@ -1,4 +1,4 @@
-// The package under test, loaded, and the folder of the sources.
+// This file loads the package under test, and gives the folder of the sources.
 import { pathToFileURL, fileURLToPath } from 'node:url';
 
 const root = new URL('../../../', import.meta.url);
@@ -6,7 +6,7 @@ export const sourceFolder = process.env.REMAP_SOURCE_DIR ?? fileURLToPath(root);
 export const packageFolder = process.env.TEXREMAP_PACKAGE ?? fileURLToPath(new URL('build/wasm/npm', root));
 export const texremap = await import(pathToFileURL(`${packageFolder}/index.js`).href);
 
-// Numbers in 0 to 1, the same in every run (mulberry32, T. Ettinger).
+// Returns numbers in 0 to 1, the same in every run (mulberry32, T. Ettinger).
 export function randomNumbers(seed) {
   return () => {
     seed = (seed + 0x6d2b79f5) | 0;

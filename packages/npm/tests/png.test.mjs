@@ -1,4 +1,5 @@
-// Images that claim more than they hold: refused before fast-png or sharp makes room for them. Needs no WebAssembly.
+// These tests check that images which claim more than they hold are refused before fast-png or sharp allocates memory. They
+// need no WebAssembly.
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -14,7 +15,7 @@ const SIDE = 8;
 
 const good = () => encodedPng({ width: SIDE, height: SIDE, channels: 4, depth: 8, data: new Uint8Array(4 * SIDE * SIDE) }, 6);
 
-// With another size in the header of a good file.
+// Returns a good file with another size in its header.
 function claiming(width, height) {
   const bytes = good();
   const view = new DataView(bytes.buffer, bytes.byteOffset);

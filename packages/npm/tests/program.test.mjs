@@ -1,4 +1,4 @@
-// The command of the package against the program of the C++ build: the cases of packages/tests in PNG.
+// These tests compare the command of the package with the program of the C++ build: the cases of packages/tests in PNG.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { cpSync, existsSync, readFileSync, readlinkSync, truncateSync, writeFileSync } from 'node:fs';
@@ -9,7 +9,7 @@ import test from 'node:test';
 import { cases, copyOfInputs, filesBelow, folder, requireSame, requireSameResults, runNative, runOwn, startOwn } from './commands.mjs';
 import { packageFolder } from './package.mjs';
 
-// JPEG and TIFF: sharp.test.mjs.
+// sharp.test.mjs tests JPEG and TIFF.
 const own = ['png', 'jpg', 'tif'];
 for (const one of cases) {
   const others = one.formats.filter((format) => !own.includes(format));
@@ -66,7 +66,7 @@ test('two commands at once in one folder give what one gives', async () => {
   await requireSameResults(together, alone);
 });
 
-// FNV-1a, as runtime/core/owner_tag.cpp has it.
+// Computes FNV-1a like runtime/core/owner_tag.cpp.
 function tagOfMachine() {
   let hash = 0x811c9dc5;
   for (const byte of Buffer.from(`${hostname()}/${readFileSync('/proc/sys/kernel/random/boot_id')}/${readlinkSync('/proc/self/ns/pid')}`)) hash = Math.imul(hash ^ byte, 0x01000193);

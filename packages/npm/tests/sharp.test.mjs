@@ -1,4 +1,4 @@
-// JPEG, TIFF and WebP, which sharp reads and writes for the command, against the program of the C++ build.
+// These tests compare JPEG, TIFF and WebP, which sharp reads and writes for the command, with the program of the C++ build.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -10,7 +10,7 @@ import { randomArray, randomNumbers } from './package.mjs';
 
 const sharp = (await needPackage('sharp')).default;
 
-// The values of a file, as sharp stores them.
+// Returns the values of a file, as sharp stores them.
 async function valuesOf(bytes) {
   const { depth, channels, space } = await sharp(bytes).metadata();
   const kept = { 'b-w': 'b-w', grey16: 'grey16', rgb16: 'rgb16', srgb: 'srgb' }[space];
@@ -18,13 +18,13 @@ async function valuesOf(bytes) {
   return { width: info.width, height: info.height, channels, depth, data };
 }
 for (const extension of ['.jpg', '.tif']) setReader(extension, valuesOf);
-// Notes of a file of another format are not carried over.
+// Notes of a file of another format are not copied.
 setReader('.png', pngValues);
 
 for (const one of cases.filter(({ formats }) => formats.includes('tif') || formats.includes('jpg')))
   test(one.name, { skip: missing(one) }, () => requireSame(one));
 
-// Maps of noise in `in`, written by sharp. The colors have 4 channels where they have opacity.
+// Writes maps of noise into `in` by sharp. Colors have 4 channels if they have opacity.
 async function writeMaps(copy, { extension, depth = 8, opacity = false, written }) {
   const random = randomNumbers(5);
   mkdirSync(join(copy, 'in'));

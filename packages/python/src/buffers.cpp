@@ -7,7 +7,7 @@
 namespace remap::python {
 namespace {
 
-// Of the module struct, in the order and sizes of this machine.
+// Returns the type for a format of the module struct, in the order and sizes of this machine.
 std::optional<PixelType> type_of(const std::string& format, Py_ssize_t size) {
   if (format.empty() || format.size() > 2) return std::nullopt;
   if (format.size() == 2 && format[0] != '@' && format[0] != '=' && format[0] != '<') return std::nullopt;

@@ -16,7 +16,7 @@ namespace nb = nanobind;
 namespace remap::python {
 namespace {
 
-// A member of a dict; none where it is missing or None.
+// Returns a member of a dict, or nothing if it is missing or None.
 template <typename Value>
 std::optional<Value> member(const nb::dict& dict, const char* name) {
   if (!dict.contains(name)) return std::nullopt;
@@ -28,7 +28,7 @@ std::optional<Value> member(const nb::dict& dict, const char* name) {
   return cast;
 }
 
-// One of a table of names.
+// Returns one of a table of names.
 template <typename Value, std::size_t Count>
 std::optional<Value> named_member(const nb::dict& dict, const char* name,
                                   const NamedValues<Value, Count>& table) {
@@ -48,7 +48,7 @@ Parameter parameter_named(const std::string& name) {
 
 std::string text_of(nb::handle key) { return nb::cast<std::string>(key); }
 
-// Sizes of arrays agree with the first one.
+// A MapSize checks that sizes of arrays agree with the first one.
 class MapSize {
  public:
   void hold(const Buffer& buffer, const std::string& name, MapConversion& maps) {
@@ -65,7 +65,7 @@ class MapSize {
   bool is_known_ = false;
 };
 
-// What is copied from Python, so that the work needs no lock of the interpreter.
+// A PreparedMaps is copied from Python, so that the work needs no interpreter lock.
 struct PreparedMaps {
   MapConversion maps;
   std::vector<Buffer> held;

@@ -1,4 +1,4 @@
-// A converter of Python: arrays in, arrays out.
+// This file is a converter for Python: arrays in, arrays out.
 #pragma once
 
 #include <map>
@@ -14,19 +14,19 @@
 
 namespace remap::python {
 
-// `source`, `target` and what else a ConversionRequest has, by the names of its members; `converters`: a file
-// or folder in place of the shipped ones. None and missing members have their defaults.
+// A Request holds `source`, `target` and other members of ConversionRequest by their names. `converters` is a
+// file or folder that replaces the shipped ones. None and missing members have their defaults.
 using Request = nanobind::dict;
 
 class MaterialConversion {
  public:
   explicit MaterialConversion(const Request& request);
-  // The converter of a fit, or of a warp, whose source may be of the metallic workflow.
+  // Loads the converter of a fit, or of a warp, whose source may be of the metallic workflow.
   static MaterialConversion load(const std::string& path, const std::optional<std::string>& source_workflow);
 
-  // `sources`: arrays (height, width, channels) or lists of constants, by the names of parameters; `targets`:
-  // writable arrays. `options`: members of MapTreatment and MapConversion by name, `transfers` of each.
-  // Returns the counts of MapStatistics. Throws as convert_maps().
+  // Converts maps. `sources` holds arrays (height, width, channels) or lists of constants, by the names of
+  // parameters. `targets` holds writable arrays. `options` holds members of MapTreatment and MapConversion by
+  // name, and `transfers` of each. Returns the counts of MapStatistics. Throws like convert_maps().
   nanobind::dict convert(const nanobind::dict& sources, const nanobind::dict& targets,
                          const nanobind::dict& options) const;
   std::size_t target_channels(const std::string& parameter, std::size_t specular_channels) const;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An object of Python in C++, which any thread may destroy.
+// A Held is an object of Python in C++, which any thread may destroy.
 class Held {
  public:
   explicit Held(nb::object object) : object_(new nb::object(std::move(object))) {}
@@ -37,7 +37,7 @@ class Held {
   nb::object* object_;
 };
 
-// Calls Python with the lock of the interpreter; what it raises becomes an Error of `kind`.
+// Calls Python with the interpreter lock. An exception there becomes an Error of `kind`.
 template <typename Work>
 auto in_python(ErrorKind kind, Work work) {
   const nb::gil_scoped_acquire lock;
@@ -78,7 +78,7 @@ ImageLayout layout_from(const nb::handle& given) {
   return layout;
 }
 
-// Python gets copies: an object may keep what it is given for longer than the memory of C++ lives.
+// Python gets copies, because an object may keep them longer than the memory of C++ lives.
 nb::object copy_of(const void* bytes, std::size_t count) {
   PyObject* const copy =
       PyBytes_FromStringAndSize(static_cast<const char*>(bytes), static_cast<Py_ssize_t>(count));
@@ -139,7 +139,7 @@ nb::dict changes_of(const ImageChanges& changes) {
   given["type"] = changes.type ? nb::object(nb::cast(name_of_type(*changes.type))) : nb::none();
   given["channels"] = nb::cast(changes.channels);
   given["is_color"] = changes.colors.has_value();
-  // The curves of whole numbers and of others, and the one that is followed.
+  // Pass the curves of integers and of other types, and the one that is followed.
   if (changes.colors) {
     given["transfer_of_whole"] = std::string(name_of(kTransfers, changes.colors->of(PixelType::kUint8)));
     given["transfer_of_floats"] = std::string(name_of(kTransfers, changes.colors->of(PixelType::kFloat)));
@@ -168,7 +168,7 @@ class WrittenByPython : public NewImage {
     try {
       in_python(ErrorKind::kOutput, [&] { image_->attr("abandon")(); });
     } catch (const Error&) {
-      // The file is removed all the same.
+      // The file is still removed.
     }
     std::error_code ignored;
     fs::remove(unfinished_, ignored);
@@ -259,11 +259,12 @@ class PythonCodec : public ImageCodec {
   Held images_;
 };
 
-// Lives as long as the process: the interpreter may be gone when static objects are destroyed.
+// A PythonImages lives as long as the process, because the interpreter may end before static objects are
+// destroyed.
 class PythonImages : public ImageLibrary {
  public:
   explicit PythonImages(const nb::object& images) : images_(images), codec_(images) {}
-  // The objects in Python have limits of their own for memory (images.py).
+  // Does nothing, because the objects in Python have their own limits for memory (images.py).
   void set_limits(const ImageLimits& limits) const override {
     if (limits.threads > 0)
       in_python(ErrorKind::kInput, [&] { images_->attr("set_thread_count")(limits.threads); });
@@ -279,7 +280,7 @@ class PythonImages : public ImageLibrary {
   }
   const ImageCodec& codec() const override { return codec_; }
 
-  // Of remapc alone.
+  // Only remapc needs these.
   Picture read_picture(const fs::path& path) const override { return refuse(path); }
   void write_exr(const fs::path& path, const Picture&,
                  const std::map<std::string, std::string>&) const override {

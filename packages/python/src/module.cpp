@@ -1,4 +1,5 @@
-// The module texremap._core: converters of the library over arrays, and the commands of texremap.
+// This file is the module texremap._core: converters of the library over arrays, and the commands of
+// texremap.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
@@ -21,7 +22,7 @@ namespace nb = nanobind;
 namespace remap::python {
 namespace {
 
-// texremap.Error is made in Python: a ValueError with the kind as a member.
+// Raises texremap.Error, which is made in Python: a ValueError with the kind as a member.
 void raise_error(const Error& error) {
   const nb::object type = nb::module_::import_("texremap._error").attr("Error");
   const nb::object value =
@@ -29,7 +30,7 @@ void raise_error(const Error& error) {
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
-// Every name that a conversion may have, with what it means.
+// Returns every name that a conversion may have, with its meaning.
 nb::list models() {
   nb::list all;
   const ConverterGraph graph = shipped_graph();

@@ -79,7 +79,7 @@ def test_metallic_to_specular_is_equation_2():
                               roughness=np.full((20, 30), 0.4, np.float32))
     m = metallic[..., None].astype(np.float64)
     f0 = 0.04 * (1 - m) + base * m
-    # glTF 2.0, appendix B: diffuse is base color (1 - metallic); spec-gloss scales it by 1 - max(specular).
+    # By glTF 2.0, appendix B, diffuse is base color (1 - metallic). spec-gloss scales it by 1 - max(specular).
     diffuse = base * (1 - m) * (1 - 0.04) / (1 - f0.max(axis=-1, keepdims=True))
     assert np.abs(result.specular - f0).max() < 1e-6
     assert np.abs(result.glossiness - 0.6).max() < 1e-6

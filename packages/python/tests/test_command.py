@@ -22,7 +22,7 @@ pytestmark = pytest.mark.skipif(not PROGRAM, reason="REMAP_TEXREMAP names no pro
 SHARED = Path(__file__).resolve().parents[2] / "tests"
 CASES = json.loads((SHARED / "cases.json").read_text())
 IMAGES = {".png", ".exr", ".tif", ".jpg", ".tga"}
-# Of the file rather than of the picture, or named otherwise by another version of OpenImageIO.
+# These attributes belong to the file, not to the picture, or have another name in another version of OpenImageIO.
 OTHER_ATTRIBUTES = ("Software", "oiio:", "openexr:", "png:", "tiff:", "XResolution", "YResolution", "ResolutionUnit", "Exif:",
                     "IPTC:", "planarconfig", "compression", "CICP", "colorInteropID", "targa:", "DateTime", "lineOrder")
 
@@ -122,7 +122,7 @@ def test_case(case, inputs, tmp_path):
     files = sorted(path.relative_to(tmp_path / "theirs") for path in (tmp_path / "theirs").rglob("*") if path.is_file())
     assert files == sorted(path.relative_to(tmp_path / "ours") for path in (tmp_path / "ours").rglob("*") if path.is_file())
     for file in files:
-        if file.parts[0] != "out" or file.name == ".texremap.jsonl":  # which has hashes of encoded files
+        if file.parts[0] != "out" or file.name == ".texremap.jsonl":  # the journal has hashes of encoded files
             continue
         pair = tmp_path / "ours" / file, tmp_path / "theirs" / file
         if file.suffix in IMAGES:

@@ -102,7 +102,7 @@ def test_to_metallic(scene):
     assert np.abs(value(stage, "plastic", "diffuseColor") - (0.2, 0.3, 0.4)).max() < 1e-3
     assert value(stage, "missing", "useSpecularWorkflow") == 1
     assert abs(value(stage, "gold", "roughness") - 0.3) < 1e-6
-    # Nothing but these inputs has an opinion in the new layer.
+    # The new layer has opinions only about these inputs.
     touched = set()
     layer.Traverse("/", lambda path: touched.add(path.name) if path.IsPropertyPath() else None)
     assert touched == {"inputs:useSpecularWorkflow", "inputs:diffuseColor", "inputs:metallic", "info:id", "inputs:file",
@@ -117,7 +117,7 @@ def test_maps_hold_what_arrays_give(scene):
     node = UsdShade.Shader(surface(stage, "maps").GetInput("metallic").GetConnectedSources()[0][0].source.GetPrim())
     file = node.GetInput("file").Get().resolvedPath
     with open(file, "rb") as opened:
-        assert b"sRGB" not in opened.read()  # which readers would follow
+        assert b"sRGB" not in opened.read()  # importers would follow it
     stored = np.round(np.asarray(oiio.ImageInput.open(file).read_image("uint8")))[..., 0]
     read = [np.asarray(oiio.ImageInput.open(str(scene.with_name(name))).read_image("uint8"))
             for name in ("diffuse.png", "specular.png")]

@@ -21,14 +21,14 @@ except ImportError as failure:
         f"images cannot be read or written: {failure} (pip install OpenImageIO)"
     ) from failure
 
-# Names of the library, OpenImageIO and NumPy.
+# These are names of the library, OpenImageIO and NumPy.
 _DTYPES = {
     "uint8": np.uint8, "uint16": np.uint16, "uint": np.uint32, "int8": np.int8, "int16": np.int16, "int": np.int32,
     "half": np.float16, "float": np.float32, "double": np.float64,
 }
 _WHOLE = {name for name, dtype in _DTYPES.items() if np.issubdtype(dtype, np.integer)}
 
-# Of the pixel coding, which have another meaning in another format; and what was derived from the old pixels.
+# These describe the pixel coding, with another meaning in another format, or were derived from the old pixels.
 _CODING = (
     "Compression", "CompressionQuality", "jpeg:subsampling", "tiff:Compression", "tiff:RowsPerStrip",
     "tiff:ColorSpace", "tiff:zipquality", "tiff:PhotometricInterpretation", "png:compressionLevel",
@@ -80,7 +80,8 @@ def _is_mixed(spec):
     return len(set(_types(spec))) > 1
 
 
-# Where and with what files of a format begin, the extension that makes OpenImageIO choose its reader, and OpenImageIO's name.
+# These are where and how files of a format begin, the extension that makes OpenImageIO choose its importer, and
+# OpenImageIO's name.
 _MARKS = (
     (0, b"\x89PNG\r\n\x1a\n", "png", "png"), (0, b"\xff\xd8", "jpg", "jpeg"), (8, b"WEBP", "webp", "webp"),
     (0, b"BM", "bmp", "bmp"), (0, b"II*\0", "tif", "tiff"), (0, b"MM\0*", "tif", "tiff"), (0, b"II+\0", "tif", "tiff"),
@@ -95,7 +96,7 @@ def _format(head):
     for begin, mark, extension, format in _MARKS:
         if head[begin : begin + len(mark)] == mark and (format != "webp" or head[:4] == b"RIFF"):
             return extension, format
-    # Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
+    # Targa files do not begin with a mark, so their 18-byte header must have valid values.
     is_targa = len(head) > 18 and head[1] < 2 and head[2] in (1, 2, 3, 9, 10, 11) and head[16] in (8, 15, 16, 24, 32)
     return ("tga", "targa") if is_targa else ("", "")
 
@@ -124,14 +125,14 @@ def _examined(file, fail):
     if format == "bmp":
         header, bits, compression = (int.from_bytes(head[at : at + count], "little") for at, count in ((14, 4), (28, 2), (30, 4)))
         fits = compression == 0 or (compression, bits) in ((1, 8), (2, 4), (3, 16), (3, 32))
-        if header != 12 and not (fits and header in _BMP_HEADERS):  # readers would go beyond their memory
+        if header != 12 and not (fits and header in _BMP_HEADERS):  # importers would read beyond their memory
             fail(f"is damaged, or of an unknown kind: compression {compression} of {bits} bits")
     return extension, format, chunks
 
 
 def _open_as(format, path):
     """An open file, only by the reader of `format`, which must be that of the extension; None if it refuses the file."""
-    with _opening:  # the attribute is that of the process
+    with _opening:  # the attribute belongs to the process
         others = oiio.get_int_attribute("try_all_readers", 1)
         oiio.attribute("try_all_readers", 0)
         try:
@@ -152,7 +153,7 @@ def _tells_color_space(spec, format, chunks):
         return any(name in (b"sRGB", b"gAMA") for name, _ in chunks)
     if format in ("jpeg", "tiff"):
         return spec.getattribute("Exif:ColorSpace") == 1
-    return format != "webp"  # which has no place for it
+    return format != "webp"  # webp has no place for it
 
 
 def _tagged_transfer(spec):
@@ -291,7 +292,7 @@ class StoredImage:
             values = self._read(begin, end, 0, spec.nchannels, types[0])
             if values is not None:
                 np.frombuffer(texels, _DTYPES[types[0]])[:] = values.reshape(-1)
-        # Truncated files are read "successfully"; only the message tells.
+        # Truncated files are read "successfully"; only the message reveals the error.
         message = self._input.geterror()
         if values is None or message:
             self._fail(f"rows {first_row} to {first_row + row_count - 1} cannot be read: "
@@ -371,7 +372,7 @@ def _tag_colors(spec, format, kind, follows, changes, metadata):
     transfer = changes["transfer_of_whole" if is_whole else "transfer_of_floats"] if is_color else None
     if is_color and follows and (not is_whole or transfer == changes["followed_transfer"]):
         return
-    # Data has no tag, whatever the file has that it follows.
+    # Data never has a tag, even if the file that it follows has one.
     for name in _COLOR_SPACE:
         spec.erase_attribute(name)
     if not is_color:
@@ -429,7 +430,7 @@ def _output_spec(model, model_format, output, changes, path):
             spec.attribute("Compression", f"zip:{level}")
     for name, value in metadata:
         spec.attribute(name, value)
-    # TIFF and JPEG have no attributes of one's own; the tag for the writing program is the nearest.
+    # TIFF and JPEG have no custom attributes, so the tag for the writing program holds them.
     if metadata and format in ("tiff", "jpeg"):
         spec.attribute("Software", "; ".join(f"{name}={value}" for name, value in metadata))
     return spec
@@ -586,7 +587,7 @@ class Images:
         def refuse(reason):
             fail(f"cannot be read: {_first_line(reason, 'the image is damaged')}")
 
-        with tempfile.TemporaryDirectory(prefix="texremap-") as folder:  # its Python package reads files alone
+        with tempfile.TemporaryDirectory(prefix="texremap-") as folder:  # its Python package only reads files
             path = os.path.join(folder, "image." + extension)
             with open(path, "wb") as file:
                 file.write(data)

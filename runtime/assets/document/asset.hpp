@@ -1,5 +1,5 @@
-// Assets: files with materials, such as glTF and MTL. What is asked of a conversion, and what comes of it, in
-// the same words for every format.
+// This file describes conversions of assets: files with materials, such as glTF and MTL. Options and results
+// have the same form for every format.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +20,16 @@
 
 namespace remap {
 
-// Bytes that are read where they are needed: of a file or of memory.
+// A ByteSource gives bytes of a file or of memory, and reads them on demand.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
   virtual std::uint64_t size() const = 0;
-  // `count` bytes from `begin`, which lie within size(). Throws kInput where they cannot be read.
+  // Reads `count` bytes from `begin`, which lie within size(). Throws kInput if they cannot be read.
   virtual std::string read(std::uint64_t begin, std::size_t count) const = 0;
 };
 
-// `bytes` must outlive it.
+// Reads from `bytes`, which must outlive this object.
 class MemorySource final : public ByteSource {
  public:
   explicit MemorySource(std::string_view bytes) : bytes_(bytes) {}
@@ -42,110 +42,110 @@ class MemorySource final : public ByteSource {
   std::string_view bytes_;
 };
 
-// Files beside an asset.
+// An AssetFiles opens files beside an asset.
 class AssetFiles {
  public:
   virtual ~AssetFiles() = default;
-  // A file by its path relative to the asset. Throws kInput, for one that leads out of what may be read, too.
+  // Opens a file by its path relative to the asset. Throws kInput, also for a path that leads out of the
+  // allowed folders.
   virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
 };
 
-// Files beside an asset, and what its images need.
+// An AssetResources opens files beside an asset, and gives what its images need.
 class AssetResources : public AssetFiles {
  public:
   virtual const ImageCodec& codec() const = 0;
-  // The image at a size that is at least its own in both directions: bilinear, in linear light, with all
-  // channels but alpha in sRGB.
+  // Returns the image at a size that is at least its own in both directions. It is bilinear, in linear light,
+  // with all channels except alpha in sRGB.
   virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
-  // The prefix of the names of new images; not empty if another asset may add an image of the same name.
+  // Returns the prefix of the names of new images. It is set if another asset may add the same name.
   virtual std::string image_prefix() const { return ""; }
 };
 
-// The form that materials are converted to.
+// An AssetTarget is the form that materials are converted to.
 enum class AssetTarget {
   kMetalRough,  // metallic-roughness
   kSpecGloss,   // KHR_materials_pbrSpecularGlossiness, with core as its fallback
 };
 
 struct AssetOptions {
-  bool extensions = false;     // metal-rough with KHR_materials_specular and _ior, instead of core alone
+  bool extensions = false;     // metal-rough with KHR_materials_specular and _ior, instead of only core
   double prior = kCleanPrior;  // of the projection (docs/workflows.md)
   InstructionSet instructions = best_instruction_set();
-  bool enlarges = false;  // images of a material that are smaller than another one
+  bool enlarges = false;  // enlarges images of a material that are smaller than another one
   AssetTarget target = AssetTarget::kMetalRough;
-  // KHR_materials_specular and _ior go into core, too; with kMetalRough, and without `extensions`.
+  // Folds KHR_materials_specular and _ior into core, too. It needs kMetalRough, and excludes `extensions`.
   bool folds_specular = false;
   // Removes image bytes and texture extensions that only the converted materials used.
   bool compacts = false;
-  bool bakes = false;  // maps of a material whose KHR_texture_transform differ go onto the grid of the first
-  std::optional<MtlMaker> mtl_maker = std::nullopt;  // none: as the file says
-  // Quality, 1 to 100, of new images of color: JPEG, unless they have alpha or come from a map of color that
-  // is none. None for PNG.
+  bool bakes = false;  // moves maps with different KHR_texture_transform onto the grid of the first
+  std::optional<MtlMaker> mtl_maker = std::nullopt;  // if none, the file decides
+  // This is the quality, 1 to 100, of new color images: JPEG, unless they have alpha or come from a color map
+  // that is not JPEG. If it is missing, new images are PNG.
   std::optional<int> jpeg_quality = std::nullopt;
-  // Level of new PNG images. None for the usual.
+  // This is the level of new PNG images. If it is missing, the usual level applies.
   std::optional<int> png_level = std::nullopt;
 };
 
 enum class MaterialState {
   kUntouched,  // nothing to convert
   kConverted,
-  kFailed,  // stays as it was
+  kFailed,  // stays unchanged
 };
 inline constexpr NamedValues<MaterialState, 3> kMaterialStates = {{{MaterialState::kUntouched, "untouched"},
                                                                    {MaterialState::kConverted, "converted"},
                                                                    {MaterialState::kFailed, "failed"}}};
 
-// `base_color` and three numbers, `metallic` and one.
+// A MaterialFactor is `base_color` with three numbers, or for example `metallic` with one.
 struct MaterialFactor {
   std::string name;
   std::vector<double> values;
 };
 
-// The outcome of a material of the asset.
 struct AssetMaterial {
   std::size_t index = 0;  // in the order of the file
-  std::string name;       // of the file; may be empty
+  std::string name;       // from the file; may be empty
   MaterialState state = MaterialState::kUntouched;
-  std::vector<MaterialFactor> factors;  // of a converted one without maps that vary
-  double residual = 0.0;                // Parameter::kResidual; of maps the root of its mean square
+  std::vector<MaterialFactor> factors;  // of a converted material without varying maps
+  double residual = 0.0;                // Parameter::kResidual; for maps the root of its mean square
   std::string becomes;                  // `base color 0.2 0.3 0.4, metallic 0, roughness 0.75`
   std::vector<std::string> warnings;    // without the name of the material
   std::string failure;
 
-  // `material 3 "Paint"`, fit for a message.
+  // Returns a text such as `material 3 "Paint"`, safe for a message.
   std::string title() const;
 };
 
 std::size_t count_of(const std::vector<AssetMaterial>& materials, MaterialState state);
 
-// A part of a result: `bytes`, or a range of the source if `bytes` is empty.
+// An AssetPiece is a part of a result: `bytes`, or a range of the source if `bytes` is empty.
 struct AssetPiece {
   std::string bytes;
   std::uint64_t begin = 0, end = 0;
 };
 
-// A new file beside the result.
+// A NewResource is a new file beside the result.
 struct NewResource {
   std::string path;  // relative
   std::string bytes;
 };
 
-// A URI of a file that is not in the asset.
+// An AssetResource is a URI of a file outside the asset.
 struct AssetResource {
-  std::string where;  // `/images/2/uri`; only of the first that leads up or is absolute: counting takes time
-  std::string path;   // relative to the asset, without percent signs; of kRemote the address
+  std::string where;  // `/images/2/uri`; only for the first that leads up or is absolute, to save time
+  std::string path;   // relative to the asset, without percent signs; for kRemote the address
   UriKind kind = UriKind::kFile;
 };
 
 struct AssetConversion {
   std::vector<AssetMaterial> materials;
-  std::vector<std::string> warnings;     // of the file
+  std::vector<std::string> warnings;     // about the file
   std::string text;                      // edited text of the materials, as UTF-8; the rest is unchanged
   std::vector<TextSpan> touched;         // bytes of the text that were replaced or removed
-  bool changed = false;                  // whether a material was converted
-  std::vector<AssetPiece> pieces;        // of the converted file; empty where nothing was converted
+  bool changed = false;                  // true if a material was converted
+  std::vector<AssetPiece> pieces;        // of the converted file; empty if nothing was converted
   std::vector<NewResource> files;        // new images
-  std::vector<AssetResource> resources;  // that the asset names, each path once, in the order of the text
+  std::vector<AssetResource> resources;  // files that the asset names, each path once, in order of the text
 
   std::size_t count(MaterialState state) const { return count_of(materials, state); }
 };

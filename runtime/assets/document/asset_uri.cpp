@@ -11,8 +11,8 @@ namespace {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-// The scheme in lower case (RFC 3986, section 3.1); empty for a relative reference. A single letter is a
-// drive of Windows.
+// Returns the scheme in lower case (RFC 3986, section 3.1), or an empty text for a relative reference. A
+// single letter is a drive of Windows, not a scheme.
 std::string scheme_of(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   if (colon == std::string_view::npos || !is_letter(uri.front())) return "";

@@ -1,4 +1,4 @@
-// Names of glTF that conversions of materials read and write, and extensions by what they concern.
+// This file lists glTF names that material conversions read and write, and groups extensions by effect.
 #pragma once
 
 #include <string_view>
@@ -14,11 +14,11 @@ inline constexpr std::string_view kSpecGlossExtension = "KHR_materials_pbrSpecul
                                   kPointerExtension = "KHR_animation_pointer",
                                   kTransformExtension = "KHR_texture_transform";
 
-// Whether it changes what a material reflects or transmits, beside core.
+// Returns true if the extension changes what a material reflects or transmits, besides core.
 bool is_reflecting(std::string_view extension);
-// True for KHR_ and EXT_ extensions that are known not to affect materials.
+// Returns true for KHR_ and EXT_ extensions that are known not to affect materials.
 bool is_known_extension(std::string_view extension);
-// Whether it names an image of another format in a texture.
+// Returns true if the extension names an image of another format in a texture.
 bool is_of_image_format(std::string_view extension);
 
 }  // namespace remap

@@ -1,5 +1,5 @@
-// Images of assets: bytes of files in, pixels out, and back. The core knows no image library; who calls it
-// brings one.
+// This file declares how images of assets are decoded and encoded. The core has no image library; the caller
+// provides one.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace remap {
 
-// Whole numbers as the file stores them, without any curve applied and not multiplied by alpha.
+// An ImagePixels holds integers as the file stores them. No curve and no alpha is applied.
 struct ImagePixels {
   std::size_t width = 0, height = 0;
   std::size_t channels = 0;            // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
@@ -23,24 +23,23 @@ struct ImagePixels {
   bool is_grey() const noexcept { return channels < 3; }
 };
 
-// `64x32`
+// Returns a text such as `64x32`.
 inline std::string size_text(const ImagePixels& pixels) {
   return std::to_string(pixels.width) + "x" + std::to_string(pixels.height);
 }
 
-// QuantizationTable of zlib for PNG files: half the time of 6, which is usual elsewhere, and files a tenth
-// larger; and the smallest of several tries.
+// These are zlib levels of PNG files. The usual level takes half the time of level 6, the common default, and
+// files are a tenth larger. The smallest level is for the best of several tries.
 inline constexpr int kUsualPngLevel = 3, kSmallestPngLevel = 9;
 
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
-  // Palettes are expanded. Throws kInput, beginning with `context`, for bytes that are no image that it
-  // reads.
+  // Decodes an image, and expands palettes. Throws kInput, beginning with `context`, for other bytes.
   virtual ImagePixels decode(std::string_view bytes, const std::string& context) const = 0;
-  // A PNG file. `level`: 1 (fast) to 9 (small). Throws kOutput.
+  // Returns a PNG file. `level` is 1 (fast) to 9 (small). Throws kOutput.
   virtual std::string encode_png(const ImagePixels& pixels, int level) const = 0;
-  // A JPEG file, of 8 bits and without alpha. `quality`: 1 to 100. Throws kOutput.
+  // Returns a JPEG file, with 8 bits and without alpha. `quality` is 1 to 100. Throws kOutput.
   virtual std::string encode_jpeg(const ImagePixels& pixels, int quality) const = 0;
 };
 

@@ -34,14 +34,14 @@ MtlDocument::MtlDocument(std::string_view text, const std::string& context) : te
   if (!materials_.empty()) materials_.back().last = statements_.size();
 }
 
-// Of `\n`, `\r\n` or `\r`; 0 elsewhere.
+// Returns the length of `\n`, `\r\n` or `\r` at `at`, or 0.
 std::size_t MtlDocument::ending_length(std::size_t at) const {
   if (at >= text_.size()) return 0;
   if (text_[at] == '\r') return at + 1 < text_.size() && text_[at + 1] == '\n' ? 2 : 1;
   return text_[at] == '\n' ? 1 : 0;
 }
 
-// A comment has no second line, since paths of Windows in it may end in a backslash.
+// Ends a comment at its first line ending, because paths of Windows in it may end in a backslash.
 std::size_t MtlDocument::end_of_line(std::size_t begin) const {
   std::size_t at = begin;
   while (at < text_.size() && is_space(at)) at += space_length(at);
@@ -55,7 +55,7 @@ std::size_t MtlDocument::end_of_line(std::size_t begin) const {
 
 bool MtlDocument::is_space(std::size_t at) const { return space_length(at) > 0; }
 
-// A backslash before a line ending is white space, together with the line ending.
+// Treats a backslash before a line ending as white space, together with the line ending.
 std::size_t MtlDocument::space_length(std::size_t at) const {
   const char c = text_[at];
   if (c == ' ' || c == '\t' || c == '\v' || c == '\f') return 1;

@@ -1,5 +1,5 @@
-// A Wavefront MTL file as places in its text: statements, and the material that each belongs to, so that an
-// editor replaces some bytes and moves no others. Lines that are not known stay as they are.
+// This file finds the statements of a Wavefront MTL file and their materials as places in its text. An editor
+// can then replace some bytes and move no others. Unknown lines stay unchanged.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace remap {
 
-// The largest text that is scanned, and the most lines that say something; such a line takes 56 bytes.
+// Limits the text, and the number of lines with a statement; each such line takes 56 bytes of memory.
 inline constexpr std::size_t kLongestMtl = std::size_t{1} << 28, kMostMtlStatements = std::size_t{1} << 23;
 
-// Bytes of a text that do not change.
+// An MtlStatement is the places of a statement in the text.
 struct MtlStatement {
   TextSpan line;       // from the indentation to before the line ending; a backslash joins lines
   TextSpan ending;     // of the line; empty at the end of the text
@@ -22,7 +22,7 @@ struct MtlStatement {
   TextSpan arguments;  // without the white space around them; may be empty
 };
 
-// A material and its statements, `newmtl` the first of them.
+// An MtlBlock is a material and its statements, beginning with `newmtl`.
 struct MtlBlock {
   std::string name;  // may be empty
   std::size_t first = 0, last = 0;
@@ -30,24 +30,24 @@ struct MtlBlock {
 
 class MtlDocument {
  public:
-  // `text` must outlive it. Throws kInput, beginning with `context`, beyond the limits above.
+  // Scans `text`, which must outlive this object. Beyond the limits it throws kInput with `context`.
   MtlDocument(std::string_view text, const std::string& context);
 
   std::string_view text() const noexcept { return text_; }
   std::string_view raw(TextSpan span) const noexcept {
     return text_.substr(span.begin, span.end - span.begin);
   }
-  // The statements in the order of the text, without blank lines and comments. Statements before the first
-  // material belong to no material.
+  // Returns the statements in the order of the text, without blank lines and comments. Statements before the
+  // first material belong to no material.
   const std::vector<MtlStatement>& statements() const noexcept { return statements_; }
   const std::vector<MtlBlock>& materials() const noexcept { return materials_; }
-  // The word of a statement in lower case: tools differ (map_bump, map_Bump).
+  // Returns the word of a statement in lower case, because tools differ (map_bump, map_Bump).
   std::string word(const MtlStatement& statement) const;
-  // The arguments, which white space separates.
+  // Returns the arguments, which white space separates.
   std::vector<TextSpan> words(const MtlStatement& statement) const;
-  // The arguments as one text, as names with spaces are written.
+  // Returns the arguments as one text, because names may contain spaces.
   std::string rest(const MtlStatement& statement) const;
-  // The most common one; that of Unix where there is none.
+  // Returns the most common line ending, or `\n` if there is none.
   std::string_view line_ending() const noexcept;
 
  private:
@@ -62,7 +62,7 @@ class MtlDocument {
   std::vector<MtlBlock> materials_;
 };
 
-// ASCII letters in lower case.
+// Converts ASCII letters to lower case.
 std::string in_lower_case(std::string_view text);
 
 }  // namespace remap

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNewScaleSince = 3.4;
 
-// Blender 2.7 wrote 1000 / 510 for each step of its hardness, whole numbers from 1 to 511.
+// Detects Blender 2.7, which wrote 1000 / 510 for each step of its hardness, an integer from 1 to 511.
 bool has_steps_of_hardness(const MtlDocument& document) {
   constexpr double kStep = 1000.0 / 510.0, kRounding = 1e-5;
   std::size_t exponents = 0;

@@ -1,4 +1,5 @@
-// The program that wrote an MTL file. Some programs give statements another meaning than the specification.
+// This file detects the program that wrote an MTL file. Some programs give statements another meaning than
+// the specification.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 namespace remap {
 
 enum class MtlMaker {
-  kText,       // statements mean what the text of the format says (Alias|Wavefront 1995)
+  kText,       // statements follow the specification (Alias|Wavefront 1995)
   kBlender,    // Blender 3.4 and later: Ns is 1000 (1 - roughness)^2
   kBlender28,  // Blender 2.8 to 3.3: Ns is 900 (1 - roughness)^2
   kNvdiffrec,  // `bsdf pbr`: map_Ks holds roughness in green and metallic in blue (Munkberg et al. 2022)
@@ -19,14 +20,14 @@ inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "text
                                                          {MtlMaker::kBlender28, "blender-2.8"},
                                                          {MtlMaker::kNvdiffrec, "nvdiffrec"}}};
 
-// The maker that the first comments name, or statements that only it writes; else kText. Blender 2.7 wrote
-// exponents of its own Blinn and Phong shaders, which the text of the format describes.
+// Returns the maker that the first comments name, or whose special statements occur, otherwise kText. Blender
+// 2.7 wrote exponents of its own Blinn and Phong shaders, which the specification describes.
 MtlMaker maker_of(const MtlDocument& document);
 
-// The warning that reports how a file of this maker is read: `Blender wrote it: ...`; empty for kText.
+// Returns the warning about reading a file of this maker, `Blender wrote it: ...`, or nothing for kText.
 std::string maker_warning(MtlMaker maker);
 
-// The Ns that Blender writes for roughness 0.
+// Returns the Ns that Blender writes for roughness 0.
 double blender_scale(MtlMaker maker);
 
 }  // namespace remap

@@ -5,7 +5,7 @@
 namespace remap {
 namespace {
 
-// The begin of an entry, or of a member with its key.
+// Returns the begin of an entry, or of a member with its key.
 std::size_t start_of(SpanValue child) {
   const TextSpan key = child.key_span();
   return key.begin == key.end ? child.span().begin : key.begin;
@@ -54,7 +54,7 @@ std::string TextEdits::colon_of(SpanValue object) const {
   return std::string(json_.text().substr(begin, end - begin));
 }
 
-// Before the first child that stays, a removed one goes with what follows it; after, with what precedes it.
+// Removes each child with the separator after it; after the first kept child, with the separator before it.
 void TextEdits::add_splices(SpanValue container, const Changes& changes,
                             std::vector<TextSplice>& splices) const {
   const std::vector<SpanValue> children = container.children();

@@ -1,5 +1,5 @@
-// Edits of a JSON text: values are replaced, members and entries appended or removed with their comma, and no
-// other byte moves.
+// This file edits a JSON text. It replaces values, and appends or removes members and entries with their
+// comma. No other byte moves.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +16,28 @@ namespace remap {
 
 class TextEdits {
  public:
-  // `json` must outlive this.
+  // Edits the text of `json`, which must outlive this object.
   explicit TextEdits(const SpannedJson& json) : json_(json) {}
 
   bool empty() const noexcept { return replaced_.empty() && changed_.empty(); }
-  // `text` is JSON. Nothing inside of `value` may be edited otherwise.
+  // Replaces a value by `text`, which must be JSON. No other edit may touch the inside of `value`.
   void replace(SpanValue value, std::string text);
-  // Removes an entry or a member. Nothing inside of it may be edited.
+  // Removes an entry or a member. No other edit may touch the inside of it.
   void remove(SpanValue child);
-  // Removes every member of that key.
   void remove_members(SpanValue object, std::string_view key);
-  // After the last entry or member that there is, with the white space that stands between others.
+  // Appends a member after the last one, with the same white space as between the others.
   void append_member(SpanValue object, std::string_view key, const std::string& text);
   void append_entry(SpanValue list, const std::string& text);
   // Replaces the value of a member, or appends the member.
   void set_member(SpanValue object, std::string_view key, const std::string& text);
 
-  // The bytes that are replaced, in order; those that are inserted have none.
+  // Returns the bytes that are replaced, in order. Insertions replace no bytes.
   std::vector<TextSpan> touched() const;
-  // The edited text. Throws kNumeric where two edits touch the same bytes, a fault of the caller.
+  // Returns the edited text. Throws kNumeric if two edits touch the same bytes, a caller's error.
   std::string result() const;
 
  private:
-  // The edits of the children of a list or object.
+  // A Changes holds the edits to the children of a list or object.
   struct Changes {
     std::set<std::size_t> removed;      // indices of values
     std::vector<std::string> appended;  // entries, or members with their keys
@@ -46,13 +45,13 @@ class TextEdits {
 
   std::vector<TextSplice> splices() const;
   void add_splices(SpanValue container, const Changes& changes, std::vector<TextSplice>& splices) const;
-  // White space before the last child, and between its key and value.
+  // These return the white space before the last child, and between its key and value.
   std::string_view space_before(SpanValue child) const;
   std::string colon_of(SpanValue object) const;
 
   const SpannedJson& json_;
-  std::map<std::size_t, std::string> replaced_;  // by the index of the value
-  std::map<std::size_t, Changes> changed_;       // by the index of the list or object
+  std::map<std::size_t, std::string> replaced_;  // keyed by the index of the value
+  std::map<std::size_t, Changes> changed_;       // keyed by the index of the list or object
 };
 
 }  // namespace remap

@@ -23,7 +23,7 @@ void append_unit(std::uint32_t unit, TextEncoding encoding, std::string& bytes) 
 
 }  // namespace
 
-// Without a mark, every other byte of a text in English is 0.
+// Detects UTF-16 without a mark, because every other byte of an English text is then 0.
 TextEncoding encoding_of(const ByteSource& source) {
   constexpr std::size_t kMark = 2, kTwoLetters = 4;
   const std::string start =

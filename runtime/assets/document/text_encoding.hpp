@@ -1,4 +1,4 @@
-// This file has the encodings of texts: single bytes (among them UTF-8), or UTF-16, as Windows tools write
+// This file handles the encodings of texts: single bytes (such as UTF-8), or UTF-16, as Windows tools write
 // it. Texts are read and edited as UTF-8.
 #pragma once
 
@@ -13,18 +13,17 @@ namespace remap {
 
 enum class TextEncoding { kBytes, kUtf16Little, kUtf16Big };
 
-// By the byte order mark, or by the zeros of the first letters.
+// Detects the encoding by the byte order mark, or by the zeros of the first letters.
 TextEncoding encoding_of(const ByteSource& source);
 
-// Reads a text in blocks.
 class TextReader {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive this object.
   TextReader(const ByteSource& source, const std::string& context)
       : source_(source), context_(context), encoding_(encoding_of(source)) {}
 
-  // The next block, with a byte order mark as UTF-8 has it; empty at the end. Throws kInput, beginning with
-  // `context`, for UTF-16 with half a character.
+  // Returns the next block as UTF-8, including a byte order mark. Returns an empty text at the end. Throws
+  // kInput, beginning with `context`, for UTF-16 with half a character.
   std::string next();
 
  private:
@@ -35,14 +34,14 @@ class TextReader {
   const std::string& context_;
   TextEncoding encoding_;
   std::uint64_t at_ = 0;
-  std::uint32_t first_half_ = 0;  // of a character, the surrogate before this place; 0 for none
+  std::uint32_t first_half_ = 0;  // surrogate at the end of the last block, or 0
 };
 
-// The whole text. As TextReader::next().
+// Returns the whole text. Throws like TextReader::next().
 std::string utf8_text(const ByteSource& source, const std::string& context);
 
-// A text as it is written: utf8_text() of the bytes is the text again. Throws kInput, beginning with
-// `context`, where UTF-16 is asked of what is not UTF-8.
+// Encodes a text so that utf8_text() of the bytes returns it again. Throws kInput, beginning with `context`,
+// if UTF-16 is requested for a text that is not UTF-8.
 std::string encoded(const std::string& text, TextEncoding encoding, const std::string& context);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// Edits of a text as splices: some bytes are replaced, and no others move.
+// This file edits a text by splices: some bytes are replaced, and no others move.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace remap {
 
-// `text` in place of the bytes of `span`, which may be none.
+// A TextSplice puts `text` where the bytes of `span` are. The span may be empty.
 struct TextSplice {
   TextSpan span;
   std::string text;
 };
 
-// Sorts splices by their places. Those of one place keep their order.
+// Sorts splices by their places. Splices at the same place keep their order.
 void sort_splices(std::vector<TextSplice>& splices);
 
-// The text with sorted splices. Throws kNumeric where two touch the same bytes, a fault of the caller.
+// Returns the text with sorted splices. Throws kNumeric if two touch the same bytes, a caller's error.
 std::string spliced(std::string_view text, const std::vector<TextSplice>& splices);
 
-// The bytes that sorted splices replace; those that are inserted have none.
+// Returns the bytes that sorted splices replace. Insertions replace no bytes.
 std::vector<TextSpan> touched_by(const std::vector<TextSplice>& splices);
 
 }  // namespace remap

@@ -5,12 +5,12 @@
 namespace remap {
 namespace {
 
-// The text of the first factor that is the value.
+// Returns the text of the first factor that equals the value.
 std::string text_among(float value, const FactorText& first, const FactorText& second) {
   return is_factor(value, first) ? first.text : factor_text(value, second);
 }
 
-// The other color, which base color may come from.
+// Returns the other color that base color may come from.
 GltfInput other_color_of(GltfWorkflow workflow) {
   return workflow == GltfWorkflow::kSpecGloss ? GltfInput::kSpecGlossSpecular : GltfInput::kSpecularColor;
 }

@@ -1,4 +1,4 @@
-// Converts materials of any workflow to core glTF. Materials that share images and factors share the results.
+// This file converts materials of any workflow to core glTF. Equal images and factors share results.
 #pragma once
 
 #include <array>
@@ -12,14 +12,15 @@
 
 namespace remap {
 
-// The JSON texts of a material in core glTF; with --extensions also of KHR_materials_specular.
+// A CoreTexts holds the JSON texts of a material in core glTF; with --extensions also of
+// KHR_materials_specular.
 struct CoreTexts {
   std::array<std::string, 4> base_color;
   std::string metallic, roughness;
   TextureText base_texture, metal_rough_texture;
   TextureText specular_texture;
-  bool has_metal = false;  // whether metallic is above 0 anywhere
-  double residual = 0.0;   // Parameter::kResidual; of maps the root of its mean square
+  bool has_metal = false;  // true if metallic is above 0 anywhere
+  double residual = 0.0;   // Parameter::kResidual; for maps the root of its mean square
 };
 
 // Returns all members of pbrMetallicRoughness.
@@ -30,19 +31,19 @@ std::string core_summary(const CoreTexts& texts, const std::string& kept);
 
 class CoreMaker {
  public:
-  // `parts` must outlive it.
+  // `parts` must outlive this object.
   CoreMaker(const DirectionParts& parts, GltfWorkflow workflow, GridReason reason)
       : textures_(parts.textures),
         workflow_(workflow),
         reason_(reason),
         converter_(converter_of(workflow, "gltf", parts.options)) {}
 
-  // Constant maps become factors of `material`. Throws kInput for maps that cannot be read or do not lie on
-  // one grid.
+  // Converts a material. Constant maps become factors of `material`. Throws kInput for maps that cannot be
+  // read or do not lie on one grid.
   CoreTexts convert(GltfMaterial& material, AssetMaterial& report);
 
  private:
-  // The result for a set of images, with the numbers of new images. It holds no pixels.
+  // A Made is the result for a set of images, with the numbers of new images. It holds no pixels.
   struct Made {
     MetalRoughMaps maps;
     std::optional<std::size_t> base_image, metal_rough_image;
@@ -51,11 +52,11 @@ class CoreMaker {
   CoreTexts of_factors(const GltfMaterial& material, AssetMaterial& report) const;
   CoreTexts of_maps(const GltfMaterial& material, const UsedTextures& used);
 
-  MaterialTextures* textures_;  // null where no images can be read
+  MaterialTextures* textures_;  // null if no images can be read
   GltfWorkflow workflow_;
   GridReason reason_;
   std::unique_ptr<Converter> converter_;
-  std::map<std::string, Made> made_;  // by GltfMaps::key
+  std::map<std::string, Made> made_;  // keyed by GltfMaps::key
 };
 
 }  // namespace remap

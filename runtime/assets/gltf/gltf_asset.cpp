@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kMostPadding = 3;  // of a binary chunk, after its buffer
 
-// `/images/2/uri`.
+// Returns a path such as `/images/2/uri`.
 std::string pointer_of(SpanValue value) {
   const SpanValue parent = value.parent();
   if (!parent) return "";
@@ -30,7 +30,7 @@ bool is_in_extras(SpanValue value) {
   return false;
 }
 
-// Every `uri` of the file, those of extensions among them. Extras are of other programs.
+// Returns every `uri` of the file, also in extensions. It skips extras, which belong to other programs.
 std::vector<AssetResource> resources_of(const SpannedJson& json) {
   std::vector<AssetResource> resources;
   std::set<std::string> known;
@@ -50,7 +50,7 @@ std::vector<AssetResource> resources_of(const SpannedJson& json) {
   return resources;
 }
 
-// A file that only replaced images named is no longer one of the asset.
+// Drops files that only replaced images named. The asset no longer needs them.
 void drop_unnamed(AssetConversion& conversion, const std::string& context) {
   std::set<std::string> named;
   for (const AssetResource& resource : resources_of(SpannedJson(conversion.text, context)))
@@ -59,7 +59,7 @@ void drop_unnamed(AssetConversion& conversion, const std::string& context) {
                 [&](const AssetResource& resource) { return !named.contains(resource.path); });
 }
 
-// Views lie within their buffers, and the first buffer of a container within its binary chunk.
+// A ViewCheck checks that views lie within buffers, and a container's first buffer within its binary chunk.
 class ViewCheck {
  public:
   ViewCheck(const SpannedJson& json, const GltfContainer& container, const std::string& context)

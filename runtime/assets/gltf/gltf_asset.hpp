@@ -1,4 +1,4 @@
-// A whole glTF file: its container, its materials, and the files that it names.
+// This file handles a whole glTF file: its container, its materials, and the files that it names.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace remap {
 
-// The files that an asset names. Throws as convert_gltf().
+// Returns the files that an asset names. Throws like convert_gltf().
 std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& context);
 
 // Reads and converts a file of either form. Throws kInput, beginning with `context`, for a container or a
-// text that cannot be read, and for views that lie outside of their buffers; kOutput as with_json(). Without
-// `resources`, materials with textures fail.
+// text that cannot be read, and for views that lie outside of their buffers. Throws kOutput like with_json().
+// Without `resources`, materials with textures fail.
 AssetConversion convert_gltf(const ByteSource& source, const std::string& context,
                              const AssetOptions& options = {}, const AssetResources* resources = nullptr);
 

@@ -1,4 +1,5 @@
-// The bytes that a glTF file names: of images and views, in the binary chunk, in data URIs, in files.
+// This file reads the bytes that a glTF file names: images and views, in the binary chunk, data URIs or
+// files.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +15,12 @@ namespace remap {
 
 class GltfBytes {
  public:
-  // All must outlive it.
+  // All arguments must outlive this object.
   GltfBytes(const SpannedJson& json, const GltfContainer& container, const ByteSource& source,
             const AssetFiles& files);
 
-  // The bytes of an image as its file has them. Throws kInput for an index without an image, and for one
-  // whose bytes cannot be read.
+  // Returns the bytes of an image as its file has them. Throws kInput if the index has no image, or if its
+  // bytes cannot be read.
   std::string of_image(std::size_t index) const;
 
  private:
@@ -32,10 +33,10 @@ class GltfBytes {
   std::vector<SpanValue> images_, views_, buffers_;
 };
 
-// The entry of a list of the file. `name`: of one, in a message. Throws kInput for an index beyond it.
+// Returns an entry of a list of the file. `name` is for messages. Throws kInput for an index beyond the list.
 SpanValue gltf_entry(const std::vector<SpanValue>& list, std::size_t index, const char* name);
 
-// The bytes of a data URI (RFC 2397); its type may have parameters. Throws kInput.
+// Returns the bytes of a data URI (RFC 2397), whose type may have parameters. Throws kInput.
 std::string data_of_uri(std::string_view uri);
 
 }  // namespace remap

@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kMagic = "glTF";
 constexpr std::uint64_t kHeaderSize = 12;
 
-// Containers are little-endian.
+// Reads a little-endian number, as containers store them.
 std::uint32_t number_in(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<std::uint8_t>(bytes[at + i]);
@@ -43,7 +43,7 @@ Chunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string& co
   return {number_in(header, 4), at + kChunkHeaderSize, at + kChunkHeaderSize + length};
 }
 
-// The file must be as long as its header says.
+// Throws unless the file is as long as its header states.
 void require_header(const ByteSource& source, const std::string& context) {
   if (source.size() < kHeaderSize) throw input_error(context + ": is cut off in its header");
   const std::string header = source.read(0, kHeaderSize);
@@ -107,7 +107,7 @@ namespace {
 void add_chunk(const GlbChunk& chunk, const BinaryTail& tail, std::vector<AssetPiece>& pieces) {
   const std::uint64_t size = tail.kept.value_or(chunk.content_size());
   const std::string gap((4 - size % 4) % 4, '\0'), end((4 - tail.appended.size() % 4) % 4, '\0');
-  // A length of more than 32 bits is refused with the whole file.
+  // with_json() has already refused files whose length needs more than 32 bits.
   const auto length = static_cast<std::uint32_t>(size + gap.size() + tail.appended.size() + end.size());
   pieces.push_back({bytes_of(length) + bytes_of(chunk.type), 0, 0});
   pieces.push_back({"", chunk.content_begin(), chunk.content_begin() + size});

@@ -1,5 +1,5 @@
-// The two forms of a glTF 2.0 file: .gltf is JSON, .glb a container of chunks (glTF 2.0, section 4). Only the
-// JSON is held in memory; all other bytes are ranges of the source.
+// This file reads and writes the two forms of a glTF 2.0 file: .gltf is JSON, .glb is a container of chunks
+// (glTF 2.0, section 4). Only the JSON is in memory; all other bytes are ranges of the source.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e494
 
 inline constexpr std::uint64_t kChunkHeaderSize = 8;
 
-// A chunk after the JSON. The range holds its header.
+// A GlbChunk is a chunk after the JSON. The range includes its header.
 struct GlbChunk {
   std::uint32_t type = 0;
   std::uint64_t begin = 0, end = 0;
@@ -30,30 +30,30 @@ struct GltfContainer {
   std::string json;  // without the padding of a container
   bool is_binary = false;
   std::vector<GlbChunk> chunks;    // after the JSON, in order
-  std::vector<std::string> notes;  // what is unusual, and read nevertheless
+  std::vector<std::string> notes;  // unusual parts that are accepted
 
-  // The chunk of buffer 0; null without one.
+  // Returns the chunk of buffer 0, or null.
   const GlbChunk* binary_chunk() const noexcept {
     return chunks.empty() || chunks.front().type != kBinaryChunk ? nullptr : &chunks.front();
   }
 };
 
-// Reads a file of either form. Every length is compared with the file before anything is allocated. Throws
+// Reads a file of either form. It compares every length with the file before it allocates memory. Throws
 // kInput, beginning with `context`, for a container that is cut off or whose lengths contradict each other.
 GltfContainer read_container(const ByteSource& source, const std::string& context);
 
-// The new end of the binary chunk.
+// A BinaryTail is the new end of the binary chunk.
 struct BinaryTail {
-  std::optional<std::uint64_t> kept;  // bytes from its start; none for all
+  std::optional<std::uint64_t> kept;  // bytes from its start; all if missing
   std::string appended;               // from the next multiple of four
 };
 
-// The file with other JSON: chunks stay in their order, the binary one with another tail. Throws kOutput,
-// beginning with `context`, for 4 GiB or more, which a container cannot hold.
+// Returns the file with other JSON. Chunks keep their order, and the binary chunk gets another tail. Throws
+// kOutput, beginning with `context`, for 4 GiB or more, which a container cannot hold.
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
                                   const BinaryTail& tail, const std::string& context);
 
-// The length of a result.
+// Returns the length of a result.
 std::uint64_t size_of(const std::vector<AssetPiece>& pieces);
 
 }  // namespace remap

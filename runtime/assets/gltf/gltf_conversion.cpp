@@ -25,7 +25,8 @@
 namespace remap {
 namespace {
 
-// The material of a pointer such as /materials/3/extensions/..., and what follows; none for other pointers.
+// Returns the material of a pointer such as /materials/3/extensions/..., and the rest of the pointer. Returns
+// nothing for other pointers.
 std::optional<std::pair<std::size_t, std::string>> pointed_material(std::string_view pointer) {
   constexpr std::string_view kStart = "/materials/";
   if (!pointer.starts_with(kStart)) return std::nullopt;
@@ -36,7 +37,6 @@ std::optional<std::pair<std::size_t, std::string>> pointed_material(std::string_
   return std::pair(index, std::string(end, static_cast<std::size_t>(pointer.data() + pointer.size() - end)));
 }
 
-// Images of the file, and new ones.
 struct ImageParts {
   ImageParts(const GltfSource& source, const AssetOptions& options, const AssetResources& resources)
       : bytes(source.json, source.container, source.bytes, resources),
@@ -87,7 +87,7 @@ class GltfConversion {
             ", which is unknown here: it is kept, and its meaning for materials is not");
   }
 
-  // The materials that animations change.
+  // Finds the materials that animations change.
   void read_pointers() {
     for (const SpanValue& animation : root_["animations"].children())
       for (const SpanValue& channel : animation["channels"].children()) {
@@ -163,7 +163,7 @@ class GltfConversion {
     result_.asset.text = text.result();
   }
 
-  // COLOR_0 multiplies a color of one workflow, and another color of the other.
+  // Reports vertex colors, because COLOR_0 multiplies different colors in both workflows.
   void note_colored() {
     std::vector<std::size_t> counts(result_.asset.materials.size());
     for (const SpanValue& mesh : root_["meshes"].children())
@@ -191,7 +191,7 @@ class GltfConversion {
   SpanValue root_;
   const AssetOptions& options_;
   std::unique_ptr<ImageParts> parts_;
-  std::vector<std::unique_ptr<GltfDirection>> directions_;  // the first that takes a material converts it
+  std::vector<std::unique_ptr<GltfDirection>> directions_;  // the first that accepts a material converts it
   std::set<std::pair<std::size_t, std::string>> pointers_;  // by material
   std::vector<std::pair<std::size_t, MaterialEdit>> edits_;
   GltfResult result_;

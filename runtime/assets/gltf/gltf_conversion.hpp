@@ -1,5 +1,5 @@
-// The materials of a glTF file: each is read and converted by the direction that takes it, and then all are
-// written into the text.
+// This file converts the materials of a glTF file. The first suitable direction reads and converts each
+// material. Then all materials are written into the text.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace remap {
 
-// A glTF file that is read.
+// A GltfSource is a glTF file that has been read.
 struct GltfSource {
   const SpannedJson& json;
   const GltfContainer& container;
@@ -23,7 +23,7 @@ struct GltfResult {
   BinaryTail tail;
 };
 
-// Throws kInput, beginning with the place, for a text that is not glTF 2; kUsage for options that exclude
+// Throws kInput, beginning with the place, for a text that is not glTF 2, and kUsage for options that exclude
 // each other. Without `resources`, materials with textures fail.
 GltfResult convert_materials(const GltfSource& source, const AssetOptions& options,
                              const AssetResources* resources);

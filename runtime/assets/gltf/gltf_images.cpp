@@ -10,10 +10,10 @@
 namespace remap {
 namespace {
 
-// Images that stay decoded: materials that follow each other often share a pair.
+// This many images stay decoded, because materials in sequence often share a pair.
 constexpr std::size_t kRecentImages = 2;
 
-// The extensions of textures that name an image of another format, the most common first.
+// These extensions of textures name an image of another format. The most common comes first.
 constexpr std::array<std::string_view, 4> kTextureExtensions = {"EXT_texture_webp", "EXT_texture_avif",
                                                                 "KHR_texture_basisu", "MSFT_texture_dds"};
 

@@ -1,4 +1,4 @@
-// The images of a glTF file, found by their textures and decoded. New ones: gltf_new_images.hpp.
+// This file finds images of a glTF file by texture and decodes them. gltf_new_images.hpp makes new ones.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@
 
 namespace remap {
 
-// A decoded image, and where it comes from.
+// An AssetImage is a decoded image with its origin.
 struct AssetImage {
   std::size_t texture = 0, image = 0;  // indices
   std::shared_ptr<const ImagePixels> pixels;
   bool is_jpeg = false;
 };
 
-// How a material reads a texture.
+// A TextureInfo is the way in which a material reads a texture.
 struct TextureInfo {
   SpanValue value;
   std::size_t texture = 0;
@@ -36,12 +36,12 @@ class GltfImages {
   // All arguments must outlive this object.
   GltfImages(const SpannedJson& json, const GltfBytes& bytes, const AssetResources& resources);
 
-  // Throws kInput for an index or a transform that cannot be read.
+  // Reads a texture info. Throws kInput for an index or a transform that cannot be read.
   TextureInfo info_of(SpanValue texture_info) const;
   // Loads the best image of a texture that can be decoded: the image of an extension, otherwise the texture's
   // own. Throws kInput with the name of the image.
   AssetImage load(const TextureInfo& info);
-  // Whether two textures repeat their images alike.
+  // Returns true if two textures repeat their images in the same way.
   bool wraps_alike(std::size_t texture, std::size_t other) const;
 
  private:
@@ -51,7 +51,7 @@ class GltfImages {
   std::list<AssetImage> recent_;  // the newest first
 };
 
-// The images of a texture: those of extensions, the most common first, and its own.
+// Returns the images of a texture: first the ones in extensions, the most common first, then its own.
 std::vector<std::size_t> images_of_texture(SpanValue texture);
 
 }  // namespace remap

@@ -1,5 +1,5 @@
-// The inputs of glTF materials as a file describes them: factors, and textures that multiply them. A factor
-// keeps its text: a number that no conversion changes stays as it is written.
+// This file reads the inputs of glTF materials: factors, and textures that multiply them. A factor keeps its
+// text, so that a number that no conversion changes stays as it is written.
 #pragma once
 
 #include <array>
@@ -24,11 +24,11 @@ enum class GltfInput : std::size_t {
   kNormal,
   kOcclusion,
   kEmissive,
-  // KHR_materials_pbrSpecularGlossiness
+  // The following come from KHR_materials_pbrSpecularGlossiness.
   kDiffuse,
   kSpecGlossSpecular,
   kGlossiness,
-  // KHR_materials_specular, _ior, _clearcoat, _sheen and _transmission
+  // The following come from KHR_materials_specular, _ior, _clearcoat, _sheen and _transmission.
   kSpecularColor,
   kSpecular,
   kIor,
@@ -40,13 +40,13 @@ enum class GltfInput : std::size_t {
 };
 inline constexpr std::size_t kGltfInputs = 17;
 
-// The place of an input in a material.
+// A GltfInputInfo is the place of an input in a material.
 struct GltfInputInfo {
   std::string_view object;   // the member or extension that holds it; empty for the material itself
-  std::string_view texture;  // the member with the texture; empty if an input has none
+  std::string_view texture;  // the member with the texture; empty if there is none
   std::string_view factor;   // the member with the factor
-  std::size_t count = 1;     // how many numbers the factor has; the fourth is opacity
-  std::size_t channel = 0;   // which channel of the texture is read, if the factor is one number
+  std::size_t count = 1;     // count of numbers in the factor; the fourth is opacity
+  std::size_t channel = 0;   // channel of the texture, if the factor is one number
   double usual = 1.0;        // the default of each number
   double least = 0.0, most = 1.0;
   bool is_in_texture = false;  // the factor is a member of the texture
@@ -54,7 +54,7 @@ struct GltfInputInfo {
 const GltfInputInfo& info_of(GltfInput input);
 std::span<const GltfInput> all_inputs();
 
-// A number as the file writes it, or as it was clamped.
+// A FactorText is a number as the file writes it, or after clamping.
 struct FactorText {
   double value = 1.0;
   std::string text = "1";
@@ -62,8 +62,8 @@ struct FactorText {
 
 struct GltfValue {
   std::array<FactorText, 4> factor;  // numbers beyond the count are 1
-  bool is_stated = false;            // whether the file has the factor
-  SpanValue texture;                 // the info of the texture; empty without one
+  bool is_stated = false;            // true if the file has the factor
+  SpanValue texture;                 // the info of the texture, or empty
 };
 
 struct GltfMaterial {
@@ -80,28 +80,28 @@ struct GltfMaterial {
 };
 
 // Reads the given inputs; the others get their defaults. Appends a warning for each factor that it clamps.
-// Throws kInput if an object, a list or a number is something else.
+// Throws kInput if an object, a list or a number has another type.
 GltfMaterial read_inputs(SpanValue material, std::span<const GltfInput> inputs,
                          std::vector<std::string>& warnings);
 
 bool has_textures(const GltfMaterial& material, std::span<const GltfInput> inputs);
 
-// The shortest text that reads back as the float.
+// Returns the shortest text that reads back as the float.
 inline std::string float_text(float value) { return number_text(decimal_value(value)); }
 
-// Whether `own` is that number; arithmetic of floats moves a factor by less.
+// Returns true if `own` is that number. Arithmetic of floats changes a factor by less than this tolerance.
 inline bool is_factor(float value, const FactorText& own) {
   return std::fabs(static_cast<double>(value) - own.value) < 1e-6;
 }
-// The text of `own` where it is that number, otherwise a text of the number.
+// Returns the text of `own` if it is that number, otherwise a text of the number.
 inline std::string factor_text(float value, const FactorText& own) {
   return is_factor(value, own) ? own.text : float_text(value);
 }
 
-// `[1,0.5,0]`.
+// Returns a text such as `[1,0.5,0]`.
 std::string list_text(const std::vector<std::string>& entries);
 
-// Values as a report gives them.
+// Returns values in the form of a report.
 MaterialFactor reported(std::string name, const std::vector<float>& values);
 
 }  // namespace remap

@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// Every member of that key.
+// Returns every member with that key.
 std::vector<SpanValue> members_of(SpanValue object, std::string_view key) {
   std::vector<SpanValue> members = object.children();
   std::erase_if(members, [&](const SpanValue& member) { return !member.has_key(key); });
@@ -55,7 +55,7 @@ void GltfMaterialWriter::write_core(const MaterialEdit& edit, AssetMaterial& rep
   edits_.append_member(edit.material, kCoreMember, "{" + object + "}");
 }
 
-// Extras of the extension go to those of core, of which none is replaced.
+// Moves extras of the extension into the extras of core, and replaces none of them.
 void GltfMaterialWriter::carry_extras(SpanValue extras, SpanValue core, AssetMaterial& report) {
   const std::string from = extras.parent().key();
   const SpanValue kept = core["extras"];

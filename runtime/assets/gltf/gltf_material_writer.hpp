@@ -1,4 +1,4 @@
-// Writes converted materials into the text of a glTF file, and keeps the lists of extensions true.
+// This file writes converted materials into the text of a glTF file, and updates the lists of extensions.
 #pragma once
 
 #include <set>
@@ -15,15 +15,15 @@ namespace remap {
 
 class GltfMaterialWriter {
  public:
-  // All must outlive it. `images`: written already; null where there are none.
+  // All arguments must outlive this object. `images` must be written already; it is null if there are none.
   GltfMaterialWriter(const SpannedJson& json, const std::string& context, const GltfNewImages* images,
                      TextEdits& edits)
       : json_(json), root_(json.root()), context_(context), images_(images), edits_(edits) {}
 
   void write(const MaterialEdit& edit, AssetMaterial& report);
-  // Adds new extensions to extensionsUsed. Of `goers` and of those that materials lost, removes from both
-  // lists what nothing uses any more. `removed`: more values of extensions that go. Throws kInput for lists
-  // that are none.
+  // Adds new extensions to extensionsUsed. Removes from both lists every extension that nothing uses any
+  // more, out of `goers` and of the extensions that materials lost. `removed` holds more values of removed
+  // extensions. Throws kInput if one of the lists is not a list.
   void update_lists(const std::set<std::string>& goers, const std::set<std::size_t>& removed);
 
  private:
@@ -41,9 +41,9 @@ class GltfMaterialWriter {
   const std::string& context_;
   const GltfNewImages* images_;
   TextEdits& edits_;
-  std::set<std::size_t> removed_;   // values of extensions that go
+  std::set<std::size_t> removed_;   // values of removed extensions
   std::set<std::string> lost_;      // extensions that a material lost
-  std::vector<std::string> added_;  // that a material got, each once
+  std::vector<std::string> added_;  // extensions that a material got, each once
 };
 
 }  // namespace remap

@@ -1,5 +1,6 @@
-// New images and textures of a glTF file. Each is as its model: in the binary chunk, in a URI, in a file.
-// They follow the last ones, or take places that became spare. No index changes and no byte moves.
+// This file adds new images and textures to a glTF file. A new image is stored like its model: in the binary
+// chunk, in a URI, or in a file. New entries follow the last ones, or take spare places. No index changes and
+// no byte moves.
 #pragma once
 
 #include <cstddef>
@@ -29,40 +30,40 @@ struct ImageCoding {
 
 class GltfNewImages {
  public:
-  // All must outlive it.
+  // All arguments must outlive this object.
   GltfNewImages(const SpannedJson& json, const GltfContainer& container, const AssetResources& resources,
                 const std::string& context);
 
-  // Adds an image beside its model, an image of the file. `suffix` goes to names: `_baseColor`.
-  // Returns its number among the new ones, of one that was added before where their bytes are equal.
+  // Adds an image beside its model, an image of the file. `suffix` is part of its name: `_baseColor`. Returns
+  // its number among the new images. If an earlier one has equal bytes, it returns that number.
   std::size_t add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
                         const ImageCoding& coding);
-  // A texture of that new image with the sampler of its model, a texture of the file. Returns its number, of
-  // one that was added before where they agree.
+  // Adds a texture of that new image with the sampler of its model, a texture of the file. Returns its
+  // number. If an earlier texture agrees, it returns that number.
   std::size_t add_texture(std::size_t image, std::size_t model);
 
   // Writes all new images. Call it once, at the end, because only then `spares` is complete.
   void write(const GltfSpares& spares, TextEdits& edits);
-  // The texture info of a new texture. After write().
+  // Returns the texture info of a new texture. Call it after write().
   std::string info_text(const TextureText& texture) const;
-  // The new end of the binary chunk. Call it after write().
+  // Returns the new end of the binary chunk. Call it after write().
   const BinaryTail& tail() const noexcept { return tail_; }
   std::vector<NewResource>& files() noexcept { return files_; }
-  // Values of extensions of textures that write() removed.
+  // Returns values of texture extensions that write() removed.
   const std::vector<SpanValue>& removed_extensions() const noexcept { return removed_extensions_; }
 
  private:
   struct NewImage {
     std::string bytes;
-    std::string_view type;  // image/png
+    std::string_view type;  // such as image/png
     std::size_t model = 0;
     std::string suffix;
   };
   struct NewTexture {
     std::size_t image = 0, model = 0;
-    std::size_t place = 0;  // after write()
+    std::size_t place = 0;  // set by write()
   };
-  // Members of an image that give its place and its type.
+  // These are the members of an image that state its place and its type.
   using Location = std::vector<std::pair<std::string_view, std::string>>;
 
   bool is_in_chunk(SpanValue image) const;
@@ -84,13 +85,13 @@ class GltfNewImages {
   std::vector<SpanValue> textures_, images_, views_, buffers_;
   std::vector<NewImage> new_images_;
   std::vector<NewTexture> new_textures_;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // by image and sampler
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // keyed by image and sampler
   GltfSpares spares_;                                                          // that are not taken yet
-  std::set<std::size_t> unused_images_;                                        // spare ones, taken or not
+  std::set<std::size_t> unused_images_;                                        // spare images, taken or not
   std::vector<std::size_t> image_places_;
   std::vector<Location> locations_;
   std::size_t image_count_ = 0, texture_count_ = 0, view_count_ = 0;
-  std::uint64_t chunk_start_ = 0;  // of what is appended
+  std::uint64_t chunk_start_ = 0;  // of the appended bytes
   BinaryTail tail_;
   std::vector<NewResource> files_;
   std::vector<SpanValue> removed_extensions_;

@@ -12,10 +12,10 @@
 namespace remap {
 namespace {
 
-// It names images, not textures.
+// This extension names images, not textures.
 constexpr std::string_view kImageLights = "EXT_lights_image_based";
 
-// The extension that forbids to tell what is used; empty for none.
+// Returns an extension that hides what is used, or an empty text.
 std::string obscure_extension(SpanValue root) {
   for (const char* list : {"extensionsUsed", "extensionsRequired"})
     for (const SpanValue& entry : root[list].entries())
@@ -51,7 +51,7 @@ class SpareFinder {
     return container_.binary_chunk() != nullptr && !buffers.empty() && !buffers.front()["uri"];
   }
 
-  // Notes the textures that a converted material loses, and those it keeps.
+  // Records the textures that a converted material loses, and the textures that it keeps.
   void read(const MaterialEdit& edit) {
     const SpanValue core = edit.material[kCoreMember];
     const auto keep = [&](const std::vector<MemberText>& members) {
@@ -72,7 +72,7 @@ class SpareFinder {
     return false;
   }
 
-  // A texture info is a member `...Texture` with an index.
+  // Finds the textures in use. A texture info is a member `...Texture` with an index.
   void find_textures() {
     Indices lost;
     for (std::size_t i = 1; i < json_.value_count(); ++i) {
@@ -85,7 +85,7 @@ class SpareFinder {
       if (!used_.contains(index) && index < textures_.size()) spares_.textures.push_back(index);
   }
 
-  // Of spare textures, unless other textures use them.
+  // Finds the images of spare textures, unless other textures use them.
   void find_images() {
     Indices lost, used;
     for (std::size_t i = 0; i < textures_.size(); ++i)
@@ -95,8 +95,8 @@ class SpareFinder {
       if (!used.contains(image) && image < images_.size()) spares_.images.push_back(image);
   }
 
-  // Of spare images, unless anything else names them. What is still used is every other range of bytes, those
-  // of compressed meshes among them.
+  // Finds the views of spare images, unless anything else names them. Every other range of bytes is still
+  // used, even ranges of compressed meshes.
   void find_views() {
     Indices lost, used;
     std::set<std::size_t> spare_images;
@@ -113,7 +113,7 @@ class SpareFinder {
     if (!spares_.views.empty()) spares_.chunk_end = spare_tail();
   }
 
-  // Where the spare views begin that the buffer ends with; its end where it does not end with one.
+  // Returns where the spare views at the end of the buffer begin. Without any it returns the buffer's end.
   std::uint64_t spare_tail() const {
     constexpr std::uint64_t kMostGap = 15;  // between views that exporters align
     std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;

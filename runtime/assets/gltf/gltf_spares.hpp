@@ -1,5 +1,5 @@
-// What only converted materials used: textures, images and views whose places new ones can take, and the end
-// of the bytes that are still used. No index changes: extras and other programs may name them.
+// This file finds what only converted materials used: textures, images and views that new ones can replace,
+// and the end of the bytes still in use. No index changes, because extras and other programs may use indices.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace remap {
 
 struct GltfSpares {
   std::vector<std::size_t> textures, images, views;  // sorted indices; views of the binary chunk
-  std::optional<std::uint64_t> chunk_end;            // of what is still used; none: nothing is cut
+  std::optional<std::uint64_t> chunk_end;            // end of what is still used; if missing, nothing is cut
 };
 
 // Finds the textures, images and views that nothing uses after the edits. If the file uses extensions that

@@ -1,5 +1,5 @@
-// Spec-gloss materials become core metallic-roughness (KHR_materials_pbrSpecularGlossiness, an archived
-// extension of Khronos).
+// This file converts spec-gloss materials to core metallic-roughness (KHR_materials_pbrSpecularGlossiness, an
+// archived extension of Khronos).
 #include <algorithm>
 #include <array>
 #include <map>
@@ -32,7 +32,7 @@ void note_lost_members(SpanValue extension, std::vector<std::string>& warnings) 
   }
 }
 
-// The form that keeps diffuse as base color.
+// Returns the form that keeps diffuse as base color.
 CoreTexts texts_of_diffuse(const GltfMaterial& material) {
   CoreTexts texts;
   const GltfValue& diffuse = material[GltfInput::kDiffuse];
@@ -93,7 +93,7 @@ class SpecGlossToCore final : public GltfDirection {
     return texts_of_diffuse(material);
   }
 
-  // Of the exact form only roughness needs a new image.
+  // Returns the exact form, in which only roughness needs a new image.
   CoreTexts exact(const GltfMaterial& material, AssetMaterial& report) {
     CoreTexts texts = texts_of_diffuse(material);
     if (!has_textures(material, inputs_of(GltfWorkflow::kSpecGloss))) {
@@ -153,7 +153,7 @@ class SpecGlossToCore final : public GltfDirection {
     for (const SpanValue& extension : read.text["extensions"].children()) {
       const std::string name = extension.key();
       if (!is_reflecting(name)) continue;
-      // Converting the file again would fold extensions that spec-gloss viewers ignored.
+      // A second conversion of the file would fold extensions that spec-gloss viewers ignored.
       if (options_.folds_specular && (name == kSpecularExtension || name == kIorExtension))
         edit.removed_extensions.push_back(name == kIorExtension ? kIorExtension : kSpecularExtension);
       else
@@ -163,9 +163,9 @@ class SpecGlossToCore final : public GltfDirection {
   }
 
   const AssetOptions& options_;
-  MaterialTextures* textures_;  // null where no images can be read
+  MaterialTextures* textures_;  // null if no images can be read
   CoreMaker maker_;
-  std::map<std::string, std::size_t> roughness_maps_;  // by image and factor
+  std::map<std::string, std::size_t> roughness_maps_;  // keyed by image and factor
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Core materials get KHR_materials_pbrSpecularGlossiness. pbrMetallicRoughness stays: it is the fallback of
-// viewers that do not read the extension.
+// This file adds KHR_materials_pbrSpecularGlossiness to core materials. pbrMetallicRoughness stays, because
+// viewers that do not read the extension use it as fallback.
 #include <array>
 #include <map>
 #include <memory>
@@ -15,7 +15,7 @@
 namespace remap {
 namespace {
 
-// JSON of a spec-gloss material.
+// A SpecGlossTexts holds the JSON of a spec-gloss material.
 struct SpecGlossTexts {
   std::array<std::string, 4> diffuse;
   std::array<std::string, 3> specular;
@@ -44,7 +44,7 @@ class CoreToSpecGloss final : public GltfDirection {
         plain_(converter_of(GltfWorkflow::kMetalRough, "gltf-specgloss", parts.options)),
         dielectric_(converter_of(GltfWorkflow::kDielectric, "gltf-specgloss", parts.options)) {}
 
-  // Unlit materials have no workflow: KHR_materials_unlit reads base color.
+  // Skips unlit materials. They have no workflow, because KHR_materials_unlit reads base color.
   bool applies_to(SpanValue material) const override {
     const SpanValue extensions = material["extensions"];
     return material.is(SpanKind::kObject) && !extensions[kSpecGlossExtension] && !extensions[kUnlitExtension];
@@ -84,7 +84,7 @@ class CoreToSpecGloss final : public GltfDirection {
   }
 
  private:
-  // Beside spec-gloss, viewers ignore extensions that change what a material reflects.
+  // Refuses other extensions, because viewers ignore them beside spec-gloss if they change reflection.
   static void require_alone(SpanValue extensions) {
     for (const SpanValue& extension : extensions.children()) {
       const std::string name = extension.key();
@@ -97,7 +97,7 @@ class CoreToSpecGloss final : public GltfDirection {
     }
   }
 
-  // The result for a set of images, with the numbers of new images. It holds no pixels.
+  // A Made is the result for a set of images, with the numbers of new images. It holds no pixels.
   struct Made {
     SpecGlossMaps maps;
     std::optional<std::size_t> diffuse_image, specgloss_image;
@@ -109,7 +109,7 @@ class CoreToSpecGloss final : public GltfDirection {
 
   // Constant maps become factors of `material`.
   SpecGlossTexts texts_of(GltfWorkflow workflow, GltfMaterial& material, AssetMaterial& report) {
-    // Diffuse of a dielectric is its base color, by the conventions of both.
+    // Diffuse of a dielectric is its base color, by the conventions of both workflows.
     const bool keeps_base = material.number(GltfInput::kMetallic) == 0.0;
     std::span<const GltfInput> inputs = inputs_of(workflow);
     if (has_textures(material, inputs)) {
@@ -179,9 +179,9 @@ class CoreToSpecGloss final : public GltfDirection {
     return texts;
   }
 
-  MaterialTextures* textures_;  // null where no images can be read
+  MaterialTextures* textures_;  // null if no images can be read
   std::unique_ptr<Converter> plain_, dielectric_;
-  std::map<std::string, Made> made_;  // by GltfMaps::key
+  std::map<std::string, Made> made_;  // keyed by GltfMaps::key
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr std::array kCoreInputs = {GltfInput::kBaseColor,     GltfInput::kMetal
 constexpr std::array kSpecGlossInputs = {GltfInput::kDiffuse, GltfInput::kSpecGlossSpecular,
                                          GltfInput::kGlossiness};
 
-// The textures that new maps of color and of data are like, the best first.
+// New maps of color and of data resemble these textures, the best first.
 constexpr std::array kCoreColors = {GltfInput::kBaseColor, GltfInput::kSpecularColor, GltfInput::kMetallic,
                                     GltfInput::kSpecular};
 constexpr std::array kCoreData = {GltfInput::kMetallic, GltfInput::kSpecularColor, GltfInput::kSpecular,
@@ -34,7 +34,7 @@ std::span<const GltfInput> data_of(GltfWorkflow workflow) {
   return kCoreData;
 }
 
-// The parameter of the converter; none for inputs that F0 comes from.
+// Returns the parameter of the converter, or nothing for inputs that F0 comes from.
 std::optional<Parameter> parameter_of(GltfInput input) {
   switch (input) {
     case GltfInput::kBaseColor:
@@ -53,7 +53,7 @@ std::optional<Parameter> parameter_of(GltfInput input) {
   }
 }
 
-// F0 of the index times the color, without its limit of 1.
+// Returns the F0 of the index times the color, without its limit of 1.
 std::array<double, 3> unlimited_f0(const GltfMaterial& material) {
   std::array<double, 3> f0 = material.color(GltfInput::kSpecularColor);
   for (double& value : f0) value *= f0_of_index(material.number(GltfInput::kIor));

@@ -1,4 +1,4 @@
-// The workflows of glTF materials: their inputs, and what these are for a converter.
+// This file describes the workflows of glTF materials: their inputs, and what these mean to a converter.
 #pragma once
 
 #include <memory>
@@ -16,45 +16,44 @@ namespace remap {
 
 enum class GltfWorkflow {
   kMetalRough,  // core
-  kDielectric,  // core with KHR_materials_specular and _ior, which give dielectrics their F0
+  kDielectric,  // core with KHR_materials_specular and _ior, which set the F0 of dielectrics
   kSpecGloss,   // KHR_materials_pbrSpecularGlossiness
 };
 
-// The inputs that conversions of the workflow read. Messages name textures in this order.
+// Returns the inputs that conversions of the workflow read. Messages name textures in this order.
 std::span<const GltfInput> inputs_of(GltfWorkflow workflow);
-// The input that holds base color or diffuse.
+// Returns the input that holds base color or diffuse.
 GltfInput color_of(GltfWorkflow workflow);
 
-// Reads the inputs of the workflow. Throws as read_inputs(), and kInput for an index of refraction between 0
-// and 1.
+// Reads the inputs of the workflow. Throws like read_inputs(), and kInput for an index between 0 and 1.
 GltfMaterial read_material(SpanValue material, GltfWorkflow workflow, std::vector<std::string>& warnings);
 
 // Makes the converter from the workflow to the workflow model `target`. Both ends have roughness.
 std::unique_ptr<Converter> converter_of(GltfWorkflow workflow, const char* target,
                                         const AssetOptions& options);
 
-// Returns the factors as the converter takes them.
+// Returns the factors in the form that the converter reads.
 MaterialValues values_of(GltfWorkflow workflow, const GltfMaterial& material);
 // Returns the factors times the first texel of each texture.
 MaterialValues first_values_of(GltfWorkflow workflow, GltfMaterial material, const UsedTextures& used);
 
-// The maps of a material, ready for a converter. At least one of them varies. `used` must outlive it.
+// A GltfMaps holds a material's maps for a converter. At least one varies. `used` must outlive it.
 struct GltfMaps {
   GltfMaps(GltfWorkflow workflow, const GltfMaterial& material, const UsedTextures& used);
   GltfMaps(const GltfMaps&) = delete;
   GltfMaps& operator=(const GltfMaps&) = delete;
 
-  // New images have the size, type and place of these.
+  // New images have the size, type and place of these models.
   const UsedTexture& color_model;
   const UsedTexture& data_model;
   MapSources sources;
-  std::string key;  // equal for materials whose results are equal, up to opacity
+  std::string key;  // equal for materials whose results are equal, except opacity
 
  private:
   ImagePixels f0_;  // only for kDielectric
 };
 
-// Returns what reads images. Throws kInput if no images can be read.
+// Returns `textures`, which read images. Throws kInput if they are null.
 MaterialTextures& require_images(MaterialTextures* textures);
 
 // Loads the textures of the given inputs by MaterialTextures::load(). Returns nothing if all maps are

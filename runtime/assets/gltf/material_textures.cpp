@@ -172,7 +172,7 @@ void MaterialTextures::bake(std::vector<UsedTexture>& textures, const GridReason
   }
 }
 
-// All get the largest size.
+// Enlarges all textures to the largest size.
 void MaterialTextures::enlarge(std::vector<UsedTexture>& textures) const {
   std::size_t width = 0, height = 0;
   for (const UsedTexture& texture : textures) {

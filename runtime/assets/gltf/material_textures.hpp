@@ -1,4 +1,4 @@
-// Textures of a material that is converted: found, decoded, brought onto one grid, and replaced by new ones.
+// This file finds and decodes a converted material's textures, brings them onto one grid, and replaces them.
 #pragma once
 
 #include <cstddef>
@@ -18,42 +18,42 @@
 
 namespace remap {
 
-// A texture of a material.
+// A UsedTexture is a texture of a material.
 struct UsedTexture {
   std::string_view member;              // of the material or an extension: `specularGlossinessTexture`
   Transfer transfer = Transfer::kSrgb;  // of its colors
   TextureInfo info;
   AssetImage image;
-  std::string bake;  // how its pixels were resampled; empty where they were not
+  std::string bake;  // how its pixels were resampled, or empty
 
   const ImagePixels& pixels() const { return *image.pixels; }
-  // In messages: `specular glossiness`.
+  // Returns the name in messages, such as `specular glossiness`.
   std::string name() const;
 };
 
-// The textures of a material that vary, on one grid, in the order of its inputs.
+// A UsedTextures holds the varying textures of a material, on one grid, in the order of its inputs.
 struct UsedTextures {
   std::vector<UsedTexture> textures;
 
-  // Null for an input without one.
+  // Returns null for an input without a texture.
   const UsedTexture* of(GltfInput input) const;
   const ImagePixels* pixels_of(GltfInput input) const;
-  // The first that one of the inputs has. At least one has one.
+  // Returns the texture of the first input that has one. At least one must have a texture.
   const UsedTexture& first_of(std::span<const GltfInput> inputs) const;
-  // Tells apart what the images hold: their indices, and how they were resampled.
+  // Returns a text that identifies the content of the images: their indices, and how they were resampled.
   std::string key() const;
 };
 
-// Why textures must lie on one grid, for messages.
+// A GridReason states why textures must lie on one grid, for messages.
 struct GridReason {
   std::string_view decided;    // the parameters that all textures determine together, such as `metallic`
-  std::string_view otherwise;  // `, or --extensions`: what needs no grid; empty for nothing
+  std::string_view otherwise;  // an option that needs no grid, such as `, or --extensions`; may be empty
 };
 
-// For all materials of a file.
+// A MaterialTextures serves all materials of a file.
 class MaterialTextures {
  public:
-  // All must outlive it.
+  // All arguments must outlive this object.
   MaterialTextures(const AssetOptions& options, const AssetResources& resources, GltfImages& images,
                    GltfNewImages& new_images)
       : options_(options), resources_(resources), images_(images), new_images_(new_images) {}
@@ -64,17 +64,17 @@ class MaterialTextures {
   }
   // Throws kInput for an image that cannot be read.
   UsedTexture load(SpanValue texture_info, GltfInput input);
-  // Those of the inputs, with one size and one grid as far as the options allow. Maps of one value become
-  // factors of `material`. Throws kInput otherwise.
+  // Loads the textures of the inputs. They get one size and one grid as far as the options allow. Maps of one
+  // value become factors of `material`. Throws kInput if this fails.
   UsedTextures load(GltfMaterial& material, std::span<const GltfInput> inputs, const GridReason& reason,
                     std::vector<std::string>& warnings);
 
-  // Returns the number of the new image. Data is PNG. Color may be JPEG, unless it has alpha or its source,
-  // `color`, is not JPEG.
+  // Adds a color image and returns its number. Data is PNG. Color may be JPEG, unless it has alpha or its
+  // source, `color`, is not JPEG.
   std::size_t add_color(const ImagePixels& pixels, const UsedTexture& model, const UsedTexture* color,
                         std::string_view suffix);
   std::size_t add_data(const ImagePixels& pixels, const UsedTexture& model, std::string_view suffix);
-  // The info of the model with a texture of a new image.
+  // Returns the info of the model with a texture of a new image.
   TextureText text_of(const UsedTexture& model, std::size_t image);
 
  private:

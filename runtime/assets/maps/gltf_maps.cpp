@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kStep = 1.0f / 255.0f, kBlack = 1e-6f;
 
-// Turns a channel that hardly varies into a factor, and fills it.
+// Turns a channel that hardly varies into a factor, and fills the channel.
 bool collapse(const ParameterStatistics& range, ImagePixels& pixels, std::size_t channel, float& factor) {
   if (range.max - range.min >= kStep) return false;
   factor = range.min + (range.max - range.min) / 2.0f;
@@ -21,7 +21,7 @@ bool collapse(const ParameterStatistics& range, ImagePixels& pixels, std::size_t
 
 bool has_alpha(const MapSources& sources) { return sources.color != nullptr && sources.color->has_alpha(); }
 
-// Converts into `color`, which takes the alpha of the map of color.
+// Converts into `color`, which gets the alpha of the color map.
 MapStatistics convert(const Converter& converter, MapSources& sources, ImagePixels& color) {
   sources.conversion.width = color.width;
   sources.conversion.height = color.height;
@@ -43,7 +43,7 @@ bool are_flat(const ImagePixels& pixels, std::size_t first, std::size_t last) {
   return true;
 }
 
-// Diffuse as a factor, as the map of color times one, or as a new map.
+// Stores diffuse as a factor, as the color map times one, or as a new map.
 void settle_diffuse(const MapSources& sources, const std::vector<float>& first, ImagePixels diffuse,
                     SpecGlossMaps& result) {
   const ImagePixels* const color = sources.color;

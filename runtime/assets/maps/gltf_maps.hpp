@@ -1,4 +1,4 @@
-// Maps of glTF materials, made from maps of another workflow.
+// This file makes maps of glTF materials from maps of another workflow.
 #pragma once
 
 #include <array>
@@ -11,44 +11,45 @@
 
 namespace remap {
 
-// The maps that a conversion comes from, of one size. At least one is given.
+// A MapSources holds the maps of a conversion, all of one size. At least one is given.
 struct MapSources {
   MapConversion conversion;            // with its sources and their encoding of roughness
-  const ImagePixels* color = nullptr;  // diffuse or base color, in sRGB; null for none
+  const ImagePixels* color = nullptr;  // diffuse or base color, in sRGB; may be null
   std::array<double, 3> color_factors = {1.0, 1.0, 1.0};
   const ImagePixels* color_model = nullptr;  // size and type of the results
   const ImagePixels* data_model = nullptr;
 };
 
-// Maps of core glTF.
+// A MetalRoughMaps holds maps of core glTF.
 struct MetalRoughMaps {
-  // sRGB, with the alpha of the map of color; none where base color is that map times its factor within
-  // 1/255.
+  // This map is sRGB, with the alpha of the color map. It is missing if base color is the color map times its
+  // factor within 1/255.
   std::optional<ImagePixels> base_color;
-  std::optional<ImagePixels> metal_rough;   // as glTF packs them; none where both are constant
+  std::optional<ImagePixels> metal_rough;   // as glTF packs them; none if both are constant
   float metallic = 1.0f, roughness = 1.0f;  // factors
-  bool has_metal = false;                   // whether metallic is above 0 anywhere
+  bool has_metal = false;                   // true if metallic is above 0 anywhere
   double residual = 0.0;                    // root of the mean square of Parameter::kResidual, of a sample
 };
 
 MetalRoughMaps metal_rough_maps(const Converter& converter, MapSources sources);
 
-// Maps of KHR_materials_pbrSpecularGlossiness.
+// A SpecGlossMaps holds maps of KHR_materials_pbrSpecularGlossiness.
 struct SpecGlossMaps {
-  // sRGB, with the alpha of the map of color. None where diffuse is a factor, or the map of color times one.
+  // This map is sRGB, with the alpha of the color map. It is missing if diffuse is (the color map times) a
+  // factor.
   std::optional<ImagePixels> diffuse;
-  bool keeps_color = false;  // diffuse is the map of color times `diffuse_factors`
-  float alpha = 1.0f;        // of a map of color that a factor replaces
+  bool keeps_color = false;  // diffuse is the color map times `diffuse_factors`
+  float alpha = 1.0f;        // of a color map that a factor replaces
   std::array<float, 3> diffuse_factors = {1.0f, 1.0f, 1.0f};
   std::optional<ImagePixels> specgloss;  // sRGB specular, with glossiness as alpha; none if both are factors
   std::array<float, 3> specular = {1.0f, 1.0f, 1.0f};
   float glossiness = 1.0f;
 };
 
-// `first`: the converted material of the first texel, from which constant results take their factors.
+// `first` is the converted material of the first texel. Constant results get their factors from it.
 SpecGlossMaps specgloss_maps(const Converter& converter, MapSources sources, const MaterialValues& first);
 
-// Roughness as green, of the glossiness in alpha times its factor.
+// Returns roughness as green, from the glossiness in alpha times its factor.
 ImagePixels roughness_map(const ImagePixels& specgloss, double glossiness);
 
 // Returns the F0 of dielectrics (KHR_materials_specular, _ior): min(1, `most` * color) * factor * alpha of

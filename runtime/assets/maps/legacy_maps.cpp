@@ -30,7 +30,8 @@ void store_channel(ImagePixels& pixels, std::size_t channel, std::size_t y, cons
                      texel);
 }
 
-// Diffuse, specular and an exponent become base color, metallic and roughness; of a dielectric F0 as well.
+// A LegacyStage converts diffuse, specular and an exponent to base color, metallic and roughness, and for a
+// dielectric also to F0.
 class LegacyStage final : public Stage {
  public:
   explicit LegacyStage(bool as_dielectric) : as_dielectric_(as_dielectric) {}
@@ -82,7 +83,7 @@ Converter legacy_converter(bool as_dielectric) {
           {std::make_shared<LegacyStage>(as_dielectric)}};
 }
 
-// The channel of a map that holds the exponent, as floats.
+// Returns the channel of a map that holds the exponent, as floats.
 ImagePixels exponents_of(const LegacyMaps& maps) {
   ImagePixels result{maps.exponent->width, maps.exponent->height, 1, PixelType::kFloat, {}};
   result.bytes.resize(result.width * result.height * sizeof(float));
@@ -90,8 +91,8 @@ ImagePixels exponents_of(const LegacyMaps& maps) {
   return result;
 }
 
-// KHR_materials_specular of an F0: its largest channel as a share of the largest of all texels in alpha, and
-// the rest as a color in sRGB.
+// Splits an F0 for KHR_materials_specular. Alpha is its largest channel as a fraction of the largest of all
+// texels. The rest is a color in sRGB.
 void settle_specular(const ImagePixels& f0, PixelType type, LegacyMapResult& result) {
   const std::size_t texels = f0.width * f0.height;
   std::vector<float> values(3 * texels), tints(texels);
@@ -193,7 +194,7 @@ void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, flo
   if (pixels.is_grey()) return load_channel(pixels, 0, y, values);
   const std::size_t color = kColors.find(channel);
   if (color != std::string_view::npos) return load_channel(pixels, color, y, values);
-  // Luminance of the stored values (ITU-R BT.709).
+  // The luminance of the stored values uses these weights (ITU-R BT.709).
   constexpr std::array<float, 3> kWeights = {0.2126f, 0.7152f, 0.0722f};
   FloatRow row(pixels.width);
   std::fill(values, values + pixels.width, 0.0f);

@@ -1,4 +1,4 @@
-// Maps of legacy materials as maps of glTF, texel by texel (legacy_material.hpp).
+// This file converts maps of legacy materials to maps of glTF, texel by texel (legacy_material.hpp).
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// Maps of one size, at least one of which is given. Colors are sRGB; the exponent is a value from 0 to 1. The
-// factors multiply them.
+// A LegacyMaps holds maps of one size, at least one of which is given. Colors are sRGB; the exponent is a
+// value from 0 to 1. The factors multiply them.
 struct LegacyMaps {
   const ImagePixels* diffuse = nullptr;
   const ImagePixels* specular = nullptr;
@@ -21,35 +21,33 @@ struct LegacyMaps {
 };
 
 struct LegacyMapResult {
-  std::optional<ImagePixels> base_color;  // sRGB; none where `base` alone says it, or times the diffuse map
+  std::optional<ImagePixels> base_color;  // sRGB; none if `base` suffices, or the diffuse map times it
   bool keeps_diffuse = false;             // base color is the diffuse map times `base`, within 1/255
   std::array<double, 3> base = {1.0, 1.0, 1.0};
-  std::optional<ImagePixels> metal_rough;  // as glTF packs them; none where both are constant
+  std::optional<ImagePixels> metal_rough;  // as glTF packs them; none if both are constant
   double metallic = 1.0, roughness = 1.0;  // factors
   std::optional<ImagePixels> specular;     // of a dielectric: F0 / F in sRGB, F / `specular_factor` as alpha
-  double specular_factor = 0.0;            // of a dielectric: F, or what alpha is a share of
+  double specular_factor = 0.0;            // of a dielectric: F, or the F that alpha is a fraction of
   std::array<double, 3> specular_color = {1.0, 1.0, 1.0};  // of a dielectric: F0 / F, or 1 with a map
 };
 
 LegacyMapResult converted_maps(const LegacyMaps& maps);
 
-// One channel of an image as an image of grey.
 ImagePixels channel_of(const ImagePixels& pixels, std::size_t channel);
 
-// An image of three channels, or four with opacity: the colors of `color`, or white, and as alpha a channel
-// of `opacity` (load_scalar_row()). One of them may be null; both have one size.
+// Returns an image of three channels, or four with opacity: the colors of `color`, or white, and as alpha a
+// channel of `opacity` (load_scalar_row()). One of them may be null. Both have the same size.
 ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, char channel);
 
-// The values of a map moved to base + gain x within 0 to 1, as -mm has it: "base adds a base value to the
-// texture values", "gain expands the range of the texture values" (Alias|Wavefront, MTL 4.2, 1995). Values
-// are those that the file stores. Alpha moves where `with_alpha`.
+// Returns a map with values base + gain x, clamped to 0 to 1, as -mm describes: "base adds a base value to
+// the texture values", "gain expands the range of the texture values" (Alias|Wavefront, MTL 4.2, 1995). The
+// values are the stored ones. Alpha changes only if `with_alpha`.
 ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, bool with_alpha);
 
-// Replaces a channel by one of a map of the same size (load_scalar_row()).
+// Replaces a channel by a channel of a map of the same size (load_scalar_row()).
 void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
 
-// The channel of a map that holds one value, as MTL selects it (-imfchan), from 0 to 1: `count` values of row
-// `y`.
+// Loads `count` values of row `y`, from 0 to 1. They come from MTL's channel for scalar maps (-imfchan).
 void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, float* values);
 
 }  // namespace remap

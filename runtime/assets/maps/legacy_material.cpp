@@ -13,7 +13,7 @@ constexpr double kDielectricF0 = 0.04;
 
 double mean_of(const std::array<double, 3>& color) { return (color[0] + color[1] + color[2]) / 3.0; }
 
-// The share of a dielectric in a mixture that reflects `diffuse` and `specular`, both means over channels.
+// Returns the dielectric fraction of a mixture that reflects `diffuse` and `specular`, means over channels.
 double dielectric_share(double diffuse, double specular) {
   const double sum = diffuse + specular;
   const double root = std::sqrt(std::max(0.0, sum * sum - 4.0 * kDielectricF0 * diffuse));
@@ -37,7 +37,7 @@ GgxLobe ggx_lobe(const LegacyMaterial& material) {
 MetalRoughFactors core_of_legacy(const LegacyMaterial& material) {
   const GgxLobe lobe = ggx_lobe(material);
   const double share = dielectric_share(mean_of(material.diffuse), mean_of(lobe.f0));
-  // Below a fortieth of the F0 that core adds, it becomes core_of_diffuse() in proportion.
+  // If F0 is below a fortieth of core's F0, the result approaches core_of_diffuse().
   const double matte = std::clamp(1.0 - 40.0 * *std::ranges::max_element(lobe.f0) / kDielectricF0, 0.0, 1.0);
   MetalRoughFactors core;
   for (std::size_t c = 0; c < 3; ++c)
@@ -56,7 +56,7 @@ MetalRoughFactors core_of_diffuse(const std::array<double, 3>& diffuse) {
 }
 
 LegacyDielectric dielectric_of_legacy(const LegacyMaterial& material) {
-  // Of a mirror nothing is left for diffuse, which the constants were not measured with.
+  // Limits the transmitted light from below. A mirror leaves none for diffuse, and no mirror was measured.
   constexpr double kLeastTransmitted = 0.02;
   const GgxLobe lobe = ggx_lobe(material);
   LegacyDielectric result;

@@ -1,7 +1,7 @@
-// Materials from before microfacets (Wavefront MTL, OpenGL, Collada) as GGX materials: two lines of five
-// constants, chosen by pictures under lights and environments (docs/decisions/060-short-forms.md). The
-// exponent decides the width of the highlight and, because an unnormalised lobe carries energy like 1 /
-// exponent, its strength.
+// This file converts materials from before microfacets (Wavefront MTL, OpenGL, Collada) to GGX materials. It
+// uses two lines of five constants, chosen by pictures under lights and environments
+// (docs/decisions/060-short-forms.md). The exponent decides the width of the highlight. It also decides its
+// strength, because an unnormalised lobe has energy like 1 / exponent.
 #pragma once
 
 #include <array>
@@ -10,37 +10,38 @@
 
 namespace remap {
 
-// Radiance = diffuse N.L + specular (N.H)^exponent, without a cosine or a norm on the lobe: unnormalised
-// Blinn, which the MTL specification calls illum 2 (Alias|Wavefront 1995). Colors are linear, 0 to 1.
+// A LegacyMaterial has radiance = diffuse N.L + specular (N.H)^exponent, without a cosine or a norm on the
+// lobe. This is unnormalised Blinn, illum 2 in the MTL specification (Alias|Wavefront 1995). Colors are
+// linear, 0 to 1.
 struct LegacyMaterial {
   std::array<double, 3> diffuse{}, specular{};
   double exponent = kLeastExponent;
 
-  // The range for which the constants were measured. The specification writes 0 to 1000.
+  // The constants were measured for this range. The specification allows 0 to 1000.
   static constexpr double kLeastExponent = 1.0, kMostExponent = 10000.0;
 };
 
-// The lobe of the material as GGX: glTF's roughness (the square root of alpha), 0 to 1, and F0 of each
-// channel, 0 to 1, the same at every angle.
+// A GgxLobe is the lobe of the material as GGX: glTF's roughness (the square root of alpha), 0 to 1, and F0
+// of each channel, 0 to 1, the same at every angle.
 struct GgxLobe {
   double roughness = 1.0;
   std::array<double, 3> f0{};
 };
 
-// roughness = (1.55 / (n + 4.17))^(1/4), F0 = min(1, 6.02 specular / (n + 1.86)).
+// Computes roughness = (1.55 / (n + 4.17))^(1/4) and F0 = min(1, 6.02 specular / (n + 1.86)).
 GgxLobe ggx_lobe(const LegacyMaterial& material);
 
-// Core glTF: base color and metallic that keep the sum of diffuse and specular,
-//   share of the dielectric = min(1, 2 D / (S + D + sqrt((S + D)^2 - .16 D))), base = d + F0 - .04 share,
-// where D and S are the means of diffuse and F0 over channels, and .04 is the F0 of a dielectric.
+// Returns base color and metallic of core glTF that keep the sum of diffuse and specular:
+//   fraction of the dielectric f = min(1, 2 D / (S + D + sqrt((S + D)^2 - .16 D))), base = d + F0 - .04 f.
+// D and S are the means of diffuse and F0 over channels, and .04 is the F0 of a dielectric.
 MetalRoughFactors core_of_legacy(const LegacyMaterial& material);
 
-// Core glTF of a material without a highlight: base color = diffuse, roughness 1. Core cannot remove the F0
-// of .04; at roughness 1 it adds about what the diffuse lobe loses by it, so a bright color stays as it is.
+// Returns core glTF for a material without a highlight: base color = diffuse, roughness 1. Core cannot remove
+// the F0 of .04. At roughness 1 this F0 adds about what the diffuse lobe loses by it, so bright colors stay.
 MetalRoughFactors core_of_diffuse(const std::array<double, 3>& diffuse);
 
-// glTF with KHR_materials_specular: metallic 0, and a specular whose F90 equals the largest F0, since the
-// source has no Fresnel effect.
+// A LegacyDielectric is glTF with KHR_materials_specular: metallic 0, and a specular whose F90 equals the
+// largest F0, because the source has no Fresnel effect.
 struct LegacyDielectric {
   std::array<double, 3> base_color{};      // min(1, diffuse / (1 - specular)), 0 to 1
   double specular = 0.0;                   // specularFactor: the largest F0, 0 to 1

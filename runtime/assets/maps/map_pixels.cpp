@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// A table of map times factor, for each stored value.
+// Returns a table of map times factor, for each stored value.
 std::vector<std::uint32_t> expected_values(PixelType type, float factor) {
   const std::size_t count = type == PixelType::kUint16 ? 65536 : 256;
   const float largest = static_cast<float>(count - 1);
@@ -47,7 +47,7 @@ ImagePixels blank_like(const ImagePixels& model, std::size_t channels) {
 
 bool is_constant(const ImagePixels& pixels) {
   const std::size_t size = pixels.texel_bytes();
-  // Every byte equals the one a texel before it.
+  // Compares every byte with the byte one texel before.
   return pixels.bytes.size() <= size ||
          std::memcmp(pixels.bytes.data(), pixels.bytes.data() + size, pixels.bytes.size() - size) == 0;
 }
@@ -89,7 +89,7 @@ SourceParameter color_source(const ImagePixels* pixels, const std::array<double,
     source.channels.push_back(channel_of_pixels(*pixels, c));
     source.channel_names.emplace_back(1, "RGB"[c]);
   }
-  // A grey map whose factors differ has three channels.
+  // A grey map with different factors has three channels.
   if (pixels->is_grey())
     for (std::size_t c = 1; c < 3; ++c) {
       source.channels.push_back(channel_of_pixels(*pixels, 0));

@@ -1,5 +1,4 @@
-// Pixels of images as maps of the conversion in memory (remap/convert_maps.hpp), and what is found out about
-// them.
+// This file turns pixels into maps of the conversion in memory (remap/convert_maps.hpp), and measures them.
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@
 
 namespace remap {
 
-// A read-only view if `pixels` is const; otherwise a writable one.
+// Returns a read-only view if `pixels` is const; otherwise a writable one.
 template <typename Pixels>
 auto channel_of_pixels(Pixels& pixels, std::size_t channel) {
   const auto texel = static_cast<std::ptrdiff_t>(pixels.texel_bytes());
@@ -22,48 +21,48 @@ auto channel_of_pixels(Pixels& pixels, std::size_t channel) {
                                 texel * static_cast<std::ptrdiff_t>(pixels.width)};
 }
 
-// Of the size and type of the model; every value is the largest.
+// Returns an image with the size and type of the model. Every value is the largest.
 ImagePixels blank_like(const ImagePixels& model, std::size_t channels);
 
-// Whether every texel equals the first.
+// Returns true if every texel equals the first.
 bool is_constant(const ImagePixels& pixels);
 
-// Whether the values of a channel are within a step of 8 bits.
+// Returns true if the values of a channel are within a step of 8 bits.
 bool hardly_varies(const ImagePixels& pixels, std::size_t channel);
 
-// The first texel: red, green, blue and alpha from 0 to 1 as stored; grey is repeated, alpha 1 where there is
-// none.
+// Returns the first texel as stored, 0 to 1: red, green, blue and alpha. Grey is repeated; missing alpha is
+// 1.
 std::array<float, 4> first_texel(const ImagePixels& pixels);
 
-// A stored value of sRGB as a linear one.
+// Converts a stored sRGB value to a linear one.
 float linear_of_srgb(float value);
 
-// A color in sRGB times linear factors; the factors where `pixels` is null. `name`: in messages.
+// Returns a color in sRGB times linear factors, or the factors if `pixels` is null. `name` is for messages.
 SourceParameter color_source(const ImagePixels* pixels, const std::array<double, 3>& factors,
                              const char* name);
-// A channel times a factor; the factor where `pixels` is null. `channel`: of RGBA; grey has one for all three
-// colors.
+// Returns a channel times a factor, or the factor if `pixels` is null. `channel` is an index into RGBA; a
+// grey image has one channel for all three colors.
 SourceParameter value_source(const ImagePixels* pixels, std::size_t channel, double factor, const char* name);
 
-// Three channels in sRGB.
+// Returns three channels in sRGB.
 TargetParameter color_target(ImagePixels& pixels);
 TargetParameter value_target(ImagePixels& pixels, std::size_t channel);
 
-// Whether the colors of `result` are those of `map` times the factors, within a step of 8 bits.
+// Returns true if the colors of `result` equal `map` times the factors, within a step of 8 bits.
 bool is_map_times(const ImagePixels& result, const ImagePixels& map, const std::array<double, 3>& factors);
 
-// Measures that separate normals from other colors. Vectors are decoded from 0 to 1.
+// A NormalShares holds measures that separate normals from other colors. Vectors are decoded from 0 to 1.
 struct NormalShares {
-  double unit = 0.0, inwards = 0.0;  // shares of texels: of about unit length; pointing into the surface
+  double unit = 0.0, inwards = 0.0;  // fractions of texels: of about unit length; pointing into the surface
   std::array<double, 3> mean{};      // of red, green and blue as stored
 
-  // Whether a map that may hold heights or normals holds normals of tangent space. Heights are grey.
+  // Returns true if a map of heights or normals holds normals of tangent space. Heights are grey.
   bool are_normals() const;
 };
-// The planes have one size.
+// Measures three planes of one size.
 NormalShares normal_shares(const std::array<std::span<const float>, 3>& rgb);
 
-// are_normals() of an even grid of texels.
+// Returns are_normals() for an even grid of texels.
 bool holds_normals(const ImagePixels& pixels);
 
 // Copies the alpha channel. Both images must have one.

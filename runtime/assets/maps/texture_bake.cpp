@@ -19,8 +19,8 @@ struct TextureCoordinates {
   double u = 0.0, v = 0.0;
 };
 
-// Scale, then rotation, then offset. A positive angle turns counter-clockwise as seen, with v downwards; so
-// read it three.js (Matrix3.setUvTransform) and Khronos' sample viewer.
+// Applies scale, then rotation, then offset. A positive angle turns counter-clockwise on screen, with v
+// downwards. three.js (Matrix3.setUvTransform) and Khronos' sample viewer do the same.
 TextureCoordinates transformed(const TextureTransform& transform, const TextureCoordinates& at) {
   const double u = at.u * transform.scale[0], v = at.v * transform.scale[1];
   const double cosine = std::cos(transform.rotation), sine = std::sin(transform.rotation);
@@ -33,8 +33,8 @@ TextureCoordinates untransformed(const TextureTransform& transform, const Textur
   return {(cosine * u - sine * v) / transform.scale[0], (sine * u + cosine * v) / transform.scale[1]};
 }
 
-// A position between two neighboring texels of a row or column. The row or column repeats, so the first texel
-// follows the last.
+// A RepeatedPlace lies between two neighboring texels of a row or column. The row or column repeats, so the
+// first texel follows the last.
 struct RepeatedPlace {
   std::size_t before = 0, after = 0;
   float share = 0.0f;  // weight of `after`, 0 to 1
@@ -48,7 +48,7 @@ RepeatedPlace place_at(double coordinate, std::size_t count) {
   return {before, (before + 1) % count, static_cast<float>(position - floor)};
 }
 
-// Changes all channels but alpha.
+// Changes all channels except alpha.
 template <typename Change>
 void change_colors(const ImagePixels& pixels, std::vector<float>& values, const Change& change) {
   const std::size_t colors = pixels.channels - (pixels.has_alpha() ? 1 : 0);
@@ -56,7 +56,7 @@ void change_colors(const ImagePixels& pixels, std::vector<float>& values, const 
     change(std::span<float>(values.data() + i, colors));
 }
 
-// One row of the grid, of the map's linear values.
+// A GridSampler returns a row of the grid from the map's linear values.
 class GridSampler {
  public:
   GridSampler(const ImagePixels& map, const std::vector<float>& values, const TextureTransform& transform,
@@ -87,8 +87,7 @@ class GridSampler {
   const TextureGrid& grid_;
 };
 
-// Moving the texture coordinates of `from` by 1 in u or v moves the coordinates of `to` by one of the
-// columns.
+// If the coordinates of `from` move by 1 in u or v, the coordinates of `to` move by one of the columns.
 using Matrix = std::array<std::array<double, 2>, 2>;
 Matrix steps_between(const TextureTransform& from, const TextureTransform& to) {
   Matrix steps{};
@@ -110,7 +109,7 @@ bool is_whole(const Matrix& steps) {
   return true;
 }
 
-// Returns whether texture coordinates from 0 to 1 stay within 0 to 1.
+// Returns true if texture coordinates from 0 to 1 stay within 0 to 1.
 bool is_within_one(const TextureTransform& transform) {
   constexpr double kRounding = 1e-6;
   for (const double u : {0.0, 1.0})
@@ -122,7 +121,7 @@ bool is_within_one(const TextureTransform& transform) {
   return true;
 }
 
-// The size at which no texture loses detail.
+// Returns the size at which no texture loses detail.
 TextureGrid grid_of(const std::vector<PlacedTexture>& textures, const TextureTransform& place) {
   constexpr double kMostTexels = 4096.0;
   double width = 0.0, height = 0.0, most = kMostTexels;

@@ -1,4 +1,4 @@
-// Maps of one material whose KHR_texture_transform differ, on one grid.
+// This file brings maps of one material with different KHR_texture_transform onto one grid.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,6 @@
 
 namespace remap {
 
-// KHR_texture_transform.
 struct TextureTransform {
   double offset[2] = {0.0, 0.0};
   double scale[2] = {1.0, 1.0};
@@ -18,33 +17,33 @@ struct TextureTransform {
   bool operator==(const TextureTransform&) const = default;
 };
 
-// The texels of a texture, and where they lie.
+// A TextureGrid is the size of a texture in texels, and its place.
 struct TextureGrid {
   std::size_t width = 0, height = 0;
   TextureTransform transform;
 };
 
-// A texture that is to be brought onto one grid with others.
+// A PlacedTexture is a texture that will share a grid with others.
 struct PlacedTexture {
   std::size_t width = 0, height = 0;  // of its image, in texels
   TextureTransform transform;
 };
 
-// The grid for all: `of` is the texture whose place it has.
+// A CommonGrid is the grid for all textures. `of` is the texture whose place it has.
 struct CommonGrid {
   std::size_t of = 0;
   TextureGrid grid;
-  bool repeats = true;  // else it holds only where texture coordinates of the mesh are within 0 to 1
+  bool repeats = true;  // if false, it needs mesh coordinates within 0 to 1
 };
 
-// The place of the texture that repeats least, in which each other one repeats a whole number of times, with
-// texels as fine as the finest, up to 4096 a side or the largest image. Without such a texture, the place of
-// one that covers texture coordinates from 0 to 1 without a repeat. None where there is neither.
+// Returns the place of the texture that repeats least, if every other one repeats in it an integer number of
+// times. Texels are as fine as the finest, up to 4096 a side or the largest image. Otherwise returns the
+// place of a texture that covers coordinates from 0 to 1 without a repeat. Returns nothing otherwise.
 std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures);
 
-// `map` as it would lie on another grid: for each texel, the value of the map at the same texture coordinates
-// before both transforms. Bilinear and repeated. `transfer`: of all channels but alpha, which are filtered in
-// linear light. Throws kInput where the transform of the grid has no inverse.
+// Returns `map` on another grid: for each texel, the value of the map at the same texture coordinates before
+// both transforms, bilinear and repeated. `transfer` is the curve of all channels except alpha, so that they
+// are filtered in linear light. Throws kInput if the transform of the grid has no inverse.
 ImagePixels baked(const ImagePixels& map, Transfer transfer, const TextureTransform& transform,
                   const TextureGrid& grid);
 

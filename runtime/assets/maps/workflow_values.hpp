@@ -1,4 +1,4 @@
-// Materials of assets without maps: their converters, and the results as factors of core glTF.
+// This file converts materials of assets without maps, and returns factors of core glTF.
 #pragma once
 
 #include <array>
@@ -13,29 +13,29 @@ namespace remap {
 
 using MaterialValues = std::map<Parameter, std::vector<float>>;  // one value, or red, green and blue
 
-// All targets of the converter, of all its sources, as the texels of maps are converted.
+// Returns all targets of the converter from all its sources, converted like texels of maps.
 MaterialValues converted(const Converter& converter, const MaterialValues& material);
 
-// Between workflow models (`gltf`, `gltf-specgloss`), with roughness at both ends. With `has_dielectric` the
-// source takes the F0 of its dielectrics as kSpecular.
+// Makes a converter between workflow models (`gltf`, `gltf-specgloss`), with roughness at both ends. With
+// `has_dielectric` the source reads the F0 of its dielectrics as kSpecular.
 std::unique_ptr<Converter> asset_converter(const char* source, const char* target, double prior,
                                            InstructionSet set, bool has_dielectric = false);
 
-// Linear, 0 to 1.
+// A MetalRoughFactors has linear values, 0 to 1.
 struct MetalRoughFactors {
   std::array<float, 3> base_color = {1.0f, 1.0f, 1.0f};
   float metallic = 1.0f;
   float roughness = 1.0f;
-  float residual = 0.0f;  // what metal-rough cannot represent (Parameter::kResidual)
+  float residual = 0.0f;  // the part that metal-rough cannot express (Parameter::kResidual)
 };
 
-// The result of a conversion to gltf, with its diagnosis.
+// Returns the result of a conversion to gltf, with its diagnosis.
 MetalRoughFactors metal_rough_of(const MaterialValues& values);
 
-// 1 - glossiness, rounded once.
+// Returns 1 - glossiness, rounded once.
 float roughness_of(double glossiness);
 
-// ((ior - 1) / (ior + 1))^2; of 0, which stands for a very large index, 1 (KHR_materials_ior).
+// Returns ((ior - 1) / (ior + 1))^2. An ior of 0 means a very large index, so it gives 1 (KHR_materials_ior).
 double f0_of_index(double ior);
 
 }  // namespace remap

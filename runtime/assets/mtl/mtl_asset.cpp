@@ -25,7 +25,7 @@
 namespace remap {
 namespace {
 
-// Arithmetic of floats moves a color by less.
+// Colors within this distance are equal. Arithmetic of floats changes a color by less.
 constexpr double kSameColor = 1e-6;
 
 std::string float_text_of(double value) { return float_text(static_cast<float>(value)); }
@@ -34,8 +34,8 @@ std::string color_text(const std::array<double, 3>& color) {
   return float_text_of(color[0]) + " " + float_text_of(color[1]) + " " + float_text_of(color[2]);
 }
 
-// A prefix of file names that is no option of a map, whatever the asset is named: `wood -s 2 2` is one
-// otherwise. A backslash would separate folders.
+// Changes a prefix of file names so that no option of a map begins in it, as in `wood -s 2 2`. A backslash
+// would separate folders.
 std::string argument_prefix(std::string prefix) {
   for (std::size_t i = 0; i < prefix.size(); ++i) {
     const bool begins_word = i == 0 || prefix[i - 1] == ' ';
@@ -45,10 +45,10 @@ std::string argument_prefix(std::string prefix) {
   return prefix;
 }
 
-// The name of a file as the argument of a map, where `-s` would be an option.
+// Writes the name of a file as the argument of a map, and avoids that `-s` is read as an option.
 std::string argument(const std::string& file) { return (file.starts_with('-') ? "./" : "") + file; }
 
-// The result of a material: numbers, and names of new images.
+// An MtlResult is the result of a material: numbers, and names of new images.
 struct MtlResult {
   std::array<double, 3> base{};
   double metallic = 0.0, roughness = 1.0;
@@ -57,7 +57,7 @@ struct MtlResult {
   std::string roughness_map, metallic_map;  // arguments of map_Pr and map_Pm
 };
 
-// The options that say where an image lies on the surface.
+// Returns the options that place an image on the surface.
 std::string placing_options(const MtlMap& map) {
   const auto pair = [](const std::array<double, 2>& numbers) {
     return number_text(numbers[0]) + " " + number_text(numbers[1]) + " ";
@@ -76,7 +76,7 @@ std::string placing_options(const MtlSurface& surface) {
   return "";
 }
 
-// The arguments of a line that names the file of `map` again.
+// Returns the arguments of a line that names the file of `map` again.
 std::string arguments_of(const MtlMap& map) {
   std::string text = placing_options(map);
   if (map.has_levels()) text += "-mm " + number_text(map.base) + " " + number_text(map.gain) + " ";
@@ -84,7 +84,7 @@ std::string arguments_of(const MtlMap& map) {
   return text + argument(map.file);
 }
 
-// The images that a text names, each once.
+// Returns the images that a text names, each once.
 std::vector<AssetResource> named_images(const MtlDocument& document, MtlImages& images) {
   std::vector<AssetResource> resources;
   std::set<std::string> known;
@@ -96,7 +96,7 @@ std::vector<AssetResource> named_images(const MtlDocument& document, MtlImages& 
   return resources;
 }
 
-// Edits the statements of one material.
+// A BlockEditor edits the statements of one material.
 class BlockEditor {
  public:
   BlockEditor(const MtlDocument& document, const MtlSurface& surface, std::vector<TextSplice>& splices)
@@ -124,10 +124,10 @@ class BlockEditor {
  private:
   const MtlStatement& statement(std::size_t index) const { return document_.statements()[index]; }
 
-  // Channels that stay keep their text.
+  // Writes Kd. Channels that stay keep their text.
   void write_diffuse(const std::array<double, 3>& base) {
     if (!surface_.diffuse_statement) {
-      // Without Kd, a map counts as it is.
+      // Without Kd, a map is used unchanged.
       const bool is_said = surface_.diffuse_map && std::ranges::all_of(base, [](double value) {
                              return std::fabs(value - 1.0) <= kSameColor;
                            });
@@ -154,7 +154,7 @@ class BlockEditor {
 
   void add(const std::string& line) { added_.push_back(line); }
 
-  // After the last statement, indented as that is. A text without a last line ending still has none.
+  // Inserts after the last statement, with its indentation. A text without a last line ending still has none.
   void append() {
     const MtlStatement& last = statement(surface_.last_statement);
     const std::string indentation = indentation_of(last);
@@ -168,7 +168,7 @@ class BlockEditor {
     splices_.push_back({{last.ending.end, last.ending.end}, text});
   }
 
-  // A line may begin with others that a backslash joins to it.
+  // Returns the last line's indentation, because a backslash may join earlier lines to the statement.
   std::string indentation_of(const MtlStatement& statement) const {
     const std::string_view before = document_.raw({statement.line.begin, statement.word.begin});
     const std::size_t start = before.find_last_of("\r\n");
@@ -237,7 +237,7 @@ class MtlEditor {
     }
   }
 
-  // The maker says metallic and roughness by other statements.
+  // Keeps metallic and roughness that the maker writes in other statements.
   static MtlResult as_written(const MtlSurface& surface) {
     const MetalRoughNumbers numbers = metal_rough_of(surface, true);
     MtlResult result{
@@ -260,7 +260,7 @@ class MtlEditor {
     return result;
   }
 
-  // Materials with the same maps and factors share what they become.
+  // Converts maps. Materials with the same maps and factors share the result.
   MtlResult converted_with_maps(const MtlSurface& surface, const MtlReflection& reflection,
                                 AssetMaterial& report) {
     if (surface.exponent_map) report.warnings.push_back(exponent_warning(surface));
@@ -288,7 +288,7 @@ class MtlEditor {
     return is_constant(channel_of(pixels, channel));
   }
 
-  // New images lie beside the map that they follow most.
+  // Adds an image beside the map that it follows most.
   std::string add_image(const ImagePixels& pixels, const MtlSurface& surface, std::string_view suffix) {
     const bool is_color = suffix == "_baseColor";
     const std::optional<MtlMap>& model = is_color && surface.diffuse_map ? surface.diffuse_map

@@ -1,4 +1,4 @@
-// A whole MTL file: the lines of its materials, and the images that they name.
+// This file handles a whole MTL file: the lines of its materials, and the images that they name.
 #pragma once
 
 #include <string>
@@ -8,23 +8,23 @@
 
 namespace remap {
 
-// Adds metallic and roughness (Pr, Pm and their maps, as later tools know them) to each material that has
-// none, and makes Kd the base color. All other lines stay byte for byte, Ks and Ns for older readers; UTF-16
-// stays UTF-16. Images are relative to the folder of the file. Throws kInput, beginning with `context`, for a
-// text that cannot be read. Without `resources`, materials whose maps must be read fail.
+// Adds metallic and roughness (Pr, Pm and their maps, as later tools know them) to each material that lacks
+// them, and makes Kd the base color. All other lines stay byte for byte, including Ks and Ns for older
+// programs. UTF-16 stays UTF-16. Images are relative to the folder of the file. Throws kInput, beginning with
+// `context`, for a text that cannot be read. Without `resources`, materials whose maps must be read fail.
 AssetConversion convert_mtl(const ByteSource& source, const std::string& context,
                             const AssetOptions& options = {}, const AssetResources* resources = nullptr);
 
-// The images that the file names, each once. With `resources`, where they are found. Throws kInput, beginning
-// with `context`.
+// Returns the images that the file names, each once. With `resources`, paths are where the images are found.
+// Throws kInput, beginning with `context`.
 std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& context,
                                          const AssetResources* resources = nullptr);
 
-// The text of an MTL file as UTF-8. Throws kInput, beginning with `context`, for one that is too long, and
+// Returns the text of an MTL file as UTF-8. Throws kInput, beginning with `context`, if it is too long, and
 // for UTF-16 with half a character.
 std::string mtl_text(const ByteSource& source, const std::string& context);
 
-// A word that names an image: map_Kd, bump, norm and the like, in lower case.
+// Returns true if a word names an image: map_Kd, bump, norm and the like, in lower case.
 bool is_mtl_map(const std::string& word);
 
 }  // namespace remap

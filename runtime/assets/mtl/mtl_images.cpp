@@ -22,7 +22,7 @@ std::string slashed(std::string text) {
 
 bool is_drive(const std::string& part) { return part.size() == 2 && part[1] == ':'; }
 
-// Maps of one material, to be brought to one size.
+// A NamedMap is a map of one material that will get the common size.
 struct NamedMap {
   const MtlMap* map;
   std::shared_ptr<const ImagePixels>* pixels;

@@ -1,4 +1,4 @@
-// The MTL files that an OBJ file names, and their materials by name.
+// This file finds the MTL files that an OBJ file names, and their materials by name.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,6 @@
 
 namespace remap {
 
-// An MTL file and its images.
 struct MtlLibrary {
   // `path` is relative to the OBJ file. `resources` must outlive this object. Without `maker`, the file
   // itself shows who wrote it.
@@ -38,17 +37,17 @@ class MtlLibraries {
   MtlLibraries(const AssetResources& resources, std::optional<MtlMaker> maker)
       : resources_(resources), maker_(maker) {}
 
-  // Reads the files that lines `mtllib` name: one name with spaces, or several names; if none of them is
-  // there, the one that is named as the OBJ file `obj` is. Appends a warning for a file that is missing, and
-  // for one whose maker gives statements a meaning of its own. Throws kInput for one that cannot be read.
+  // Reads the files that lines `mtllib` name: one name with spaces, or several names. If none of them exists,
+  // it reads the file with the name of the OBJ file `obj`. Appends a warning for a missing file, and for a
+  // file whose maker gives statements another meaning. Throws kInput for a file that cannot be read.
   void read(const std::vector<std::string>& lines, const std::string& obj,
             std::vector<std::string>& warnings);
-  // A material by its name, of several the first.
+  // Returns a material by its name. If several have the name, the first one counts.
   std::optional<Entry> find(const std::string& material) const;
-  // Whether Tr is 1 in every material and d in none: MeshLab writes Tr 1 for what is opaque, where the
-  // specification has 1 - d.
+  // Returns true if Tr is 1 in every material and d in none. MeshLab writes Tr 1 for opaque materials, but
+  // the specification means 1 - d.
   bool has_tr_for_opaque() const;
-  // The files that were read, and the images that they name, relative to the OBJ file.
+  // Return the files that were read, and the images that they name, relative to the OBJ file.
   const std::set<std::string>& paths() const noexcept { return paths_; }
   const std::set<std::string>& image_paths() const noexcept { return image_paths_; }
 

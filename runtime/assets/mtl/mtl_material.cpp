@@ -34,7 +34,7 @@ constexpr std::array<MapOption, 14> kMapOptions = {{{"-s", OptionArguments::kNum
                                                     {"-type", OptionArguments::kWord, 1},
                                                     {"-colorspace", OptionArguments::kWord, 1}}};
 
-// Reads the arguments of a map from the first on.
+// A MapReader reads the arguments of a map in order.
 class MapReader {
  public:
   MapReader(const MtlDocument& document, std::size_t statement)
@@ -83,7 +83,7 @@ class MapReader {
       return true;
     }
     std::vector<double> numbers;
-    // Before the name, the last word is it even where it is a number.
+    // Before the name is complete, the last word belongs to it, even if it is a number.
     const std::size_t end = words_.size() - (is_named_ ? 0 : 1);
     while (numbers.size() < option->most && at_ < end) {
       const auto number = mtl_number(document_.raw(words_[at_]));
@@ -124,13 +124,13 @@ class MapReader {
   MtlMap map_;
 };
 
-// Reads numbers of statements, and notes what it clamps.
+// A StatementReader reads numbers of statements, and records what it clamps.
 class StatementReader {
  public:
   StatementReader(const MtlDocument& document, std::vector<std::string>& warnings)
       : document_(document), warnings_(warnings) {}
 
-  // One number for all channels, or three.
+  // Reads one number for all channels, or three.
   std::array<double, 3> color(const MtlStatement& statement, double most) const {
     const std::vector<TextSpan> words = document_.words(statement);
     const std::string kind = words.empty() ? "" : in_lower_case(document_.raw(words.front()));
@@ -149,7 +149,7 @@ class StatementReader {
 
   double number(const MtlStatement& statement, double least, double most, const char* expected) const {
     const std::vector<TextSpan> words = document_.words(statement);
-    // `d -halo 0.5` depends on the angle, which is left out.
+    // `d -halo 0.5` depends on the angle, which is ignored.
     const bool has_option = words.size() > 1 && in_lower_case(document_.raw(words.front())) == "-halo";
     const std::size_t index = has_option ? 1 : 0;
     const std::optional<double> value = index < words.size() ? finite(words[index]) : std::nullopt;
@@ -190,10 +190,10 @@ std::optional<MtlMap> map_at(const MtlDocument& document, std::size_t statement)
   return map.file.empty() ? std::nullopt : std::optional(std::move(map));
 }
 
-constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // a number beside a map
+constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // replaces a number beside a map
 
-// Blender's exporter, for materials of its Principled BSDF: roughness is 1 - sqrt(Ns / scale), metallic is Ka
-// if illum is 3 or 6 or Ka is not 1, Ks is the specular level, of which 0.5 means F0 0.04. map_Ns holds
+// Applies Blender's rules for materials of its Principled BSDF. Roughness is 1 - sqrt(Ns / scale). Metallic
+// is Ka if illum is 3 or 6 or Ka is not 1. Ks is the specular level, of which 0.5 means F0 0.04. map_Ns holds
 // roughness and map_refl metallic. A number beside a map is not used.
 void apply_blender(double scale, MtlSurface& surface) {
   if (surface.diffuse_map) surface.diffuse = kUnused;
@@ -211,7 +211,8 @@ void apply_blender(double scale, MtlSurface& surface) {
   if (surface.specular && !surface.specular_map) surface.specular_level = 2.0 * surface.specular->front();
 }
 
-// nvdiffrec and its descendants: Ks and map_Ks hold nothing in red, roughness in green, metallic in blue.
+// Applies the rules of nvdiffrec and its descendants: Ks and map_Ks have roughness in green, metallic in
+// blue.
 void apply_nvdiffrec(MtlSurface& surface) {
   const std::array<double, 3> packed = surface.specular.value_or(kUnused);
   surface.roughness = packed[1];
@@ -222,7 +223,7 @@ void apply_nvdiffrec(MtlSurface& surface) {
   surface.metallic_map->channel = 'b';
 }
 
-// Turns what was read by the text of the format into metallic and roughness. Pr, Pm and their maps stay.
+// Replaces values of the specification by the maker's metallic and roughness. Pr, Pm and their maps stay.
 void apply_maker(MtlMaker maker, MtlSurface& surface) {
   switch (maker) {
     case MtlMaker::kText:
@@ -298,7 +299,7 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
   if (exponent) attempt([&] { surface.exponent = reader.exponent(document.statements()[*exponent]); });
   const bool is_black = surface.diffuse && *surface.diffuse == std::array<double, 3>{};
   if (is_black && surface.diffuse_map) {
-    // No material shows a black image; exporters write the number that the map replaces.
+    // No real material makes its map black; exporters write the number that the map replaces.
     warnings.emplace_back("Kd is 0 beside map_Kd, and counts as 1");
     surface.diffuse = kUnused;
   }
@@ -345,7 +346,7 @@ MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core) {
   numbers.base = surface.diffuse.value_or(numbers.base);
   numbers.metallic = surface.metallic_map ? 1.0 : surface.metallic.value_or(0.0);
   numbers.roughness = surface.roughness_map ? 1.0 : surface.roughness.value_or(1.0);
-  // Core cannot remove the highlight of a dielectric. At roughness 1 it is seen least.
+  // Core cannot remove the highlight of a dielectric. It is least visible at roughness 1.
   if (is_core && surface.specular_level == 0.0 && numbers.metallic == 0.0) numbers.roughness = 1.0;
   return numbers;
 }

@@ -1,4 +1,4 @@
-// What a material of an MTL file says: its numbers and maps, and the lobes that they describe.
+// This file reads a material of an MTL file: its numbers and maps, and the lobes that they describe.
 #pragma once
 
 #include <array>
@@ -14,46 +14,46 @@
 
 namespace remap {
 
-// A number that is finite; a plus sign may precede it. None for any other text.
+// Reads a finite number; a plus sign may precede it. Returns nothing for any other text.
 std::optional<double> mtl_number(std::string_view text);
 
-// A texture: `map_Kd -s 2 2 wood.jpg`.
+// An MtlMap is a texture: `map_Kd -s 2 2 wood.jpg`.
 struct MtlMap {
   std::size_t statement = 0;  // index
   TextSpan name;              // in the text
   std::string file;           // the name with '/' between folders; may hold spaces; may be empty
-  std::string options;        // as they are written before and after the name
+  std::string options;        // as written before and after the name
   std::array<double, 2> scale = {1.0, 1.0}, offset = {0.0, 0.0};  // -s and -o: u and v
   double strength = 1.0;                                          // -bm
   bool clamps = false;                                            // -clamp on
-  char channel = '\0';                                            // -imfchan; 0 where it is not said
+  char channel = '\0';                                            // -imfchan, or 0
   double base = 0.0, gain = 1.0;     // -mm: base + gain times a stored value, kept within 0 to 1
-  std::vector<TextSpan> levels;      // where -mm stands, with the white space behind it
+  std::vector<TextSpan> levels;      // places of -mm, with the white space after it
   bool is_color = false;             // if false, all channels are data, also alpha
-  std::vector<std::string> unusual;  // options that change what it looks like, and are not applied
+  std::vector<std::string> unusual;  // options that change the look, and are not applied
 
-  // Whether it lies in the same place on the surface.
+  // Returns true if both maps lie in the same place on the surface.
   bool lies_like(const MtlMap& other) const {
     return scale == other.scale && offset == other.offset && clamps == other.clamps;
   }
-  // Whether it is other values than its file has.
+  // Returns true if -mm changes the values of the file.
   bool has_levels() const { return base != 0.0 || gain != 1.0; }
 };
 
-// The file of a statement that names one. Options may also follow the name, as some tools write them.
+// Reads the file of a statement. Options may also follow the name, as some tools write them.
 MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement);
 
-// What reflects light. Of a statement that is repeated the last counts, as for other readers.
+// An MtlSurface is what reflects light. Of a repeated statement, the last one counts, as elsewhere.
 struct MtlSurface {
   std::optional<std::array<double, 3>> diffuse, specular;  // Kd, Ks, clamped to 0 and 1
   std::optional<double> exponent;                          // Ns, at most 10000; may be below 0
   std::optional<double> illumination;                      // illum
   std::optional<double> ambient;                           // red of Ka
   std::optional<double> roughness, metallic;               // Pr, Pm
-  std::optional<double> specular_level;                    // 1 means F0 0.04; only of a maker that writes it
+  std::optional<double> specular_level;                    // 1 means F0 0.04; only if the maker writes it
   std::optional<MtlMap> diffuse_map, specular_map, exponent_map, reflection_map, roughness_map, metallic_map;
-  bool has_pbr_bsdf = false;    // bsdf pbr
-  bool is_metal_rough = false;  // metallic and roughness are said, by Pr or Pm or by the maker
+  bool has_pbr_bsdf = false;                     // bsdf pbr
+  bool is_metal_rough = false;                   // Pr, Pm or the maker give metallic and roughness
   std::optional<std::size_t> diffuse_statement;  // Kd; makers define the color of a material without it
   std::size_t last_statement = 0;                // of the material
 
@@ -62,7 +62,7 @@ struct MtlSurface {
   }
 };
 
-// Whether a material has lines Pr, Pm, map_Pr or map_Pm, as later tools add them.
+// Returns true if a material has lines Pr, Pm, map_Pr or map_Pm, as later tools add them.
 bool has_metal_rough_lines(const MtlDocument& document, const MtlBlock& block);
 
 // Reads the surface as its maker means it. Appends warnings. Throws kInput, without the name of the material,
@@ -70,7 +70,7 @@ bool has_metal_rough_lines(const MtlDocument& document, const MtlBlock& block);
 void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMaker maker, MtlSurface& surface,
                       std::vector<std::string>& warnings);
 
-// Opacity and emission of the surface.
+// An MtlCover holds opacity and emission of the surface.
 struct MtlCover {
   std::optional<double> opacity;       // d, 0 to 1
   std::optional<double> transparency;  // Tr, 0 to 1
@@ -80,33 +80,32 @@ struct MtlCover {
   std::optional<double> refraction;                // Ni
   std::array<double, 3> filter = {1.0, 1.0, 1.0};  // Tf, 0 to 1
   bool refracts = false;                           // illum 4, 6, 7 or 9
-  // bump_map: heights by the text of the format; most exporters write normals (holds_normals()).
+  // bump_map holds heights by the specification, but most exporters write normals (holds_normals()).
   std::optional<MtlMap> opacity_map, emissive_map, normal_map, bump_map;
 };
 
-// Throws as read_mtl_surface().
+// Reads the cover. Throws like read_mtl_surface().
 MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
                         std::vector<std::string>& warnings);
 
-// A surface that says metallic and roughness, as numbers. A number beside a map of roughness or metallic does
-// not count, and is 1.
+// A MetalRoughNumbers holds a surface with metallic and roughness as numbers. A number beside a map of
+// roughness or metallic is ignored, and is 1.
 struct MetalRoughNumbers {
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double metallic = 0.0, roughness = 1.0;
 };
-// `is_core`: the target adds a highlight to every dielectric, so a dielectric without a highlight becomes
-// rough.
+// With `is_core` the target adds a highlight to dielectrics, so one without a highlight becomes rough.
 MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
 
-// The surface as factors, which its maps multiply.
+// An MtlReflection is the surface as factors, which its maps multiply.
 struct MtlReflection {
   LegacyMaterial factors;
   bool has_highlight = false;
 };
 
-// Fills in what is not said, and appends a warning for it: Kd .8 and Ns 0 (as J. Burkardt's description of
-// MTL has it; the one of Alias|Wavefront has no defaults), Ks 0, or 1 with a map. Throws kInput where a map
-// multiplies an exponent that is missing.
+// Fills in missing values, and appends a warning for each: Kd .8 and Ns 0, Ks 0, or 1 with a map. These
+// follow J. Burkardt's description of MTL, because Alias|Wavefront's has no defaults. Throws kInput if a map
+// multiplies a missing exponent.
 MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>& warnings);
 
 }  // namespace remap

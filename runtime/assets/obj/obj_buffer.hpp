@@ -1,4 +1,4 @@
-// The one buffer of a glTF file that is made from other files, and its views.
+// This file builds the only buffer of a glTF file that is made from other files, and its views.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// Targets of buffer views (glTF 2.0, section 5.11).
+// These are targets of buffer views (glTF 2.0, section 5.11).
 inline constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 
 class GltfBuffer {
@@ -28,9 +28,9 @@ class GltfBuffer {
   }
 
   std::uint64_t size() const noexcept { return size_; }
-  // A multiple of four, as the chunk of a .glb has it.
+  // Returns the size as a multiple of four, as the chunk of a .glb needs.
   std::uint64_t padded_size() const noexcept { return (size_ + 3) / 4 * 4; }
-  // The bytes, up to `size` of them with zeros; the buffer has them no more. A part goes as it is copied.
+  // Returns the bytes, filled up to `size` with zeros. The buffer frees each part after copying it.
   std::string take(std::uint64_t size) {
     std::string bytes;
     bytes.reserve(static_cast<std::size_t>(size));

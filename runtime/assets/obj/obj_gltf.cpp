@@ -21,9 +21,9 @@
 namespace remap {
 namespace {
 
-// Types of components (glTF 2.0, section 5.1.3).
+// These are types of components (glTF 2.0, section 5.1.3).
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
-// Fewer indices than 65535, which means that a strip starts again, take two bytes.
+// Indices below 65535 take two bytes. 65535 is excluded, because it restarts a strip.
 constexpr std::size_t kMostShortVertices = 65535;
 
 std::string little_endian(std::uint32_t value) {
@@ -44,7 +44,7 @@ class SceneWriter {
               AssetConversion& conversion)
       : scene_(std::move(scene)), materials_(materials), buffer_(buffer), conversion_(conversion) {}
 
-  // The JSON without its buffers.
+  // Returns the JSON without its buffers.
   Json run() {
     Json meshes = Json::list(), nodes = Json::list(), roots = Json::list();
     for (ObjShape& shape : scene_.shapes) {
@@ -109,7 +109,7 @@ class SceneWriter {
           low = std::min(low, values[i]);
           high = std::max(high, values[i]);
         }
-        // All digits of the float, as the validator compares them.
+        // Write all digits of the float, because the validator compares them.
         least.push_back(static_cast<double>(low));
         most.push_back(static_cast<double>(high));
       }
@@ -148,7 +148,7 @@ void add_list(Json& file, const char* name, Json list) {
   if (!list.empty()) file[name] = std::move(list);
 }
 
-// The header, the JSON and the binary chunk (glTF 2.0, section 4).
+// Returns the header, the JSON and the binary chunk (glTF 2.0, section 4).
 std::vector<AssetPiece> glb_pieces(std::string json, GltfBuffer& buffer, const std::string& context) {
   constexpr std::uint64_t kHeader = 12;
   json.append((4 - json.size() % 4) % 4, ' ');

@@ -43,7 +43,7 @@ Json specular_of(double specular, const std::array<double, 3>& color) {
   return Json{{"specularFactor", float_value(specular)}, {"specularColorFactor", numbers_of(scaled)}};
 }
 
-// Opacity is the alpha of a map that has one, as most tools write it, else its luminance.
+// Returns the opacity channel: a map's alpha if it has one, as most tools write it, or its luminance.
 char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
   if (map.channel != '\0') return map.channel;
   return pixels.has_alpha() ? 'm' : 'l';
@@ -51,14 +51,14 @@ char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
 
 }  // namespace
 
-// The images that a conversion of maps has made; kNoImage if the result is a factor.
+// A ConvertedImages holds the images from a conversion of maps. kNoImage means that the result is a factor.
 struct ObjMaterials::ConvertedImages {
   LegacyMapResult result;
   bool has_own_base = false;
   std::size_t base = kNoImage, metal_rough = kNoImage, specular = kNoImage;
 };
 
-// A material on its way into the file.
+// A MaterialDraft is a material that is being prepared for the file.
 struct ObjMaterials::MaterialDraft {
   MaterialDraft(MtlLibrary& own_library, const MtlBlock& own_block, AssetMaterial& own_report)
       : library(own_library), block(own_block), report(own_report) {}
@@ -70,16 +70,16 @@ struct ObjMaterials::MaterialDraft {
   MtlCover cover;
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double alpha = 1.0, metallic = 0.0, roughness = 1.0;
-  // The map of base color: a file as it is, or pixels. `base_map` says where it lies on the surface.
+  // This is the map of base color: an unchanged file, or pixels. `base_map` gives its place on the surface.
   const MtlMap* base_map = nullptr;
   bool keeps_file = false;
   std::shared_ptr<const ImagePixels> base_pixels;
   std::size_t base_image = kNoImage;    // that is in the file already
-  std::size_t* shared_image = nullptr;  // where others find it
+  std::size_t* shared_image = nullptr;  // where other materials find it
   Json core = Json::object(), material = Json::object();
   bool blends = false;
 
-  // A map that is missing or cannot be read leaves the rest of the material.
+  // Runs a step for one map. If the map is missing or cannot be read, the rest of the material stays.
   bool attempt(const std::function<void()>& step) {
     try {
       step();
@@ -213,7 +213,7 @@ void ObjMaterials::keep_diffuse_map(MaterialDraft& draft) {
   draft.keeps_file = true;
 }
 
-// Later tools' lines say what glTF does. A map of them stands in the place of the number.
+// Uses the lines of later tools, which mean the same as in glTF. A map replaces the number.
 void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   const MtlSurface& surface = draft.surface;
   const MetalRoughNumbers numbers = metal_rough_of(surface, !options_.extensions);
@@ -230,7 +230,7 @@ void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
         textures_.add_pixels(draft.library.images, *pixels, *model, "_metallicRoughness"), *model);
 }
 
-// Level 1 is the F0 of 0.04 that glTF has by default. Metals have no specular level.
+// Sets the level; 1 is the F0 of 0.04 that glTF has by default. Metals have no specular level.
 void ObjMaterials::set_specular_level(MaterialDraft& draft) {
   constexpr double kSeen = 0.25;  // F0 0.03 to 0.05 look alike
   const double level = draft.surface.specular_level.value_or(1.0);
@@ -246,7 +246,7 @@ void ObjMaterials::set_specular_level(MaterialDraft& draft) {
                              : Json{{"specularColorFactor", numbers_of({level, level, level})}});
 }
 
-// illum 4, 6, 7 and 9 refract. Maya writes illum 4 with an index of 1 for every opaque material.
+// Detects glass. illum 4, 6, 7 and 9 refract, but Maya writes illum 4 with index 1 for opaque materials.
 bool ObjMaterials::is_glass(MaterialDraft& draft) const {
   const MtlCover& cover = draft.cover;
   if (!cover.refracts || is_transparent(draft) || cover.refraction.value_or(2.0) <= 1.0) return false;
@@ -259,7 +259,7 @@ bool ObjMaterials::is_glass(MaterialDraft& draft) const {
   return false;
 }
 
-// The index gives the strength of reflection, Tf the color of what comes through.
+// Sets the index, which gives the strength of reflection, and Tf, the color of transmitted light.
 void ObjMaterials::set_glass(MaterialDraft& draft) {
   const MtlReflection reflection = reflection_of(draft.surface, draft.report.warnings);
   draft.base = draft.cover.filter;
@@ -309,7 +309,7 @@ void ObjMaterials::set_dielectric(MaterialDraft& draft, const MtlReflection& ref
     keep_diffuse_map(draft);
     return set_extension(draft, kSpecularExtension, Json{{"specularFactor", 0}});
   }
-  // A map of diffuse alone is divided by 1 - F as a factor is.
+  // A single map of diffuse is divided by 1 - F, like a factor.
   const LegacyDielectric result = dielectric_of_legacy(reflection.factors);
   const bool is_factor = std::ranges::none_of(result.base_color, [](double value) { return value >= 1.0; });
   if (surface.specular_map || surface.exponent_map || (surface.diffuse_map && !is_factor))
@@ -355,8 +355,8 @@ void ObjMaterials::set_converted_maps(MaterialDraft& draft, const MtlReflection&
   set_extension(draft, kSpecularExtension, std::move(specular));
 }
 
-// Materials with the same maps, factors and opacity share what they become. The base color of a first one is
-// in `draft`, so that opacity is added before it goes into the file.
+// Materials with the same maps, factors and opacity share the result. The base color of the first one is in
+// `draft`, so that opacity is added before it goes into the file.
 ObjMaterials::ConvertedImages& ObjMaterials::converted_images(MaterialDraft& draft,
                                                               const MtlReflection& reflection,
                                                               bool as_dielectric, const MtlMap& data_map) {
@@ -393,7 +393,7 @@ bool ObjMaterials::is_transparent(const MaterialDraft& draft) const {
   return draft.cover.opacity_map || alpha_of(draft.cover) < 1.0;
 }
 
-// Opacity is the alpha of base color. Without it, the alpha of an image says nothing.
+// Opacity becomes the alpha of base color. Without opacity, the alpha of an image is ignored.
 void ObjMaterials::set_opacity(MaterialDraft& draft) {
   const std::optional<MtlMap>& opacity_map = draft.cover.opacity_map;
   draft.alpha = alpha_of(draft.cover);
@@ -415,7 +415,7 @@ void ObjMaterials::set_opacity(MaterialDraft& draft) {
   if (draft.base_map == nullptr) draft.base_map = &*opacity_map;
 }
 
-// Returns whether there are other pixels than those of the file.
+// Returns true if the pixels differ from the file.
 bool ObjMaterials::add_opacity(MaterialDraft& draft) {
   const std::optional<MtlMap>& opacity_map = draft.cover.opacity_map;
   MtlImages& images = draft.library.images;
@@ -431,7 +431,7 @@ bool ObjMaterials::add_opacity(MaterialDraft& draft) {
   } else if (!draft.keeps_file || !color->has_alpha()) {
     return !draft.keeps_file;
   }
-  // Many materials name one file for both.
+  // Many materials use one file for both.
   if (draft.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
     if (!options_.enlarges)
@@ -461,8 +461,7 @@ void ObjMaterials::set_emission(MaterialDraft& draft) {
   if (cover.emissive_map || !is_dark) draft.material["emissiveFactor"] = numbers_of(factor);
 }
 
-// Most exporters write a map of normals as map_Bump, because MTL has no statement for it that all readers
-// know.
+// Most exporters write normals as map_Bump, because MTL has no statement for them that all programs know.
 void ObjMaterials::set_normals(MaterialDraft& draft) {
   const std::optional<MtlMap>&bump = draft.cover.bump_map,
         &map = draft.cover.normal_map ? draft.cover.normal_map : bump;

@@ -1,4 +1,4 @@
-// Materials of MTL files as materials of a new glTF file, with their textures.
+// This file converts materials of MTL files to materials of a new glTF file, with their textures.
 #pragma once
 
 #include <cstddef>
@@ -29,9 +29,9 @@ class ObjMaterials {
                GltfTextures& textures, AssetConversion& conversion);
   ~ObjMaterials();
 
-  // Materials of an OBJ file in their order. One that no file has counts as white.
+  // Returns the materials of an OBJ file in their order. A material that no file defines is white.
   std::vector<SceneMaterial> converted(const std::vector<ObjMaterialName>& names);
-  // The extensions of materials that are used.
+  // Returns the extensions of materials that are used.
   const std::set<std::string>& extensions() const noexcept { return extensions_; }
 
  private:
@@ -69,8 +69,8 @@ class ObjMaterials {
   AssetConversion& conversion_;
   bool reads_tr_ = true;
   std::set<std::string> extensions_;
-  std::map<std::string, std::size_t> composed_;  // images of color with alpha, by both files
-  std::map<std::string, std::shared_ptr<ConvertedImages>> converted_;  // by key_of() and opacity
+  std::map<std::string, std::size_t> composed_;  // color images with alpha, keyed by both files
+  std::map<std::string, std::shared_ptr<ConvertedImages>> converted_;  // keyed by key_of() and opacity
 };
 
 }  // namespace remap

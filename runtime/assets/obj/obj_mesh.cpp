@@ -23,13 +23,13 @@
 namespace remap {
 namespace {
 
-// Of what the importer takes to triangles at once; it needs a hundred bytes for each.
+// The importer triangulates this many faces at once. It needs a hundred bytes for each.
 constexpr std::size_t kMostFacesOfPart = std::size_t{1} << 14;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-// The lines of an OBJ file in their order, read in blocks: a word and the rest, without white space around
-// them. A backslash joins lines.
+// ObjLines reads the lines of an OBJ file in order, in blocks. A line is a word and the rest, without white
+// space around them. A backslash joins lines.
 class ObjLines {
  public:
   ObjLines(const ByteSource& source, const std::string& context) : reader_(source, context) {
@@ -45,7 +45,7 @@ class ObjLines {
     if (is_at_end()) return false;
     joined_.clear();
     while (add_line() && !joined_.starts_with('#') && joined_.ends_with('\\')) joined_.back() = ' ';
-    // The importer takes a line to end at a NUL.
+    // The importer ends a line at a NUL.
     std::ranges::replace(joined_, '\0', ' ');
     line_ = joined_;
     while (!line_.empty() && is_space(line_.front())) line_.remove_prefix(1);
@@ -68,7 +68,7 @@ class ObjLines {
     return block_.empty();
   }
 
-  // Appends up to a line ending, and goes behind it. Returns whether there was one.
+  // Appends up to a line ending, and goes behind it. Returns true if there was one.
   bool add_line() {
     while (!is_at_end()) {
       const auto begin = block_.begin() + static_cast<std::ptrdiff_t>(at_);
@@ -89,12 +89,12 @@ class ObjLines {
   std::string_view line_, word_, rest_;
 };
 
-// An OBJ file as the importer reads it, which takes names of materials to end at a space and makes shapes of
-// whole groups: materials and groups become numbers, large groups are cut, and lines that are not geometry
-// go.
+// An ObjStream rewrites an OBJ file for the importer, which ends names of materials at a space and makes one
+// shape of each whole group. Materials and groups become numbers, large groups are cut, and lines without
+// geometry are dropped.
 class ObjStream final : public std::streambuf {
  public:
-  // `take` is called before more lines are made, so that what the importer has made of earlier ones can go.
+  // `take` is called before more lines are made, so that earlier results of the importer can be freed.
   ObjStream(const ByteSource& source, const std::string& context, ObjScene& scene, std::function<void()> take)
       : lines_(source, context), context_(context), scene_(scene), take_(std::move(take)) {
     materials_.push_back({"", false});
@@ -113,7 +113,7 @@ class ObjStream final : public std::streambuf {
                                 " corners cut as fans, which is right where they are convex");
   }
 
-  // By their numbers, of which 0 is that of faces without one.
+  // Return the name for a number. Number 0 is for faces without a name.
   const ObjMaterialName& material(std::size_t number) const { return materials_[number]; }
   const std::string& group(std::size_t number) const { return groups_[number]; }
 
@@ -144,15 +144,14 @@ class ObjStream final : public std::streambuf {
     dropped_ += std::ranges::find(kDropped, word) != kDropped.end();
   }
 
-  // What the importer has of the group becomes a shape. What follows is another one, of the same number where
-  // it goes on.
+  // Ends the importer's current shape and begins another one. A cut group continues under the same number.
   void begin_group() {
     pass("o " + std::to_string(groups_.size() - 1));
     faces_ = 0;
     farthest_ = 0;
   }
 
-  // Names of several groups, with a space between them.
+  // Returns the names of several groups, with a space between them.
   static std::string words_of(std::string_view rest) {
     std::string words;
     for (std::size_t at = 0; at < rest.size();) {
@@ -164,7 +163,8 @@ class ObjStream final : public std::streambuf {
     return words;
   }
 
-  // The importer takes exponents of ten digits for whole numbers of 32 bits. No coordinate has six.
+  // Refuses large exponents, because the importer reads their digits into an integer of 32 bits. No
+  // coordinate has six digits.
   std::string_view bounded(std::string_view line) const {
     constexpr std::size_t kMostDigits = 5;
     std::size_t digits = 0;
@@ -199,11 +199,11 @@ class ObjStream final : public std::streambuf {
       for (std::size_t i = 2; i < corners_.size(); ++i)
         ((((((made_ += "f ") += corners_[0]) += ' ') += corners_[i - 1]) += ' ') += corners_[i]) += '\n';
     }
-    // The importer must know all vertices of the faces that it takes to triangles.
+    // Cut here only if all vertices of the faces are known, because the importer triangulates them now.
     if (++faces_ >= kMostFacesOfPart && farthest_ <= vertices_) begin_group();
   }
 
-  // The importer takes an index beyond 32 bits for another one.
+  // Throws for an index beyond 32 bits, which the importer would read as another index.
   void require_indices(std::string_view corner) const {
     for (std::size_t at = 0; at < corner.size(); at = std::min(corner.find('/', at), corner.size()) + 1) {
       if (corner[at] == '+') ++at;
@@ -214,7 +214,7 @@ class ObjStream final : public std::streambuf {
     }
   }
 
-  // The number of the vertex of a corner, where it counts from the first.
+  // Returns the number of the vertex of a corner if it counts from the first vertex.
   static std::size_t vertex_of(std::string_view corner) {
     std::size_t number = 0;
     const auto result = std::from_chars(corner.data(), corner.data() + corner.size(), number);
@@ -236,7 +236,7 @@ class ObjStream final : public std::streambuf {
   const std::string& context_;
   ObjScene& scene_;
   std::function<void()> take_;
-  std::string made_, text_;  // lines to come, and those that are being read
+  std::string made_, text_;  // lines to come, and lines that are being read
   std::vector<std::string_view> corners_;
   std::size_t dropped_ = 0, small_ = 0, fans_ = 0;
   std::size_t vertices_ = 0, faces_ = 0, farthest_ = 0;  // farthest_: largest vertex index in this part
@@ -245,7 +245,7 @@ class ObjStream final : public std::streambuf {
   std::map<std::string, std::string> numbers_;  // of materials
 };
 
-// Says to the importer that the name of a library is the number of its one material.
+// NumberedMaterials makes the importer treat the name of a library as the number of its only material.
 class NumberedMaterials final : public tinyobj::MaterialReader {
  public:
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>*,
@@ -260,7 +260,7 @@ struct ObjCorner {
   bool operator==(const ObjCorner&) const = default;
 };
 
-// Corners that do not repeat, each with a number: a table that takes a fourth of the memory of a
+// A CornerSet numbers corners that do not repeat. Its table takes a fourth of the memory of a
 // std::unordered_map.
 class CornerSet {
  public:
@@ -275,7 +275,7 @@ class CornerSet {
     return slot;
   }
   const std::vector<ObjCorner>& corners() const noexcept { return corners_; }
-  // Frees the table: no corner follows.
+  // Frees the table, because no corner follows.
   void finish() { slots_ = std::vector<std::uint32_t>(); }
 
  private:
@@ -311,7 +311,7 @@ Vector vector_at(const std::vector<float>& values, std::size_t index) {
   return {static_cast<double>(first[0]), static_cast<double>(first[1]), static_cast<double>(first[2])};
 }
 
-// Triangles of one group and material, as corners that do not repeat.
+// An ObjPart holds triangles of one group and material, as corners that do not repeat.
 struct ObjPart {
   std::size_t material = 0;
   CornerSet corners;
@@ -322,7 +322,7 @@ struct ObjGroup {
   std::vector<ObjPart> parts;
 };
 
-// A part with the attributes of its corners.
+// A PrimitiveMaker makes a part with the attributes of its corners.
 class PrimitiveMaker {
  public:
   PrimitiveMaker(const tinyobj::attrib_t& attributes, ObjPart part) : attributes_(attributes) {
@@ -384,8 +384,8 @@ class PrimitiveMaker {
       primitive_.normals.push_back(is_given ? static_cast<float>(part / length) : 0.0f);
   }
 
-  // A normal that is missing or has no direction becomes that of the faces around it. Products of edges are
-  // as long as triangles are large.
+  // Replaces a missing or zero normal by the normal of the faces around it. Products of edges are
+  // proportional to the triangles' areas.
   void fill_normals() {
     std::vector<Vector> sums(primitive_.vertex_count());
     for (std::size_t i = 0; i + 2 < primitive_.indices.size(); i += 3) {
@@ -413,7 +413,7 @@ class PrimitiveMaker {
 
   const tinyobj::attrib_t& attributes_;
   ObjPrimitive primitive_;
-  std::vector<bool> is_lacking_;  // a normal, by vertex
+  std::vector<bool> is_lacking_;  // normals, by vertex
   bool has_texcoords_ = false, has_normals_ = false;
 };
 
@@ -445,7 +445,7 @@ class ObjReader {
  private:
   void load() {
     std::istream stream(&stream_);
-    stream.exceptions(std::ios::badbit);  // so that what reading throws arrives here
+    stream.exceptions(std::ios::badbit);  // so that an exception while reading arrives here
     NumberedMaterials materials;
     std::vector<tinyobj::material_t> none;
     std::string warning, fault;
@@ -464,7 +464,7 @@ class ObjReader {
     finish_group();
   }
 
-  // Takes what the importer has made.
+  // Takes the importer's results so far.
   void take_shapes() {
     for (const tinyobj::shape_t& shape : shapes_) add_shape(shape);
     shapes_.clear();
@@ -497,7 +497,7 @@ class ObjReader {
     for (ObjPart& part : groups_.back().parts) part.corners.finish();
   }
 
-  // Numbers those that faces use.
+  // Numbers the materials that faces use.
   std::size_t used_material(int number) {
     const auto [entry, is_new] = used_.try_emplace(number, scene_.materials.size());
     if (is_new) scene_.materials.push_back(stream_.material(static_cast<std::size_t>(number)));
@@ -519,11 +519,11 @@ class ObjReader {
 
   const std::string& context_;
   ObjScene scene_;
-  std::map<int, std::size_t> used_;  // materials of the file by their numbers
+  std::map<int, std::size_t> used_;  // keyed by the file's number of a material
   tinyobj::attrib_t attributes_;
   std::vector<tinyobj::shape_t> shapes_;
   std::vector<ObjGroup> groups_;
-  std::map<int, std::size_t> part_of_;  // of the last group, by the number of its material
+  std::map<int, std::size_t> part_of_;  // of the last group, keyed by the number of its material
   ObjStream stream_;
 };
 

@@ -1,5 +1,5 @@
-// The geometry of a Wavefront OBJ file, read by tinyobjloader: triangles of one material at a time, with
-// vertices that are not repeated.
+// This file reads the geometry of a Wavefront OBJ file by tinyobjloader: triangles of one material at a time,
+// with vertices that are not repeated.
 #pragma once
 
 #include <cstddef>
@@ -11,30 +11,30 @@
 
 namespace remap {
 
-// The largest file that is read; it takes up to three times as much memory.
+// Limits the file, because it takes up to three times as much memory.
 inline constexpr std::size_t kLongestObj = std::size_t{1} << 30;
-// Polygons with more corners become fans of triangles, since any other way takes the cube of their number.
+// Polygons with more corners become fans of triangles, because other methods take the cube of their number.
 inline constexpr std::size_t kMostClippedCorners = 1024;
 
-// Triangles of one material. Attributes have an entry for each vertex, or none at all.
+// An ObjPrimitive is triangles of one material. Attributes have an entry for each vertex, or none at all.
 struct ObjPrimitive {
   std::size_t material = 0;            // index into ObjScene::materials
   std::vector<float> positions;        // x, y, z
-  std::vector<float> normals;          // of length 1; one that is missing is that of its faces
-  std::vector<float> texcoords;        // u, v, with v from the top as glTF counts
+  std::vector<float> normals;          // of length 1; a missing one comes from the faces
+  std::vector<float> texcoords;        // u, v, with v from the top as in glTF
   std::vector<float> colors;           // red, green, blue from 0 to 1
   std::vector<std::uint32_t> indices;  // three for a triangle
 
   std::size_t vertex_count() const noexcept { return positions.size() / 3; }
 };
 
-// A group or an object.
+// An ObjShape is a group or an object.
 struct ObjShape {
   std::string name;  // may be empty
   std::vector<ObjPrimitive> primitives;
 };
 
-// A material by its name; faces before the first `usemtl` have none.
+// An ObjMaterialName is a material's name. Faces before the first `usemtl` have none.
 struct ObjMaterialName {
   std::string name;
   bool is_given = false;
@@ -47,11 +47,11 @@ struct ObjScene {
   std::vector<std::string> warnings;
 };
 
-// ObjScene::libraries alone, which takes less time.
+// Returns only ObjScene::libraries, which takes less time.
 std::vector<std::string> obj_libraries(const ByteSource& source, const std::string& context);
 
-// Throws kInput, beginning with `context`, beyond the limit, for UTF-16 with half a character, for
-// coordinates that are no numbers and for faces that name vertices which are not there.
+// Reads a file. Throws kInput, beginning with `context`, beyond the limit, and for UTF-16 with half a
+// character. Also throws it for coordinates that are not numbers and for faces with missing vertices.
 ObjScene read_obj(const ByteSource& source, const std::string& context);
 
 }  // namespace remap

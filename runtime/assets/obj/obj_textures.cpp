@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kClampToEdge = 33071;  // of samplers (glTF 2.0, section 5.26)
 
-// The type of an image that glTF holds as it is; empty for others.
+// Returns the type of an image that glTF can hold unchanged, otherwise an empty text.
 const char* core_type_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
   return bytes.starts_with("\xff\xd8\xff") ? "image/jpeg" : "";
@@ -73,7 +73,7 @@ std::size_t GltfTextures::add_uri(const std::string& path) {
   return images_.size() - 1;
 }
 
-// MTL counts v from the bottom: v' = s v + o becomes 1 - v' = s (1 - v) + 1 - s - o.
+// Converts coordinates. MTL counts v from the bottom: v' = s v + o becomes 1 - v' = s (1 - v) + 1 - s - o.
 Json GltfTextures::info(std::size_t image, const MtlMap& map) {
   ++info_count_;
   const auto [known, is_new] = of_images_.try_emplace({image, map.clamps}, textures_.size());

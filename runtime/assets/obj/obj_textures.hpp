@@ -1,4 +1,4 @@
-// Images and textures of a new glTF file.
+// This file adds images and textures to a new glTF file.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,14 @@
 
 namespace remap {
 
-// The places of images.
 enum class NewImagePlace {
   kBuffer,  // into the buffer
-  kFiles,   // files that are there stay where they are, new ones lie beside them
+  kFiles,   // existing files stay where they are, new ones lie beside them
 };
 
 class GltfTextures {
  public:
-  // All must outlive it. New files, and resources that stay, are added to `conversion`.
+  // All arguments must outlive this object. New files, and resources that stay, are added to `conversion`.
   GltfTextures(const AssetOptions& options, const AssetResources& resources, NewImagePlace place,
                GltfBuffer& buffer, AssetConversion& conversion)
       : png_level_(options.png_level.value_or(kUsualPngLevel)),
@@ -34,23 +33,22 @@ class GltfTextures {
         conversion_(conversion),
         names_(resources.image_prefix()) {}
 
-  // Keeps a path from new images.
+  // Reserves a path, so that no new image gets it.
   void take(const std::string& path) { names_.take(path); }
-  // The image of a map: PNG and JPEG as they are, others and those with -mm as PNG, each file once. Appends
-  // warnings. Throws kInput where it is missing, cannot be read, or has options that change what it looks
-  // like.
+  // Adds the image of a map, each file once. PNG and JPEG stay unchanged; other formats and maps with -mm
+  // become PNG. Appends warnings. Throws kInput if the image is missing, cannot be read, or has options that
+  // change its look.
   std::size_t add_file(MtlImages& images, const MtlMap& map, std::vector<std::string>& warnings);
-  // A new image, named after the file of `model`, or one that was added before with the same bytes. Returns
-  // its index.
+  // Adds an image, named after `model`, or finds an earlier one with equal bytes. Returns its index.
   std::size_t add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
                          std::string_view suffix);
-  // A reference to a texture of an image, which lies on the surface as `map` says.
+  // Returns a reference to a texture of an image, with its place on the surface from `map`.
   Json info(std::size_t image, const MtlMap& map);
 
-  // References so far.
+  // Returns the number of references so far.
   std::size_t info_count() const noexcept { return info_count_; }
   bool has_transforms() const noexcept { return has_transforms_; }
-  // The lists of the file; each may be empty.
+  // Return the lists of the file; each may be empty.
   const Json& textures() const noexcept { return textures_; }
   const Json& images() const noexcept { return images_; }
   const Json& samplers() const noexcept { return samplers_; }
@@ -75,10 +73,10 @@ class GltfTextures {
 
 inline constexpr std::string_view kTextureTransform = "KHR_texture_transform";
 
-// Rounded to float, as viewers hold it, with the shortest text.
+// Returns the value rounded to float, as viewers store it, with the shortest text.
 double float_value(double value);
 
-// A text that JSON can hold: one that is not UTF-8 is read as Latin-1.
+// Returns a text that JSON can hold. A text that is not UTF-8 is read as Latin-1.
 std::string utf8_name(const std::string& text);
 
 }  // namespace remap

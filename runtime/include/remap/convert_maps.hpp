@@ -1,5 +1,5 @@
-// Converts maps in memory. texremap uses it for each band of its files; a program can call it on its own
-// buffers (examples/outside_project/convert_buffers.cpp).
+// This file converts maps in memory. texremap uses it for each band of its files. A program can call it on
+// its own buffers (examples/outside_project/convert_buffers.cpp).
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@
 
 namespace remap {
 
-// Statistics of maps, collected row by row.
+// These statistics of maps are collected row by row.
 
-// Statistics of one parameter over all channels of its map; values are linear, in the encoding of the map.
-// All members are 0 if they were not requested.
+// A ParameterStatistics describes one parameter over all channels of its map. Values are linear, in the
+// encoding of the map. All members are 0 if they were not requested.
 struct ParameterStatistics {
   static constexpr std::size_t kBins = 32;
   float min = 0.0f;  // of finite values; min and max are 0 without any
@@ -38,20 +38,20 @@ struct TexelPosition {
   std::size_t y = 0;
 };
 
-// Statistics of the texels with one MetallicIssue.
+// An IssueStatistics describes the texels with one MetallicIssue.
 struct IssueStatistics {
   std::size_t count = 0;
-  std::optional<TexelPosition> first;  // in row order
+  std::optional<TexelPosition> first;  // the first such texel in row order
 
   // Adds the statistics of rows below.
   IssueStatistics& operator+=(const IssueStatistics& other) noexcept;
 };
 
-// The reliability of metallic over all covered texels without NaN. All members are 0 if they were not
-// requested or if the converter cannot diagnose (Converter::has_diagnostics).
+// A MetallicStatistics describes how reliable metallic is, over all covered texels without NaN. All members
+// are 0 if they were not requested or if the converter cannot diagnose (Converter::has_diagnostics).
 struct MetallicStatistics {
   std::size_t texel_count = 0;
-  // Sum of squared residuals in units of 2^-40. The integer sum does not depend on the order.
+  // This is the sum of squared residuals in units of 2^-40. As an integer it does not depend on order.
   std::uint64_t residual_squares = 0;
   float largest_residual = 0.0f;
   IssueStatistics undetermined, dark, ambiguous, clamped;
@@ -60,7 +60,7 @@ struct MetallicStatistics {
   MetallicStatistics& operator+=(const MetallicStatistics& other) noexcept;
 };
 
-// Statistics of a conversion. A texel counts once in each member that applies to it.
+// A MapStatistics describes a conversion. A texel counts once in each member that applies to it.
 struct MapStatistics {
   std::size_t texel_count = 0;
   std::size_t out_of_domain_count = 0;     // texels outside the domain of the converter
@@ -69,10 +69,10 @@ struct MapStatistics {
   std::size_t negative_count = 0;          // texels with a value below 0 in any source
   std::size_t clipped_count = 0;           // values, not texels, that an integer pixel type clipped
   std::size_t masked_count = 0;            // texels with coverage 0 or less
-  std::size_t above_one_count = 0;         // texels with a finite source above 1, roughness excepted
-  std::optional<TexelPosition> first_bad;  // with NaN, infinity or a negative value, in row order
+  std::size_t above_one_count = 0;         // texels with a finite source above 1, except roughness
+  std::optional<TexelPosition> first_bad;  // the first with NaN, infinity or a negative value, in row order
   std::map<Parameter, ParameterStatistics> sources, targets;
-  // The largest difference between copies of one value, of parameters whose copies differ.
+  // Holds the largest difference between copies of one value, for each parameter whose copies differ.
   std::map<Parameter, float> tints;
   MetallicStatistics metallic;
 
@@ -82,7 +82,7 @@ struct MapStatistics {
 
 ParameterStatistics statistics_of(std::span<const float> values);
 
-// Rows of a converter; `coverage` may be null.
+// A DiagnosedRow holds the rows for a converter. `coverage` may be null.
 struct DiagnosedRow {
   TexelPosition first;
   const float* residual;
@@ -91,22 +91,22 @@ struct DiagnosedRow {
 };
 MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row);
 
-// The values of one source parameter: channels of a map, or constants.
+// A SourceParameter holds the values of one source parameter: channels of a map, or constants.
 struct SourceParameter : ParameterValues {
   std::vector<ConstChannelView> channels;
-  float grey_tolerance = 0.0f;             // largest difference between copies of one value
+  float grey_tolerance = 0.0f;             // largest permitted difference between copies of one value
   std::string name;                        // file or buffer, for messages
-  std::string one_channel;                 // what the user gives for one channel of it, for messages
+  std::string one_channel;                 // what the user types for one of its channels, for messages
   std::vector<std::string> channel_names;  // one per channel, for messages
 };
 
-// The channels that receive a target parameter. Without channels the parameter is not stored.
+// A TargetParameter holds the channels that receive a target parameter. Without any it is not stored.
 struct TargetParameter {
   std::vector<ChannelView> channels;
   Transfer transfer = Transfer::kLinear;
 };
 
-// The treatment of invalid values: NaN, infinite and negative ones.
+// A BadTexels value decides the treatment of invalid values: NaN, infinite and negative ones.
 enum class BadTexels {
   kKeep,   // NaN and infinity stay if the pixel type can hold them; negative roughness becomes the lowest of
            // the domain, negative specular 0
@@ -114,15 +114,15 @@ enum class BadTexels {
   kFail,   // the first invalid value ends the conversion
 };
 
-// The words for it.
+// These are the words for BadTexels.
 inline constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 
 struct MapTreatment {
-  std::optional<RoughnessEncoding> target_convention;  // of the results; by default that of the model
+  std::optional<RoughnessEncoding> target_convention;  // of the results; by default the model's own
   float target_roughness_factor = 1.0f;                // stored roughness times this is the roughness
   BadTexels bad_texels = BadTexels::kKeep;
-  bool dither = false;               // add noise of half a step to 8-bit integers, equal in every run
+  bool dither = false;               // add noise of half a step to 8-bit integers, the same in every run
   bool value_statistics = false;     // fill in ranges and histograms
   bool metallic_statistics = false;  // fill in the reliability of metallic, which takes time
 };
@@ -130,28 +130,27 @@ struct MapTreatment {
 struct MapConversion : MapTreatment {
   std::size_t width = 0;
   std::size_t height = 0;
-  // Every source of the converter, and optional ones. Colors have 1 or 3 channels or constants. Other
-  // parameters have one, or several equal channels, of which the first is used: kInput names the first texel
-  // where they differ by more than the tolerance.
+  // Holds every source of the converter, and optional ones. Colors have 1 or 3 channels or constants. Other
+  // parameters have one channel, or several equal channels, of which the first is used. kInput reports the
+  // first texel where they differ by more than the tolerance.
   std::map<Parameter, SourceParameter> sources;
   // The targets to store. They may share the memory of the sources. Colors have as many channels as the
   // converter makes, or three for grey. Every channel of another parameter receives its value.
   std::map<Parameter, TargetParameter> targets;
-  // Opacity. Texels with coverage 0 or less are converted like all others, but are left out of the
-  // statistics.
+  // Holds the opacity. Texels with coverage 0 or less are converted, too, but do not count in statistics.
   std::optional<ConstChannelView> coverage;
-  std::optional<RoughnessEncoding> source_convention;  // of the roughness; by default that of the model
-  std::optional<ChannelView> mask;                     // receives 1 for texels outside the domain, else 0
+  std::optional<RoughnessEncoding> source_convention;  // of the roughness; by default the model's own
+  std::optional<ChannelView> mask;                     // 1 for texels outside the domain, 0 for others
   std::size_t first_row = 0;  // position of row 0 in the whole map, for positions and dithering
 };
 
-// Converts every texel. The results equal those of Converter::convert for each texel, for any number
-// of threads. Throws kInput if the channels of a parameter other than a color differ and, with
-// BadTexels::kFail, for the first invalid texel; kUsage if channels do not match the converter.
+// Converts every texel. The results equal those of Converter::convert for each texel, for any number of
+// threads. Throws kUsage if channels do not match the converter. Throws kInput if the channels of a parameter
+// other than a color differ, and for the first invalid texel with BadTexels::kFail.
 MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count = 1);
 
-// Copies a channel: bit for bit between equal pixel types, else as floats. Returns the number of values that
-// an integer pixel type clipped.
+// Copies a channel. Equal pixel types are copied bit for bit, others as floats. Returns the number of values
+// that an integer pixel type clipped.
 std::size_t copy_channel(const ConstChannelView& from, const ChannelView& to, std::size_t width,
                          std::size_t height);
 

@@ -1,4 +1,4 @@
-// BRDF models as the ends of a conversion: their names, the meaning of their parameters, and ranges.
+// This file describes BRDF models as ends of a conversion: names, the meaning of parameters, and ranges.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace remap {
 
-// Names of enumerators in files and on the command line.
+// The following functions give the names of enumerators in files and on the command line.
 
 template <typename Value>
 struct NamedValue {
@@ -18,11 +18,11 @@ struct NamedValue {
   std::string_view name;
 };
 
-// Each enumerator appears once.
+// A NamedValues table holds each enumerator once.
 template <typename Value, std::size_t Count>
 using NamedValues = std::array<NamedValue<Value>, Count>;
 
-// Empty for a value that is not in the table.
+// Returns the name, or an empty text if the value is not in the table.
 template <typename Value, std::size_t Count>
 constexpr std::string_view name_of(const NamedValues<Value, Count>& table, Value value) noexcept {
   for (const NamedValue<Value>& entry : table)
@@ -38,7 +38,7 @@ constexpr std::optional<Value> value_named(const NamedValues<Value, Count>& tabl
   return std::nullopt;
 }
 
-// All names in the order of the table.
+// Returns all names in the order of the table.
 template <typename Value, std::size_t Count>
 std::vector<std::string> names_of(const NamedValues<Value, Count>& table) {
   std::vector<std::string> names;
@@ -46,7 +46,7 @@ std::vector<std::string> names_of(const NamedValues<Value, Count>& table) {
   return names;
 }
 
-// A closed interval.
+// A Range is a closed interval.
 struct Range {
   double min = 0.0;
   double max = 0.0;
@@ -54,23 +54,23 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-// The parameters by which BRDF models state the microfacet width. Each is an invertible function of alpha, in
-// which sweeps and fits work.
+// A RoughnessEncoding is a parameter by which BRDF models state the microfacet width. Each one is an
+// invertible function of alpha. Sweeps and fits work in alpha.
 
 enum class RoughnessEncoding {
   kAlpha,       // the microfacet width itself, (0, 1]
   kRoughness,   // perceptual roughness, sqrt(alpha) (Burley 2012; glTF 2.0; Cycles since Blender 2.80)
   kExponent,    // Phong exponent, 2 / alpha^2 - 2 (Walter et al. 2007, section 5.2)
   kGlossiness,  // 1 - sqrt(alpha)
-  kSquared,     // alpha^2, the square that the formulas of microfacet distributions hold
+  kSquared,     // alpha^2, as the formulas of microfacet distributions contain it
 };
 
-// Converts the model's own parameter to alpha and back. The functions are inverses up to rounding for alpha
-// in (0, 1]; the exponent of alpha 0 is infinite.
+// These functions convert the model's own parameter to alpha, and alpha to the parameter. They are inverse up
+// to rounding for alpha in (0, 1]. The exponent of alpha 0 is infinite.
 double to_alpha(RoughnessEncoding convention, double own);
 double from_alpha(RoughnessEncoding convention, double alpha);
 
-// The names in fits and tables, and of the parameter in generated headers.
+// These names are used in fits and tables, and for the parameter in generated headers.
 inline constexpr NamedValues<RoughnessEncoding, 5> kRoughnessEncodings = {
     {{RoughnessEncoding::kAlpha, "alpha"},
      {RoughnessEncoding::kRoughness, "roughness"},
@@ -85,38 +85,38 @@ inline std::optional<RoughnessEncoding> encoding_from_name(std::string_view name
 }
 inline std::vector<std::string> convention_names() { return names_of(kRoughnessEncodings); }
 
-// The ends of a conversion and their names.
+// The following types hold the ends of a conversion and their names.
 
-// One end of a conversion: a model and the meaning of its two parameters.
+// A ModelSide is one end of a conversion: a model and the meaning of its two parameters.
 struct ModelSide {
-  std::string model;                                        // e.g. "mitsuba/ward"
+  std::string model;                                        // for example "mitsuba/ward"
   RoughnessEncoding roughness = RoughnessEncoding::kAlpha;  // the model's own width parameter
   std::string specular = "specular";                        // "specular" (plain scale) or "f0"
   bool operator==(const ModelSide&) const = default;
 };
 
-// `mitsuba_ward_to_mitsuba_as` for `mitsuba/ward` and `mitsuba/as`: characters that an identifier cannot hold
-// become underscores.
+// Returns an id such as `mitsuba_ward_to_mitsuba_as` for `mitsuba/ward` and `mitsuba/as`. Characters that an
+// identifier cannot contain become underscores.
 std::string converter_id(const std::string& source_model, const std::string& target_model);
 
-// The most letters of an id and of a model. File systems allow 255 letters in a name, and the names of
-// unfinished files and extensions need some of them.
+// Limits the letters of an id and of a model. File systems allow 255 letters in a name, and unfinished files
+// and extensions need some of them.
 inline constexpr std::size_t kLongestName = 128;
 
-// The rule for ids, for messages.
+// This is the rule for ids as messages state it.
 inline constexpr const char* kIdRule =
     "a C++ identifier of at most 128 letters, without leading or doubled underscore, that C++ does not use "
     "itself";
 
-// Whether `id` can name a namespace and a file: kIdRule. C++ uses keywords, `std` and macros of
-// its headers.
+// Returns true if `id` follows kIdRule, so that it can name a namespace and a file. C++ reserves its
+// keywords, `std` and the macros of its headers.
 bool is_valid_id(const std::string& id);
 
-// Whether `name` can name a model in file names, messages and generated code: letters, digits and `_ - . /`,
-// at most kLongestName of them.
+// Returns true if `name` can be a model in file names, messages and generated code. It must have only
+// letters, digits and `_ - . /`, at most kLongestName of them.
 bool is_valid_model(const std::string& name);
 
-// Whether `name` can name a specular parameter: an identifier other than the name of a width parameter.
+// Returns true if `name` can be a specular parameter: an identifier other than a width parameter's.
 bool is_valid_specular(const std::string& name);
 
 }  // namespace remap

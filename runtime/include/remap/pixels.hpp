@@ -1,4 +1,4 @@
-// Maps in memory: pixels, channels and their transfer functions.
+// This file describes maps in memory: pixels, channels and their transfer functions.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace remap {
 
-// Pixel types of image files, and their conversion to and from floats.
+// The following functions convert the pixel types of image files to and from floats.
 
 enum class PixelType { kUint8, kUint16, kUint32, kInt8, kInt16, kInt32, kHalf, kFloat, kDouble };
-// The names on the command line and in OpenImageIO.
+// These are the names on the command line and in OpenImageIO.
 inline constexpr NamedValues<PixelType, 9> kPixelTypes = {{{PixelType::kUint8, "uint8"},
                                                            {PixelType::kUint16, "uint16"},
                                                            {PixelType::kUint32, "uint"},
@@ -29,26 +29,26 @@ std::size_t byte_count(PixelType type) noexcept;
 bool is_integer(PixelType type) noexcept;
 
 // Reads `count` values of `type` at intervals of `stride` bytes from `first`, which need not be aligned.
-// Integers are divided by the largest of their type: 255 of uint8 becomes 1.
+// Integers are divided by the largest value of their type, so that 255 of uint8 becomes 1.
 void load_values(PixelType type, const std::byte* first, std::size_t stride, std::size_t count,
                  float* values) noexcept;
 
-// Writes values back, rounded to nearest. Integers are clipped to [0, 1] ([-1, 1] if signed), and NaN becomes
-// 0. Returns the number of clipped values. Values that `load_values` read from an integer of at most 24 bits
-// are restored bit for bit.
+// Writes values back, rounded to the closest number. Integers are clipped to [0, 1] ([-1, 1] if signed), and
+// NaN becomes 0. Returns the number of clipped values. Values that `load_values` read from an integer of at
+// most 24 bits are restored bit for bit.
 std::size_t store_values(PixelType type, const float* values, std::size_t count, std::byte* first,
                          std::size_t stride) noexcept;
 
-// Conversion from and to IEEE 754 binary16, rounded to nearest even. Every half, including infinities and
-// denormals, is exact.
+// These functions convert from and to IEEE 754 binary16, rounded to nearest even. Every half float, including
+// infinities and denormals, is exact.
 float half_to_float(std::uint16_t half) noexcept;
 std::uint16_t float_to_half(float value) noexcept;
 
-// Views of the channels of maps in memory, which load rows of floats and store them.
+// The following views of channels in memory load rows of floats and store them.
 
-// One channel of a map in memory. The value of texel (x, y) is at first + y row_stride + x texel_stride and
-// need not be aligned. Strides are in bytes; the row stride is negative for an image that is stored bottom
-// up.
+// A BasicChannelView is one channel of a map in memory. The value of texel (x, y) is at first + y row_stride
+// + x texel_stride and need not be aligned. Strides are in bytes; the row stride is negative if the image is
+// stored bottom up.
 template <typename Byte>
 struct BasicChannelView {
   Byte* first = nullptr;
@@ -64,8 +64,8 @@ struct BasicChannelView {
 using ChannelView = BasicChannelView<std::byte>;
 using ConstChannelView = BasicChannelView<const std::byte>;
 
-// A channel of packed rows of `width` texels with `values_a_texel` floats each. `first` points to the value
-// of the first texel.
+// Returns a channel of packed rows of `width` texels with `values_a_texel` floats each. `first` points to the
+// value of the first texel.
 template <typename Float>
 auto float_channel(Float* first, std::size_t width, std::size_t values_a_texel = 1) noexcept {
   using Byte = std::conditional_t<std::is_const_v<Float>, const std::byte, std::byte>;
@@ -74,7 +74,7 @@ auto float_channel(Float* first, std::size_t width, std::size_t values_a_texel =
                                 texel * static_cast<std::ptrdiff_t>(width)};
 }
 
-// Texels [x, x + count) of row y, counted from the first row of the buffers.
+// A Segment is the texels [x, x + count) of row y, counted from the first row of the buffers.
 struct Segment {
   std::size_t x, y, count;
 };
@@ -96,9 +96,10 @@ inline std::size_t store(const ChannelView& view, const Segment& segment, const 
                       static_cast<std::size_t>(view.texel_stride));
 }
 
-// Decodes the numbers of a map for a converter: the transfer curve of a color, the encoding of a roughness.
+// The rest of the file decodes the numbers of a map for a converter: curves of colors, encodings of
+// roughness.
 
-// The transfer curve from linear to stored values.
+// A Transfer is a curve from linear to stored values.
 enum class Transfer {
   kLinear,
   kSrgb,  // IEC 61966-2-1; below 0 the curve is odd, above 1 the same formula continues
@@ -106,26 +107,25 @@ enum class Transfer {
 inline constexpr NamedValues<Transfer, 2> kTransfers = {
     {{Transfer::kLinear, "linear"}, {Transfer::kSrgb, "srgb"}}};
 
-// How colors (base color, diffuse, specular) are stored unless a file or a user says otherwise: whole numbers
-// in sRGB, floating-point numbers linear. Other parameters are data, which no curve applies to.
+// Returns how colors (base color, diffuse, specular) are usually stored: integers in sRGB, floating-point
+// numbers linear. A file or a user may override this. Other parameters are data, which no curve applies to.
 inline Transfer usual_color_transfer(PixelType type) noexcept {
   return is_integer(type) ? Transfer::kSrgb : Transfer::kLinear;
 }
 
-// The linear values of a parameter, as far as a map does not hold them.
+// A ParameterValues completes a map: it holds what is needed to get a parameter's linear values.
 struct ParameterValues {
   std::vector<float> constants;           // one, or one each for red, green and blue; used without a map
-  std::vector<float> factors;             // of the linear values: none, one, or one per channel
+  std::vector<float> factors;             // for the linear values: none, one, or one per channel
   Transfer transfer = Transfer::kLinear;  // of the stored values
 
-  // The factor of a channel.
   float factor(std::size_t channel) const {
     return factors.empty() ? 1.0f : factors[factors.size() == 1 ? 0 : channel];
   }
 };
 
-// Converts stored values to linear ones and back, in place, within 0.51 units in the last place of the
-// formula and with the same bits on every machine. NaN stays NaN.
+// These functions convert stored values to linear values, and back, in place. They are within 0.51 units in
+// the last place of the formula and give the same bits on every machine. NaN stays NaN.
 void to_linear(Transfer transfer, std::span<float> values) noexcept;
 void from_linear(Transfer transfer, std::span<float> values) noexcept;
 

@@ -1,4 +1,4 @@
-// Appearance warps: as tables, with their provenance, and as converters.
+// This file describes appearance warps: as tables, with their provenance, and as converters.
 #pragma once
 
 #include <array>
@@ -17,18 +17,19 @@
 
 namespace remap {
 
-// A compiled appearance warp (An et al. 2011), which gives texels of one material reflectances of another:
-// coordinates in closed form, and a table of the template's parameters over them.
+// A compiled appearance warp (An et al. 2011) gives texels of one material the reflectances of another. It
+// has coordinates in closed form, and a table of the template's parameters over them.
 
-// One texel of a diffuse lobe and a specular one: diffuse reflectance (R, G, B), specular reflectance at
-// normal incidence or scale (R, G, B), both linear, and alpha, the microfacet width.
+// A WarpTexel has a diffuse lobe and a specular lobe: diffuse reflectance (R, G, B), specular reflectance at
+// normal incidence or scale (R, G, B), and alpha, the microfacet width. Both reflectances are linear.
 using WarpTexel = std::array<float, 7>;
 inline constexpr std::size_t kWarpParameters = std::tuple_size_v<WarpTexel>;
 
 inline constexpr std::size_t kLargestWarpDimension = 3;
 
-// A lobe that is linear in its specular parameter, rho = d / pi + s slope(alpha) + base(alpha), has the
-// principal coordinates (An et al. 2011, section 3, for distances that are quadratic in rho)
+// A SeparableTerms describes a lobe that is linear in its specular parameter, rho = d / pi + s slope(alpha) +
+// base(alpha). It has these principal coordinates (An et al. 2011, section 3, for distances quadratic in
+// rho):
 //   x_k = sum_c d_c diffuse[k][c] + s_c specular[k][c](alpha) + offset[k](alpha)
 // The functions of alpha are linear between nodes that are evenly spaced in log(alpha).
 struct SeparableTerms {
@@ -39,9 +40,9 @@ struct SeparableTerms {
   bool operator==(const SeparableTerms&) const = default;
 };
 
-// A fit for other distances, quadratic in u = (cube roots of diffuse and of specular reflectance, and
-// log(alpha / least) / log(largest / least)). The 36 terms are 1, u_0 to u_6, and u_i u_j for i <= j, ordered
-// by i, then j.
+// A QuadraticTerms is a fit for other distances, quadratic in u. The seven values of u are the cube roots of
+// diffuse and specular reflectance, and log(alpha / least) / log(largest / least). The 36 terms are 1, u_0 to
+// u_6, and u_i u_j for i <= j, ordered by i, then j.
 struct QuadraticTerms {
   std::vector<float> weights;  // dimension x 36
 
@@ -49,8 +50,8 @@ struct QuadraticTerms {
 };
 inline constexpr std::size_t kQuadraticTerms = 36;
 
-// The position of a reflectance in the appearance space of its material. Reflectances are clamped to [0, 1],
-// alpha to its range. Unit: the RMS distance of the material's texels from their mean.
+// An AppearanceCoordinates gives the position of a reflectance in the appearance space of its material.
+// Reflectances are clamped to [0, 1], alpha to its range. Unit: RMS distance of texels from the mean.
 struct AppearanceCoordinates {
   std::size_t dimension = 0;   // 1 to 3
   float least_alpha = 0.0f;    // above 0
@@ -60,24 +61,24 @@ struct AppearanceCoordinates {
   bool operator==(const AppearanceCoordinates&) const = default;
 };
 
-// The number of nodes of alpha.
+// Returns the number of nodes of alpha.
 std::size_t width_node_count(const AppearanceCoordinates& space, const SeparableTerms& terms) noexcept;
 
-// The 36 terms of a texel whose values are in range.
+// Returns the 36 terms of a texel whose values are in range.
 std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates& space,
                                                     const WarpTexel& texel) noexcept;
 
-// Interpolates multilinearly between nodes; positions are clamped to the box.
+// A BlendedNodes interpolates multilinearly between nodes. Positions are clamped to the box.
 struct BlendedNodes {
   std::array<float, kWarpParameters> least{}, largest{};  // of each parameter
-  // nodes^dimension x 7, the first dimension fastest. A parameter is least + (largest - least) (code /
-  // 255)^2, with finer steps for dark values.
+  // The codes are nodes^dimension x 7, the first dimension fastest. A parameter is least + (largest - least)
+  // (code / 255)^2, with finer steps for dark values.
   std::vector<std::uint8_t> codes;
 
   bool operator==(const BlendedNodes&) const = default;
 };
 
-// Copies the nearest node, so that results are reflectances of the template (An et al. 2011, principle 5).
+// A CopiedNodes copies the closest node, so results are template reflectances (An et al. 2011, principle 5).
 struct CopiedNodes {
   std::vector<WarpTexel> palette;      // texels of the template, 1 to 65536
   std::vector<std::uint16_t> indices;  // into the palette; nodes^dimension, the first dimension fastest
@@ -86,7 +87,7 @@ struct CopiedNodes {
 };
 inline constexpr std::size_t kLargestPalette = 65536;
 
-// The template's parameters over a box of the source's coordinates.
+// A ParameterTable holds the template's parameters over a box of the source's coordinates.
 struct ParameterTable {
   std::size_t nodes = 0;         // along each dimension, 2 to 4096; at most kMostNodes in all
   std::vector<float> low, high;  // corners of the box, low < high in each dimension
@@ -103,45 +104,45 @@ struct CompiledWarp {
   bool operator==(const CompiledWarp&) const = default;
 };
 
-// The position of a texel, `dimension` values; the others are 0. NaN in the texel gives NaN.
+// Returns the position of a texel: `dimension` values, then zeros. NaN in the texel gives NaN.
 std::array<double, kLargestWarpDimension> coordinates_of(const AppearanceCoordinates& space,
                                                          const WarpTexel& texel) noexcept;
 
 float decoded(const BlendedNodes& nodes, std::size_t parameter, std::uint8_t code) noexcept;
 
-// The position in units of nodes along each dimension, from 0 to nodes - 1.
+// Returns the position in units of nodes along each dimension, from 0 to nodes - 1.
 std::array<double, kLargestWarpDimension> node_position_of(const CompiledWarp& warp,
                                                            const WarpTexel& texel) noexcept;
 
-// The template's parameters for a texel of the source, in double precision, to test faster implementations.
-// NaN in the texel gives NaN in all parameters. `warp` must be valid.
+// Returns the template's parameters for a texel of the source, in double precision. Tests compare faster
+// implementations with it. NaN in the texel gives NaN in all parameters. `warp` must be valid.
 WarpTexel evaluate_warp(const CompiledWarp& warp, const WarpTexel& texel) noexcept;
 
-// The size of the converter's numbers.
+// Returns the size of the converter's numbers in bytes.
 std::size_t byte_count(const CompiledWarp& warp) noexcept;
 
 // Throws kInput, beginning with `context`, for inconsistent counts, an empty box, or numbers that are not
 // finite.
 void require_valid(const CompiledWarp& warp, const std::string& context);
 
-// A fit of kind `warp`: a compiled appearance warp and its provenance.
+// A WarpMapFit is a fit of kind `warp`: a compiled appearance warp and its provenance.
 
 struct WarpMapFit {
   std::string id;
   std::string source_model, template_model;  // of the texels before and after, such as `mitsuba/ggx`
   CompiledWarp warp;
-  // RMS distance in appearance from the exact copy of template texels, as a share of the template's spread;
-  // -1 if unknown.
+  // This is the RMS distance in appearance from the exact copy of template texels. It is a fraction of the
+  // template's spread, or -1 if unknown.
   double copy_rms_error = -1.0;
-  std::map<std::string, std::string> method;  // how it was made
-  std::vector<std::string> remarks;           // warnings of the fit, a line each
+  std::map<std::string, std::string> method;  // how the fit was made
+  std::vector<std::string> remarks;           // warnings of the fit, one line each
   std::string tool_version;
   bool operator==(const WarpMapFit&) const = default;
 };
 
 inline constexpr const char* kWarpKind = "warp";
 
-// The entry of `method` for a warp whose source was a diffuse map alone, with specular 0 and alpha 1.
+// This entry of `method` marks a warp whose source was only a diffuse map, with specular 0 and alpha 1.
 inline constexpr const char* kWarpSourceMaps = "source_maps";
 inline constexpr const char* kDiffuseAlone = "diffuse";
 inline bool is_of_diffuse_alone(const WarpMapFit& fit) {
@@ -149,15 +150,15 @@ inline bool is_of_diffuse_alone(const WarpMapFit& fit) {
   return maps != fit.method.end() && maps->second == kDiffuseAlone;
 }
 
-// Converters of whole materials by a compiled warp.
+// The following functions make converters of whole materials from a compiled warp.
 
-// Converts diffuse, specular and width of the source of a warp to those of its template; all target rows must
-// be present. A metallic source is first converted to a specular one by equation (2). A color in one row is
-// grey. Throws kInput as require_valid() does.
+// Converts diffuse, specular and width of a warp's source to the parameters of its template. All target rows
+// must be present. Equation (2) first converts a metallic source to a specular one. A color in one row is
+// grey. Throws kInput like require_valid().
 std::unique_ptr<Converter> make_warp_converter(const WarpMapFit& fit, const WorkflowEnd& source,
                                                InstructionSet set = best_instruction_set());
 
-// The warp of a fit file. Throws kInput if it cannot be read, and for a fit of another kind.
+// Reads the warp of a fit file. Throws kInput if the file cannot be read or holds a fit of another kind.
 WarpMapFit load_warp_fit(const std::filesystem::path& path);
 
 }  // namespace remap

@@ -1,6 +1,6 @@
-// The two workflows in which a material is described, and the meaning of their parameters. The specular
-// workflow has a diffuse and a specular color, the metallic workflow a base color and metallic (Sztrajman et
-// al. 2019, section 8). Both are layers over the same BRDF.
+// This file describes the two workflows for materials, and the meaning of their parameters. The specular
+// workflow has a diffuse and a specular color. The metallic workflow has a base color and metallic (Sztrajman
+// et al. 2019, section 8). Both are layers over the same BRDF.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@
 
 namespace remap {
 
-// The meaning of a diffuse color.
+// A DiffuseConvention is the meaning of a diffuse color.
 enum class DiffuseConvention {
-  kPlain,   // the reflectance of the diffuse lobe
-  kScaled,  // times 1 - max(specular), the reflectance of the diffuse lobe (glTF 2.0)
+  kPlain,   // it is the reflectance of the diffuse lobe
+  kScaled,  // times 1 - max(specular), it is the reflectance of the diffuse lobe (glTF 2.0)
 };
 inline constexpr NamedValues<DiffuseConvention, 2> kDiffuseConventions = {
     {{DiffuseConvention::kPlain, "plain"}, {DiffuseConvention::kScaled, "scaled"}}};
@@ -30,7 +30,7 @@ inline std::string_view diffuse_convention_name(DiffuseConvention convention) {
 inline constexpr double kCommonDielectricF0 = 0.04;  // glTF, Unreal, Disney
 inline constexpr double kPaperDielectricF0 = 0.03;   // Sztrajman et al. 2019
 
-// Diffuse RGB, specular RGB (F0, linear, 0 to 1) and a width.
+// A SpecularWorkflow has diffuse RGB, specular RGB (F0, linear, 0 to 1) and a width.
 struct SpecularWorkflow {
   std::string model = "specular";
   DiffuseConvention diffuse = DiffuseConvention::kPlain;
@@ -38,9 +38,9 @@ struct SpecularWorkflow {
   bool operator==(const SpecularWorkflow&) const = default;
 };
 
-// Base color RGB (linear, 0 to 1), metallic (0 to 1) and a width. With n = 1 - metallic, diffuse reflectance
-// is base color n, times 1 - dielectric_f0 where diffuse is scaled; F0 is dielectric_f0 n + base color
-// metallic.
+// A MetallicWorkflow has base color RGB (linear, 0 to 1), metallic (0 to 1) and a width. Let n = 1 -
+// metallic. The diffuse reflectance is base color n, times 1 - dielectric_f0 where diffuse is scaled. F0 is
+// dielectric_f0 n + base color metallic.
 struct MetallicWorkflow {
   std::string model = "metallic";
   double dielectric_f0 = kCommonDielectricF0;  // [0, 0.9]
@@ -55,13 +55,13 @@ inline constexpr double kCleanPrior = 1e-6;  // for maps without noise, 8 bits o
 inline constexpr double kNoisyPrior = 1e-5;  // for scans and JPEG
 inline constexpr double kLargestPrior = 1.0;
 
-// Workflows with a name, the conventions of their parameters, and their BRDF.
+// The following types give workflows a name, the conventions of their parameters, and their BRDF.
 
 enum class WorkflowKind { kSpecular, kMetallic };
 inline constexpr NamedValues<WorkflowKind, 2> kWorkflowKinds = {
     {{WorkflowKind::kSpecular, "specular"}, {WorkflowKind::kMetallic, "metallic"}}};
 
-// One side of a conversion of whole materials.
+// A WorkflowEnd is one side of a conversion of whole materials.
 using WorkflowEnd = std::variant<SpecularWorkflow, MetallicWorkflow>;
 inline WorkflowKind kind_of(const WorkflowEnd& end) noexcept {
   return std::holds_alternative<SpecularWorkflow>(end) ? WorkflowKind::kSpecular : WorkflowKind::kMetallic;
@@ -79,61 +79,61 @@ inline std::string_view kind_name(const WorkflowEnd& end) noexcept {
   return name_of(kWorkflowKinds, kind_of(end));
 }
 
-// A workflow with a name.
+// A WorkflowModel is a workflow with a name.
 struct WorkflowModel {
   WorkflowEnd end;
   std::string brdf;                // model of its width and specular in the graph of converters
-  bool conventions_known = false;  // from its specification or source code; otherwise assumed
+  bool conventions_known = false;  // true if a specification or source code states them; otherwise assumed
   std::string reason;              // the source of the conventions
 };
 
-// `gltf`, `gltf-specgloss`, `cycles-5/principled`, `threejs/standard`, `usd-preview-surface`, `metallic`,
-// `specular`.
+// Returns `gltf`, `gltf-specgloss`, `cycles-5/principled`, `threejs/standard`, `usd-preview-surface`,
+// `metallic` and `specular`.
 const std::vector<WorkflowModel>& workflow_models();
-// Null for an unknown name.
+// Returns null for an unknown name.
 const WorkflowModel* find_workflow_model(std::string_view name);
 
-// A name that people use for a workflow model, or for a BRDF model of the graph.
+// A ModelAlias is a name that people use for a workflow model, or for a BRDF model of the graph.
 struct ModelAlias {
   std::string_view name;     // lower case, words joined by '-'
-  std::string_view model;    // of workflow_models(), or such as `legacy/phong`
-  std::string_view meaning;  // of materials of that name, after its documentation or source code
+  std::string_view model;    // from workflow_models(), or such as `legacy/phong`
+  std::string_view meaning;  // what the name means, by its documentation or source code
 };
 std::span<const ModelAlias> model_aliases();
-// Null for none. Case does not count, and '_', '.' and ' ' stand for '-'.
+// Returns null if there is no such alias. Case does not matter, and '_', '.' and ' ' are treated as '-'.
 const ModelAlias* find_alias(std::string_view name);
 
-// A BRDF model of the graph, such as `mitsuba/ward`, as a specular or a metallic workflow with the common
-// conventions.
+// Returns a BRDF model of the graph, such as `mitsuba/ward`, as a specular or metallic workflow with the
+// common conventions.
 WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessEncoding width);
 
-// Whether maps of the model `name` hold materials of `end` over `brdf`. For example `specular` and
-// mitsuba/ggx are both layers over mitsuba/ggx with plain diffuse. The encoding of the roughness is not
-// compared, nor a convention that the model leaves open.
+// Returns true if maps of the model `name` hold materials of `end` over `brdf`. For example `specular` and
+// mitsuba/ggx are both layers over mitsuba/ggx with plain diffuse. It does not compare the encoding of the
+// roughness, nor a convention that the model leaves open.
 bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf);
 
-// Whether both describe the same material by the same numbers over one BRDF. Their names and the encodings of
-// the roughness are not compared.
+// Returns true if both describe the same material by the same numbers over one BRDF. It does not compare
+// names and encodings of the roughness.
 bool is_same_material(const WorkflowEnd& a, const WorkflowEnd& b);
 
-// Converters of whole materials between workflows.
+// The following functions convert whole materials between workflows.
 
-// The parameters of a material of a workflow, in the order of Parameter.
+// Returns the parameters of a material of a workflow, in the order of Parameter.
 std::vector<Parameter> parameters_of(const WorkflowEnd& end);
 
-// The stages of a conversion from one workflow to another.
+// A WorkflowStages describes the stages of a conversion from one workflow to another.
 struct WorkflowStages {
   WorkflowEnd source, target;
-  // Between the BRDFs of both ends; null if they are the same.
+  // This converts between the BRDFs of both ends. It is null if they are the same.
   const Converter* brdf = nullptr;
   RoughnessEncoding width = RoughnessEncoding::kRoughness;  // of both ends if `brdf` is null
   double prior = kCleanPrior;                               // of the projection, if the target is metallic
 };
 
-// The stages: equation (2) if the source is metallic, then those of `brdf` for width and specular, then the
-// projection if the target is metallic; none for one material at both ends. The diffuse lobe keeps its
-// reflectance where `brdf` changes specular, so scaled diffuse is scaled to the new specular. Throws kInput
-// as require_valid() does.
+// Makes the converter from up to three stages. Equation (2) comes first if the source is metallic. Then
+// `brdf` changes width and specular. The projection comes last if the target is metallic. One material at
+// both ends needs no stage. The diffuse lobe keeps its reflectance when `brdf` changes specular, so scaled
+// diffuse is scaled to the new specular. Throws kInput like require_valid().
 std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
                                                    InstructionSet set = best_instruction_set());
 

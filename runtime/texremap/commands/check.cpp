@@ -1,4 +1,4 @@
-// `texremap check`: looks at materials and names what looks wrong. It converts and writes nothing.
+// This file is `texremap check`. It reports what looks wrong in materials. It converts and writes nothing.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -27,7 +27,7 @@
 
 namespace remap {
 
-// All members, for another process (packed_values.hpp). Names of rules are constants of both.
+// Lists all members for another process (packed_values.hpp). Both share the constants with rule names.
 template <typename Archive>
 void fields(Archive& archive, Fix& fix) {
   archive(fix.words, fix.command, fix.asset, fix.output, fix.options);
@@ -62,7 +62,7 @@ Reader<std::vector<std::string>> rule_names() {
                                      {}});
 }
 
-// The findings in one material, and messages about files that cannot be read.
+// A MaterialReport holds the findings in one material, and messages about files that cannot be read.
 struct MaterialReport {
   std::vector<MaterialFinding> findings;
   std::vector<std::string> problems;

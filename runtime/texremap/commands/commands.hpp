@@ -1,4 +1,4 @@
-// The commands of texremap. Each has a file of its own.
+// This file declares the commands of texremap. Each is in a separate file.
 #pragma once
 
 #include "command_line/command.hpp"
@@ -6,8 +6,8 @@
 
 namespace remap {
 
-// The program: run_app() with all of its commands. Callable more than once in a process, and from one thread
-// at a time.
+// Runs the program: run_app() with all of its commands. It may be called more than once in a process, but
+// only by one thread at a time.
 int run_texremap(int argc, const char* const* argv) noexcept;
 
 void add_check_command(Command& app);

@@ -1,4 +1,4 @@
-// `texremap convert`: converts texture sets, assets or numbers.
+// This file is `texremap convert`, which converts texture sets, assets or numbers.
 #include "texremap/commands/convert.hpp"
 
 #include "texremap/commands/commands.hpp"

@@ -1,4 +1,4 @@
-// Files that hand a conversion in parts to a scheduler.
+// This file writes files that hand a conversion in parts to a scheduler.
 #pragma once
 
 #include <cstddef>
@@ -15,21 +15,21 @@ enum class PlanKind { kSlurm, kOpenJd, kCommands };
 inline constexpr NamedValues<PlanKind, 3> kPlanKinds = {
     {{PlanKind::kSlurm, "slurm"}, {PlanKind::kOpenJd, "openjd"}, {PlanKind::kCommands, "commands"}}};
 
-// A conversion in parts, and what each part needs.
+// A PlannedFarm is a conversion in parts, with the needs of each part.
 struct PlannedFarm {
   std::string program;                                   // texremap, as the jobs call it
-  std::filesystem::path manifest, tree, output, folder;  // absolute; of the plan itself last
+  std::filesystem::path manifest, tree, output, folder;  // absolute; `folder` is the plan's
   std::vector<std::string> options;                      // of convert, without the above
   std::size_t parts = 1;
-  unsigned threads = 1;      // of a part; 0 for all of its machine
+  unsigned threads = 1;      // of a part; 0 for all threads of its machine
   int memory_megabytes = 0;  // of a part
-  int minutes = 0;           // that a part may take
+  int minutes = 0;           // limit for a part
 };
 
-// Throws kUsage for words that the files of a plan cannot hold: a line break would begin a line of a script.
+// Throws kUsage for words that the files of a plan cannot hold. A line break would begin a script line.
 void require_writable(PlanKind kind, const PlannedFarm& farm);
 
-// The files of a plan, by their names, and the line of a shell that submits them.
+// A PlanFiles holds the files of a plan, by their names, and the shell command that submits them.
 struct PlanFiles {
   std::vector<std::pair<std::string, std::string>> files;
   std::string submit;

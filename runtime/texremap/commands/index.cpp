@@ -1,5 +1,5 @@
-// `texremap index`: lists the texture sets of a tree, or its assets, in a manifest, by which many processes
-// share one conversion.
+// This file is `texremap index`. It lists the texture sets of a tree, or its assets, in a manifest. Many
+// processes can then share one conversion.
 #include <iostream>
 
 #include "command_line/run_app.hpp"
@@ -30,7 +30,7 @@ Listing listing_of_sets(const IndexOptions& options) {
   discovery.naming = &naming;
   Listing listing;
   listing.found = find_sets(options.folder, discovery);
-  // Names of results are those of sets: of two that differ in case alone, parts would write one file.
+  // Refuses the second of two sets whose names differ only in case, because parts would write the same file.
   WrittenNames names;
   std::erase_if(listing.found.sets, [&](const FoundSet& set) {
     const std::filesystem::path place = options.folder / set.folder / set.name;

@@ -1,4 +1,5 @@
-// `texremap list`: the names for --from and --to; converters with their self-tests, models, workflows.
+// This file is `texremap list`. It lists the names for --from and --to, converters with their self-tests,
+// models and workflows.
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -30,7 +31,7 @@ struct ListOptions {
   UsedConverters converters;
 };
 
-// A converter as a path of one step.
+// A ListedConverter is a converter as a path of one step.
 struct ListedConverter {
   const Converter& converter;
   ConverterPath path;
@@ -185,7 +186,7 @@ void print_names(const char* heading, std::span<const KnownName> names) {
   }
 }
 
-// The models of each renderer on a line.
+// Prints the models of each renderer on one line.
 void print_renderers(const std::vector<std::string>& models) {
   std::string line, renderer;
   for (const std::string& model : models) {

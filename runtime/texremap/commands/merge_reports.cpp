@@ -1,4 +1,4 @@
-// `texremap merge-reports`: one report of the parts of a conversion, which names what is missing.
+// `texremap merge-reports` makes one report of the parts of a conversion, and reports missing parts.
 #include <iostream>
 #include <optional>
 
@@ -32,7 +32,7 @@ Json summary_json(const MergedReport& merged) {
   return {{"summary", summary}};
 }
 
-// More failures than a person reads; the report has all.
+// Nobody reads more failures on the screen; the report has all.
 constexpr std::size_t kShownFailures = 20;
 
 void merge(const MergeOptions& options) {

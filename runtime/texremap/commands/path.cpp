@@ -1,5 +1,5 @@
-// `texremap path`: explains which converters `convert` uses from one model to another, with their errors and
-// the reason for the choice.
+// This file is `texremap path`. It explains which converters `convert` uses from one model to another, with
+// their errors and the reason for the choice.
 #include "remap/path.hpp"
 
 #include <iostream>
@@ -17,17 +17,17 @@
 namespace remap {
 namespace {
 
-// The chosen path and the next best two.
+// These are the chosen path and the next best two.
 constexpr std::size_t kPathsShown = 3;
 
-// The paths and errors that the command prints.
+// A Plan holds the paths and errors that the command prints.
 struct Plan {
   std::vector<ConverterPath> paths;     // the chosen one and the next best
   ConverterInfo whole;                  // of the chosen one
-  std::optional<ConverterPath> closer;  // than the chosen one
+  std::optional<ConverterPath> closer;  // closer than the chosen one
 };
 
-// The reason why the first of `paths` was chosen.
+// Returns the reason why the first of `paths` was chosen.
 std::string reason(const std::vector<ConverterPath>& paths) {
   if (paths.size() == 1) return "it is the only path";
   const ConverterPath &best = paths[0], &next = paths[1];
@@ -96,7 +96,7 @@ std::string end_text(const WorkflowEnd& end, const std::string& brdf) {
          std::string(diffuse_convention_name(diffuse_of(end)));
 }
 
-// The stages of a material conversion, with the models at both ends.
+// Returns the stages of a material conversion, with the models at both ends.
 std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
   std::vector<std::string> stages = {end_text(*choice.source, choice.source_brdf)};
   const bool from_metallic = kind_of(*choice.source) == WorkflowKind::kMetallic;

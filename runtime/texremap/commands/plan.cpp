@@ -1,5 +1,5 @@
-// `texremap plan`: files that hand a conversion in parts to a scheduler. It measures a few entries to say
-// what a part needs, and submits nothing.
+// This file is `texremap plan`. It writes files that hand a conversion in parts to a scheduler. It measures a
+// few entries to estimate what a part needs, and submits nothing.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -26,26 +26,26 @@ struct PlanOptions {
   PlanKind kind = PlanKind::kCommands;
   std::filesystem::path manifest, folder;
   std::vector<std::string> words;  // of convert
-  std::size_t parts = 0;           // 0: chosen
+  std::size_t parts = 0;           // 0: automatic
   unsigned threads = 1;
   int memory_megabytes = 0, minutes = 0;  // 0: measured
   std::string program;
   bool force = false, json = false, quiet = false;
 };
 
-// A part takes a quarter of an hour: long beside its start, short beside the time that a kill loses.
+// A part takes a quarter of an hour: long compared with its start, and short enough to lose after a kill.
 constexpr double kUsualSeconds = 900.0;
-// More parts are refused by a cluster with the default of Slurm's MaxArraySize.
+// A cluster with the default of Slurm's MaxArraySize refuses more parts.
 constexpr std::size_t kMostParts = 1000;
 constexpr std::size_t kMeasuredEntries = 8;
 
-// Time and memory of a conversion on this machine.
+// A Measurement holds time and memory of a conversion on this machine.
 struct Measurement {
   double seconds_a_cost = 0.0;  // on one thread
   double memory_bytes = 0.0;
 };
 
-// The largest entry, and others evenly spread over the entries by their cost.
+// Returns the largest entry, and others evenly spread over the entries by their cost.
 Listing sample_of(const TreeManifest& manifest) {
   std::vector<std::size_t> order(manifest.costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -96,7 +96,7 @@ std::filesystem::path whole(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal();
 }
 
-// The options of convert that the words of a plan give. Throws kUsage for those that the plan writes itself.
+// Reads the options of convert from the words for a plan. Throws kUsage for options of the plan itself.
 ConvertOptions options_of(const std::vector<std::string>& words) {
   Command command("The options of texremap convert", "texremap convert");
   ConvertOptions options;
@@ -112,7 +112,7 @@ ConvertOptions options_of(const std::vector<std::string>& words) {
   return options;
 }
 
-// The same options without the output folder, with the paths of files absolute: jobs run in other folders.
+// Returns the options without the output folder, with absolute paths, because jobs run in other folders.
 std::vector<std::string> words_of_jobs(const ConvertOptions& options) {
   std::vector<std::string> words;
   for (const GivenOption& option : options.given) {
@@ -165,7 +165,7 @@ void plan(const PlanOptions& options) {
                                 std::size_t{1}, std::min(kMostParts, manifest.costs.size()));
   const double longest =
       one.seconds_a_cost * static_cast<double>(highest_cost_of_part(manifest, farm.parts)) / threads;
-  // Other machines are slower, and storage that many read at once is.
+  // Allow more time, because other machines and shared storage are slower.
   farm.minutes = options.minutes > 0 ? options.minutes : rounded_up(5.0 + 3.0 * longest / 60.0, 5);
   farm.memory_megabytes = options.memory_megabytes > 0 ? options.memory_megabytes
                                                        : rounded_up(1.5e-6 * one.memory_bytes * threads, 100);

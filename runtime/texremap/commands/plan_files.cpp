@@ -1,5 +1,5 @@
-// The texts of plans. Slurm: sbatch(1), job arrays and dependencies. Open Job Description: template schema
-// 2023-09 (OpenJobDescription/openjd-specifications).
+// This file writes the texts of plans. Slurm: sbatch(1), job arrays and dependencies. Open Job Description:
+// template schema 2023-09 (OpenJobDescription/openjd-specifications).
 #include <algorithm>
 
 #include "core/errors.hpp"
@@ -16,7 +16,7 @@ std::string shell_line(const std::vector<std::string>& words) {
   return text;
 }
 
-// A folder and a file name in a line #SBATCH. sbatch(1) replaces %, and takes words as a shell does.
+// Writes a folder and a file name in a line #SBATCH. sbatch(1) replaces %, and reads words like a shell.
 std::string log_line(const std::filesystem::path& folder, const std::string& name) {
   std::string text;
   for (const char c : folder.string()) {
@@ -27,7 +27,7 @@ std::string log_line(const std::filesystem::path& folder, const std::string& nam
   return "#SBATCH --output=\"" + text + "/" + name + "\"\n";
 }
 
-// Paths as a plan writes them: literally, or as parameters of a template.
+// A PlannedPaths holds paths as a plan writes them: literally, or as parameters of a template.
 struct PlannedPaths {
   std::string program, manifest, tree, output, report;
 };
@@ -37,7 +37,7 @@ PlannedPaths paths_of(const PlannedFarm& farm) {
           (farm.folder / "report.jsonl").string()};
 }
 
-// `part`: the value of --part.
+// `part` is the value of --part.
 std::vector<std::string> convert_words(const PlannedFarm& farm, const PlannedPaths& paths,
                                        const std::string& part) {
   std::vector<std::string> words = {paths.program,  "convert", paths.tree, "--manifest",
@@ -73,7 +73,7 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
       "exit \"$code\"\n";
   const std::string merge = "#!/bin/sh\n#SBATCH --job-name=texremap-merge\n#SBATCH --ntasks=1\n" +
                             log_line(log, "merge.txt") + "\n" + shell_line(merge_words(paths)) + "\n";
-  // Parts may be given, as in `submit.sh 3,17`: those to do again.
+  // The script accepts parts to repeat, as in `submit.sh 3,17`.
   const std::string submit =
       "#!/bin/sh\n# Submits all parts, or the parts of its argument (3,17-19), and after them the merge.\n"
       "set -e\nhere=" +
@@ -97,8 +97,8 @@ PlanFiles commands_files(const PlannedFarm& farm) {
               shell_word((farm.folder / "merge.sh").string())};
 }
 
-// A parameter of a template that is a path, which farms translate to where a worker sees it. Its value stands
-// in a file beside the template: a default must not be absolute.
+// Returns a parameter of a template that is a path, which farms translate for each worker. Its value is in a
+// file beside the template, because a default must not be absolute.
 Json path_parameter(const std::string& name, const std::string& object, const std::string& flow) {
   return {{"name", name}, {"type", "PATH"}, {"objectType", object}, {"dataFlow", flow}};
 }
@@ -114,7 +114,7 @@ std::string file_uri(const std::filesystem::path& path) {
   return uri;
 }
 
-// A command without a shell: each word is an argument. A stopped one has time to leave nothing half done.
+// Returns a command without a shell: each word is an argument. A stopped command has time to clean up.
 Json script_json(const std::vector<std::string>& words) {
   const std::vector<std::string> arguments(words.begin() + 1, words.end());
   return {{"actions",
@@ -178,7 +178,7 @@ void require_writable(PlanKind kind, const PlannedFarm& farm) {
     if (kind == PlanKind::kOpenJd &&
         (option.find("{{") != std::string::npos || option.find("}}") != std::string::npos))
       refuse(option, "a template of OpenJD cannot hold {{ or }}");
-  // sbatch would take the rest of the name as it is written, also what stands for the number of a part.
+  // Refuse backslashes: sbatch would then not replace the number of a part in the rest of the name.
   if (kind == PlanKind::kSlurm && farm.folder.string().find('\\') != std::string::npos)
     refuse(farm.folder.string(), "sbatch cannot write logs to a folder with a backslash in its name");
 }

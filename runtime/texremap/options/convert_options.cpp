@@ -74,7 +74,7 @@ Reader<InstructionSet> instructions() {
           {}};
 }
 
-// The number from 0 to `highest` in `text`; `allowed` tells the user what the option takes.
+// Reads the number from 0 to `highest` in `text`. `allowed` describes the accepted words in messages.
 double number_of(const std::string& option, const std::string& text, double highest,
                  const std::string& allowed) {
   const auto number = parse_number(text);
@@ -102,7 +102,7 @@ Reader<double> prior() {
 
 ColorSpaceWord color_space_word(const std::string& option, const std::string& word) {
   const std::size_t sign = word.find('=');
-  // Without a sign, npos + 1 is 0: the whole word.
+  // Without a sign, npos + 1 is 0, which gives the whole word.
   const Transfer transfer = one_of(kTransfers, "color space").read(option, word.substr(sign + 1));
   if (sign == std::string::npos) return {std::nullopt, transfer};
   const std::string name = word.substr(0, sign);
@@ -114,7 +114,7 @@ ColorSpaceWord color_space_word(const std::string& option, const std::string& wo
   fail_unknown(option, "color", name, known);
 }
 
-// A list such as `srgb` or `specular=linear,diffuse=srgb`.
+// Reads a list such as `srgb` or `specular=linear,diffuse=srgb`.
 Reader<std::vector<ColorSpaceWord>> color_spaces() {
   return list_of(Reader<ColorSpaceWord>{color_space_word, {}});
 }

@@ -1,4 +1,4 @@
-// The options of `texremap convert`, as values.
+// This file declares the options of `texremap convert` as values.
 #pragma once
 
 #include <cstdint>
@@ -22,52 +22,52 @@
 
 namespace remap {
 
-// Tags of options: when an option applies, and what its use changes.
+// These tags of options state when an option applies, and what its use changes.
 enum : OptionTags {
   kChangesResults = 1u << 0u,
-  kNeedsFiles = 1u << 1u,   // has no effect where all maps are numbers
+  kNeedsFiles = 1u << 1u,   // has no effect if all maps are numbers
   kNeedsFolder = 1u << 2u,  // of texture sets
   kNeedsWorkflow = 1u << 3u,
   kNeedsMetallic = 1u << 4u,  // as a result
   kNotWithWorkflow = 1u << 5u,
   kNotWithWarp = 1u << 6u,
-  kNotWithDiffuseWarp = 1u << 7u,  // a warp whose source is a diffuse map alone
+  kNotWithDiffuseWarp = 1u << 7u,  // a warp whose source is only a diffuse map
   kNeedsAsset = 1u << 8u,          // assets instead of texture sets
   kNeedsGltf = 1u << 9u,           // among the assets
   kForAssets = 1u << 10u,          // assets as well as texture sets
-  kNeedsTree = 1u << 11u,          // where assets are converted, a folder of them
-  kIsPath = 1u << 12u,             // of a file or folder, seen from where the program runs
-  kOfPlan = 1u << 13u,             // which texremap plan writes itself
+  kNeedsTree = 1u << 11u,          // if assets are converted, a folder of them
+  kIsPath = 1u << 12u,             // of a file or folder, relative to the working folder
+  kOfPlan = 1u << 13u,             // texremap plan writes it itself
 };
 
 using MapSource = std::variant<MapName, ConstantValues>;
 
-// The color space of one color, or without a parameter of all.
+// A ColorSpaceWord is the color space of one color, or of all colors if it has no parameter.
 struct ColorSpaceWord {
   std::optional<Parameter> parameter;
   Transfer transfer;
 };
 
-// The source of the F0 of dielectrics.
+// An F0Choice is the source of the F0 of dielectrics.
 struct FromMaps {};
 using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
 
-// A model as `--from` and `--to` name it.
+// Returns a reader for a model in `--from` and `--to`.
 Reader<ModelName> model_name();
 
-// The bytes of `megabytes`, or a quarter of the machine's memory for 0.
+// Returns the bytes of `megabytes`, or a quarter of the machine's memory for 0.
 std::uint64_t memory_limit(int megabytes);
 Option* add_memory_option(Command& command, int& megabytes);
 
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
-  std::filesystem::path folder;  // of texture sets, or a glTF file; empty where the options name one set
+  std::filesystem::path folder;  // of texture sets, or a glTF file; empty if the options name one set
   std::vector<std::filesystem::path> more_assets;
-  bool assets = false;                // the folder is of assets, not of texture sets
-  std::filesystem::path asset_root;   // below which assets may name files
-  bool extensions = false;            // of glTF, in place of core
-  std::optional<MtlMaker> mtl_maker;  // of MTL files; none: as they say
+  bool assets = false;                // the folder holds assets, not texture sets
+  std::filesystem::path asset_root;   // assets may name files only below it
+  bool extensions = false;            // of glTF, instead of core
+  std::optional<MtlMaker> mtl_maker;  // of MTL files; if none, the files decide
   bool fold_specular = false, keep_unused = false, bake = false;
   std::optional<int> jpeg;  // quality
   ModelName from, to;
@@ -76,11 +76,11 @@ struct ConvertOptions {
   UsedConverters converters;
   bool recursive = false;
   bool follow_links = false;       // out of the folder of the inputs
-  std::filesystem::path manifest;  // that lists the sets or assets, in place of a search in the folder
+  std::filesystem::path manifest;  // lists the sets or assets, so that the folder is not searched
   std::optional<GivenPart> part;   // of the manifest
 
   std::map<Parameter, std::optional<MapSource>> maps;
-  std::optional<MapSource> glossiness;  // read into `maps` as roughness, too
+  std::optional<MapSource> glossiness;  // also read into `maps` as roughness
   std::optional<MapSource> occlusion;
   std::optional<RoughnessEncoding> roughness_encoding;  // of roughness maps
   std::map<Parameter, std::vector<float>> factors;
@@ -101,11 +101,10 @@ struct ConvertOptions {
   std::optional<PixelType> type;
   std::optional<int> compression;  // level
   std::optional<RoughnessEncoding> output_encoding;
-  std::optional<double>
-      output_roughness_factor;  // the exponent that a stored 1 stands for, where it is known
+  std::optional<double> output_roughness_factor;  // the exponent that a stored 1 means, if known
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
-  std::filesystem::path diagnose;  // folder for the maps of diagnoses; empty for none
+  std::filesystem::path diagnose;  // folder for diagnosis maps; empty for none
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool only_converted = false, force = false, dry_run = false;
@@ -113,34 +112,34 @@ struct ConvertOptions {
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core
   int threads() const;
-  int memory_megabytes = 0;  // 0 for a quarter of the machine's
+  int memory_megabytes = 0;  // 0 for a quarter of the machine's memory
   std::uint64_t memory_bytes() const { return memory_limit(memory_megabytes); }
 
-  // Null where the option of the parameter was not given.
+  // Returns null if the option of the parameter was not given.
   const MapSource* map_of(Parameter parameter) const {
     const auto found = maps.find(parameter);
     return found == maps.end() || !found->second ? nullptr : &*found->second;
   }
-  // Whether the roughness map was given as glossiness.
+  // Returns true if the roughness map was given as glossiness.
   bool reads_glossiness() const { return glossiness.has_value(); }
 };
 
 void add_convert_options(Command& command, ConvertOptions& options);
 
-// The files of the engine that `--layout` or `--to` names, with its format and pixel type where these were
-// not given.
+// Chooses the files of the engine that `--layout` or `--to` names. Its format and pixel type apply unless the
+// user gave others.
 void choose_files(ConvertOptions& options);
 
-// The direction of green in normal maps of a source or target; none if it is not documented.
+// Returns the direction of green in normal maps of a source or target, or nothing if it is not documented.
 std::optional<NormalGreen> normals_of(const ModelName& model);
 
-// Throws kUsage if an option with `tag` was given: `--only` and the reason.
+// Throws kUsage if an option with `tag` was given, with the option and the reason.
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);
 
-// Of the command line that `command` has read: the options that were given, and what follows from them.
+// Records the options of the command line that `command` has read, and their consequences.
 void note_given(const Command& command, ConvertOptions& options);
 
-// All options that the results depend on, as on a command line.
+// Returns all options that the results depend on, as on a command line.
 std::string result_options_text(const ConvertOptions& options);
 
 }  // namespace remap

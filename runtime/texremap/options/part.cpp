@@ -11,7 +11,8 @@
 namespace remap {
 namespace {
 
-// The variables by which a scheduler describes a job of an array; null if it does not set one.
+// A Scheduler holds the variables by which a scheduler describes a job of an array. A variable is null if the
+// scheduler does not set it.
 struct Scheduler {
   const char* name;
   const char* index;
@@ -45,7 +46,7 @@ class ArrayJob {
   ArrayJob(const Scheduler& scheduler, const Environment& environment)
       : scheduler_(scheduler), environment_(environment) {}
 
-  // Whether this is a job of an array: outside of one, Grid Engine says "undefined" and LSF 0.
+  // Returns true if this is a job of an array. Outside of an array, Grid Engine sets "undefined" and LSF 0.
   bool is_one() const {
     const char* text = environment_(scheduler_.index);
     if (text == nullptr || *text == '\0' || std::strcmp(text, "undefined") == 0) return false;
@@ -64,7 +65,7 @@ class ArrayJob {
                         " is not a number (give --part I/N)");
     return value;
   }
-  // The size of the array, where the environment tells it.
+  // Returns the size of the array, if the environment contains it.
   std::optional<std::size_t> own_count(std::size_t first) const;
 
   const Scheduler& scheduler_;
@@ -86,7 +87,7 @@ std::optional<std::size_t> ArrayJob::own_count(std::size_t first) const {
 
 GivenPart ArrayJob::part(std::optional<std::size_t> count) const {
   const std::size_t index = *number(scheduler_.index);
-  // With a given number of parts the array may be a piece of the whole one, such as the tasks to do again.
+  // With a given number of parts the array may be a piece of a whole, such as the tasks to repeat.
   const std::size_t first =
       count ? scheduler_.usual_first : number(scheduler_.first).value_or(scheduler_.usual_first);
   const bool is_given = count.has_value();

@@ -1,4 +1,4 @@
-// A part of a conversion that many processes share, and the paths of its journal and report.
+// This file describes a part of a shared conversion, and the paths of its journal and report.
 #pragma once
 
 #include <cstddef>
@@ -8,31 +8,31 @@
 
 namespace remap {
 
-// In an output folder: the journal of a run of all sets (journal.hpp), and the folder of the parts with a
-// journal and a report (`part-0012-of-0400.jsonl`) of each.
+// These are names in an output folder: the journal of a run of all sets (journal.hpp), and the folder of the
+// parts. It holds a journal and a report (`part-0012-of-0400.jsonl`) of each part.
 inline constexpr const char* kJournalName = ".texremap.jsonl";
 inline constexpr const char* kPartsFolder = ".texremap-parts";
 inline constexpr const char* kPartJournal = ".journal";
 inline constexpr const char* kPartReport = ".jsonl";
 
-// Part `index` of `count`, from 1. The parts of a manifest are runs of neighbouring sets of about equal cost.
+// A Part is part `index` of `count`, from 1. A manifest's parts are runs of sets of about equal cost.
 struct Part {
   std::size_t index = 1, count = 1;
   bool operator==(const Part&) const = default;
 };
 
-// `part-0012-of-0400`, and back; none for another name.
+// Converts a part to `part-0012-of-0400`, and back. Returns nothing for other names.
 std::string name_of(const Part& part);
 std::optional<Part> part_named(const std::string& name);
 
-// A part as the command line gives it.
+// A GivenPart is a part from the command line.
 struct GivenPart {
   Part part;
-  std::string note;  // what was understood, where the environment told it
+  std::string note;  // what was understood from the environment
 };
 
-// Reads `12/400`; `auto`, where the environment has the place in an array of jobs and its size; `auto/400`,
-// where it has the place alone. Throws kUsage, naming what is missing.
+// Reads `12/400`, `auto` or `auto/400`. `auto` needs the place in an array of jobs and its size in the
+// environment. `auto/400` needs only the place. Throws kUsage, with the missing value.
 GivenPart part_of(const std::string& word, const std::function<const char*(const char* name)>& environment);
 
 }  // namespace remap

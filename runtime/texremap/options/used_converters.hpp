@@ -1,4 +1,4 @@
-// `--converters`: the converters of a run.
+// This file handles `--converters`, the converters of a run.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,16 @@
 
 namespace remap {
 
-// The shipped converters, or those of a file or folder that --converters names, read once.
+// A UsedConverters holds the shipped converters, or the ones from --converters (a file or folder), read once.
 class UsedConverters {
  public:
   // Adds the option, which every command has. The object must live until the command has run.
   Option* add_option(Command& command);
-  // The graph of the converters, which lives no longer than this object. Throws kInput where they cannot be
-  // read.
+  // Returns the graph of the converters, which must not outlive this object. Throws kInput if unreadable.
   ConverterGraph graph(InstructionSet set = best_instruction_set()) const;
 
  private:
-  std::filesystem::path path_;  // empty: the shipped ones
+  std::filesystem::path path_;  // if empty, the shipped ones
   mutable std::map<InstructionSet, std::shared_ptr<const ConverterList>> read_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kCopiedAtOnce = std::uint64_t{1} << 20;
 
-// The path below a root that `path` means, seen from a folder below it.
+// Returns the path below a root that `path` means, relative to a folder below the root.
 fs::path below(const fs::path& folder, const fs::path& root, const std::string& path) {
   std::string slashes = path;
   std::ranges::replace(slashes, '\\', '/');

@@ -15,7 +15,7 @@
 
 namespace remap {
 
-// The bytes of a file that stays open: it is read to its end even where its name is given to another.
+// A FileSource gives the bytes of a file that stays open. It is read to its end even if its name changes.
 class FileSource final : public ByteSource {
  public:
   // Throws kInput unless `path` leads to a regular file that can be read.
@@ -29,18 +29,18 @@ class FileSource final : public ByteSource {
   InputFile file_;
 };
 
-// The files that the asset of a job may read, and the image library of the program.
+// A FolderResources gives the files that the asset of a job may read, and the image library of the program.
 class FolderResources final : public AssetResources {
  public:
-  // `job` must outlive it.
+  // `job` must outlive this object.
   explicit FolderResources(const AssetWork& job) : job_(job) {}
   std::unique_ptr<ByteSource> open(const std::string& path) const override;
   const ImageCodec& codec() const override;
   ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override;
   std::string image_prefix() const override { return job_.image_prefix; }
 
-  // Where a file that the asset names is, and where the result finds it. Throws kInput for a name that leads
-  // out of the root.
+  // Return where a file that the asset names lies, and where the result finds it. Throw kInput for a name
+  // that leads out of the root.
   std::filesystem::path input(const std::string& path) const;
   std::filesystem::path output(const std::string& path) const;
 
@@ -48,23 +48,23 @@ class FolderResources final : public AssetResources {
   const AssetWork& job_;
 };
 
-// A file that the asset names, and its copy.
+// A ResourceCopy is a file that the asset names, and its copy.
 struct ResourceCopy {
   std::filesystem::path from, to;
 };
 
 struct ResourcePlan {
   std::vector<ResourceCopy> copies;   // that are missing beside the result
-  std::vector<std::string> warnings;  // files that the asset names and that are not there
+  std::vector<std::string> warnings;  // about missing files that the asset names
 };
 
-// What must be copied so that the result finds the files that the asset names; nothing in one folder. Throws
-// kInput for a name that leads out of the root or to the asset itself, or that is one of texremap's own
-// files. `require_free` is called for each file that a copy would replace, and throws where it must not.
+// Plans the copies that the result needs to find the files that the asset names. In one folder it needs none.
+// Throws kInput for a name that leads out of the root or to the asset itself, or that is one of texremap's
+// own files. It calls `require_free` for each file that a copy would replace; which throws if it must stay.
 ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResource>& resources,
                             const std::function<void(const std::filesystem::path&)>& require_free);
 
-// Whether the file holds these bytes. Throws kInput.
+// Returns true if the file holds these bytes. Throws kInput.
 bool have_same_bytes(const std::filesystem::path& file, std::string_view bytes);
 bool are_same_files(const std::filesystem::path& a, const std::filesystem::path& b);
 

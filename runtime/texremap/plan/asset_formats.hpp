@@ -1,4 +1,4 @@
-// The formats of assets by the extensions of their files: what reads each, and what it may become.
+// This file maps extensions of assets to formats: which code reads each, and what each may become.
 #pragma once
 
 #include <filesystem>
@@ -10,26 +10,26 @@
 namespace remap {
 
 bool is_asset_name(const std::filesystem::path& path);
-// Whether the file is glTF, to which most options of assets apply.
+// Returns true if the file is glTF, to which most options of assets apply.
 bool is_gltf_name(const std::filesystem::path& path);
 
-// The extensions, without dot, of the assets in a folder that a run with this `--format` converts: OBJ files
-// where it names what they become, else files that stay of their kind.
+// Returns the extensions, without dot, of the assets in a folder that a run with this `--format` converts. If
+// `--format` is given these are OBJ files, otherwise files that keep their format.
 std::vector<std::string> asset_extensions(const std::string& format);
-// The same in words, such as `glTF or MTL file`.
+// Returns the same in words, such as `glTF or MTL file`.
 std::string asset_words(const std::string& format);
 
-// The extension of the result, with its dot; empty where that of the input stays. Throws kUsage where the
-// input cannot become `format`.
+// Returns the extension of the result, with its dot, or an empty text if the input's extension stays. Throws
+// kUsage if the input cannot become `format`.
 std::string result_extension(const std::filesystem::path& input, const std::string& format);
-// Throws kUsage where `input` cannot become a file of the kind of `output`.
+// Throws kUsage if `input` cannot become a file of the kind of `output`.
 void require_format(const std::filesystem::path& input, const std::filesystem::path& output);
 
-// The files that an asset names. Throws kInput.
+// Returns the files that an asset names. Throws kInput.
 std::vector<AssetResource> resources_of_asset(const ByteSource& source, const std::filesystem::path& input,
                                               const AssetResources& resources);
 
-// `source` is the content of `input`. Throws kInput and kOutput, naming it.
+// Converts `source`, the content of `input`. Throws kInput and kOutput, with the path.
 AssetConversion convert_asset(const ByteSource& source, const std::filesystem::path& input,
                               const std::filesystem::path& output, const AssetOptions& options,
                               const AssetResources& resources);

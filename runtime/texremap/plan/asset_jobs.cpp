@@ -17,7 +17,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// `chair.gltf` as the name of its result: another extension where the format changes.
+// Returns the name of the result of `chair.gltf`. Its extension changes if the format does.
 fs::path result_name(const fs::path& input, const ConvertOptions& options) {
   fs::path name = input;
   if (const std::string extension = result_extension(input, options.format); !extension.empty())
@@ -33,7 +33,7 @@ void add(AssetWork asset, JobList& list) {
   job.work = std::move(asset);
 }
 
-// The assets that the command line names. --output is a folder, or for one asset a file.
+// Adds the assets on the command line. --output is a folder, or for one asset a file.
 void add_named(const ConvertOptions& options, JobList& list) {
   const std::vector<fs::path> inputs = named_assets(options);
   if (is_asset(options.output)) {
@@ -96,8 +96,8 @@ void add_listed(const ConvertOptions& options, const Listing& listing, JobList& 
   list.is_of_folder = list.has_several = true;
 }
 
-// The files that an asset names and that are there, each once, sorted. An asset that cannot be read, or that
-// names what it may not, fails later.
+// Returns the existing files that an asset names, each once, sorted. An asset that cannot be read, or that
+// names a forbidden file, fails later.
 std::vector<fs::path> files_of(const AssetWork& asset) {
   std::set<fs::path> files;
   try {
@@ -114,8 +114,8 @@ std::vector<fs::path> files_of(const AssetWork& asset) {
   return {files.begin(), files.end()};
 }
 
-// Gives each asset the names that it will write: its result, copies of what it names, and what its new images
-// begin with. Of two that would write one file the second is refused, or names its new images otherwise.
+// A NamePlan gives each asset the names that it will write: its result, copies, and the prefix of its new
+// images. If two assets would write the same file, it refuses the second, or changes its prefix.
 class NamePlan {
  public:
   explicit NamePlan(JobList& list) : list_(list) {}
@@ -143,9 +143,9 @@ class NamePlan {
     }
   }
 
-  // New images are named after images that the asset names. Where two assets name images of one stem, and
-  // where a new image could have the name of a file of another one, their names begin with that of the asset:
-  // `chair_`, or `chair_2_` where another asset has that.
+  // Sets prefixes. New images are named after images that the asset names. Two assets may use the same image
+  // stem, or a new image could get the name of another asset's file. Then the prefix is the asset's name:
+  // `chair_`, or `chair_2_` if another asset has that.
   void set_prefixes() {
     for (Job& job : list_.jobs) take_stems(asset_in(job));
     for (Job& job : list_.jobs) {
@@ -158,7 +158,7 @@ class NamePlan {
   }
 
  private:
-  // The asset whose new images are named after a stem; null if there are several.
+  // Maps a stem to the asset whose new images are named after it, or to null if there are several.
   using Stems = std::unordered_map<std::string, const AssetWork*>;
 
   void take(Job& job, const fs::path& name, const std::string& owner) {
@@ -166,14 +166,13 @@ class NamePlan {
     if (!other.empty() && job.refusal.empty()) job.refusal = written_twice_text(name, other, owner);
   }
 
-  // The key of a name in take_stems().
+  // Returns the key of a name in take_stems().
   static std::string stem_of(const fs::path& name) {
     const std::string key = name_key(name);
     return key.substr(0, key.size() - fs::path(key).extension().string().size());
   }
 
-  // The stem after which a new image could have this name, if there is one: `wood` for
-  // `wood_roughness_2.png`.
+  // Records the stem for which a new image could have this name: `wood` for `wood_roughness_2.png`.
   void note_name(const fs::path& name) {
     std::string stem = stem_of(name);
     const std::size_t digits = stem.find_last_not_of("0123456789");
@@ -212,7 +211,7 @@ class NamePlan {
 
   JobList& list_;
   Stems stems_;
-  std::unordered_map<std::string, std::set<fs::path>> names_;  // of files, by the stem that could give them
+  std::unordered_map<std::string, std::set<fs::path>> names_;  // files, by the stem that could name them
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The converter of a run over texture sets, and the workflows around it.
+// This file chooses the converter of a run over texture sets, and the workflows around it.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ struct ChosenConverter : BuiltConversion {
   WorkflowChoice workflow;
 };
 
-// `diffuse plain, dielectric F0 0.04`.
+// Returns a text such as `diffuse plain, dielectric F0 0.04`.
 std::string conventions_text(const WorkflowEnd& end);
 
-// The text that results carry as `remap:converter`: the ids of the steps, and the formula of a workflow.
+// Returns the text that results store as `remap:converter`: the ids of steps, and a workflow's formula.
 std::string converter_ids(const ChosenConverter& chosen);
 
 }  // namespace remap

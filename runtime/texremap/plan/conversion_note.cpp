@@ -9,12 +9,12 @@
 namespace remap {
 namespace {
 
-// The texels that a converter is known by: a change of any of its numbers that the hash of their results
-// misses would have to lie between them.
+// A converter is identified by this many texels. A changed number that the hash of their results misses would
+// affect only values between them.
 constexpr std::size_t kProbed = 4096;
 
-// Term `index` of the additive recurrence of dimension `row` (Weyl 1916, with roots of primes): evenly spread
-// in [0, 1).
+// Returns term `index` of the additive recurrence of dimension `row` (Weyl 1916, with roots of primes). The
+// terms are evenly spread in [0, 1).
 double spread(std::size_t index, std::size_t row) {
   constexpr std::array kPrimes = {2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0};
   const double step = std::sqrt(kPrimes[row % kPrimes.size()]);
@@ -22,7 +22,8 @@ double spread(std::size_t index, std::size_t row) {
   return value - std::floor(value);
 }
 
-// Adds what the converter makes of texels all over its domain and a little beyond: its numbers and its code.
+// Adds the converter's results for texels all over its domain and slightly beyond. They depend on numbers and
+// code.
 void add_behaviour(const Converter& converter, ContentHash& hash) {
   const ConverterInfo& info = converter.info();
   std::array<std::vector<float>, 3 * kParameterCount> in, out;

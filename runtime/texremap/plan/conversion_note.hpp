@@ -1,4 +1,4 @@
-// Everything that the results of a conversion depend on, except the inputs. A later run compares it.
+// This file records what results of a conversion depend on, except the inputs. A later run compares it.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace remap {
 
 struct ConversionNote {
   std::string source, target;  // models
-  std::string hash;            // of all, with the numbers that the converter gives
-  // The differences that a message shows: converter, options, version.
+  std::string hash;            // of all, including the converter's results
+  // These are the differences that a message shows: converter, options, version.
   std::vector<std::pair<std::string, std::string>> details;
 };
 
-// The hash holds what the converter makes of texels all over its domain: its numbers and its code. `ids`: of
-// its steps; empty for assets. `options`: those that the results depend on.
+// Makes a note. The hash holds the converter's results for texels all over its domain, so it covers numbers
+// and code. `ids` are its steps, or empty for assets. `options` are the ones that the results depend on.
 ConversionNote conversion_note(const std::string& source, const std::string& target, const std::string& ids,
                                const Converter& converter, const std::string& options);
 

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::array kColors = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor};
 
-// The color space of each of `colors` that `words` name. Throws kUsage for a word that applies to none of
-// them. `reason` ends the message: "no specular is a result".
+// Returns the color space of each of `colors` that `words` name. Throws kUsage for a word that applies to
+// none of them. `reason` ends the message: "no specular is a result".
 std::map<Parameter, Transfer> color_spaces(const std::string& option,
                                            const std::vector<ColorSpaceWord>& words,
                                            const std::vector<Parameter>& colors, const std::string& reason) {
@@ -38,7 +38,7 @@ std::map<Parameter, Transfer> color_spaces(const std::string& option,
   return chosen;
 }
 
-// The colors that may be read from maps: with a folder all of the source.
+// Returns the colors that may be read from maps. With a folder these are all colors of the source.
 std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
                                                 const WorkflowChoice& workflow) {
   std::vector<Parameter> colors;
@@ -95,7 +95,7 @@ void require_read(const ConvertOptions& options, const WorkflowChoice& workflow)
       refuse_map(parameter_option(parameter) + "-factor", false);
 }
 
-// Refuses options of a folder with a single set, and maps that a folder does not take.
+// Refuses options for a folder if there is one set, and maps that cannot be used with a folder.
 void require_one_way(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const bool is_tree = !options.folder.empty();
   if (!is_tree) refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");
@@ -108,7 +108,7 @@ void require_one_way(const ConvertOptions& options, const WorkflowChoice& workfl
   if (!is_tree) require_parameters(options, workflow);
 }
 
-// With a folder, each set finds its own file.
+// Keeps only numbers, because in a folder each set finds its own file.
 void keep_numbers(const ConvertOptions& options, ParameterRequest& parameter) {
   if (!options.folder.empty() && std::holds_alternative<MapName>(parameter.source))
     parameter.source = MapName{};
@@ -122,7 +122,7 @@ std::string one_channel(const std::string& option, const std::filesystem::path& 
 
 namespace {
 
-// The encoding of the roughness maps. `--roughness` means roughness even for a model that takes glossiness.
+// Returns the encoding of the roughness maps. `--roughness` never means glossiness.
 std::optional<RoughnessEncoding> given_convention(const ConvertOptions& options,
                                                   const WorkflowChoice& workflow) {
   if (options.reads_glossiness()) return RoughnessEncoding::kGlossiness;
@@ -226,7 +226,7 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
 
 namespace {
 
-// Refuses an encoding of the results that their names contradict or that nothing is written in.
+// Refuses an encoding of the results that their names contradict, or that no result uses.
 void require_encoding(const ConvertOptions& options, const TargetChoice& choice) {
   const auto& asked = options.output_encoding;
   if (!asked) return;

@@ -1,4 +1,4 @@
-// Translates the options of `texremap convert` into requests of the texture library.
+// This file translates the options of `texremap convert` into requests of the texture library.
 #pragma once
 
 #include <filesystem>
@@ -13,38 +13,38 @@
 
 namespace remap {
 
-// Each function throws kUsage, naming the option, for an invalid value.
+// Each function throws kUsage, with the option, for an invalid value.
 TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow);
-// The option that takes one channel of a map: `--roughness '*_rough.jpg:G'`; empty without a file.
+// Returns the option for one channel of a map: `--roughness '*_rough.jpg:G'`. It is empty without a file.
 std::string one_channel(const std::string& option, const std::filesystem::path& file);
-// The files to copy with the one set that the options name.
+// Returns the files to copy if the options name one set.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
-// The copy of a normal map of a folder. Green is inverted where it points another way than the target reads
-// it, unless the folder has that map as well. The name of the map says where green points, else the source
-// does.
+// A CopiedNormals is the copy of a normal map of a folder. Green is inverted if its direction differs from
+// the target's, unless the folder has that map as well. The name of the map decides the direction, otherwise
+// the source does.
 struct CopiedNormals {
   CopiedFile copy;
-  std::string reason;  // why green is inverted, or kept although nothing is known; else empty
+  std::string reason;  // why green is inverted, or kept although nothing is known; or empty
 };
 CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source);
-// The file that an option gives for every set of a folder: the path as given, or below the folder; none for a
-// pattern and for a name in the folders of sets.
+// Returns the file that an option gives for every set of a folder: the given path, or a path below the
+// folder. Returns nothing for a pattern and for a name in the folders of sets.
 std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
                                                 const std::filesystem::path& given);
-// All of them.
+// Returns all such files.
 std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
-// The roughness of a set before the conversion.
+// A WidthSource is the roughness of a set before the conversion.
 struct WidthSource {
   std::filesystem::path file;                   // empty for a number
-  std::optional<RoughnessEncoding> convention;  // where an option or the name of the file says it
+  std::optional<RoughnessEncoding> convention;  // if an option or the file name states it
 };
-// What the roughness results of a set hold: `usual`, or what --output-encoding asks for, but what a name says
-// stays true: a map of glossiness that keeps its name stays glossiness, orm and arm hold roughness, specgloss
-// holds glossiness. Throws kUsage if --output-encoding contradicts a name that stays.
+// Returns the encoding of the roughness results of a set: `usual`, or the one of --output-encoding. Names
+// stay true: a map of glossiness that keeps its name stays glossiness, orm and arm hold roughness, specgloss
+// holds glossiness. Throws kUsage if --output-encoding contradicts such a name.
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
                                 const WidthSource& source, RoughnessEncoding usual);
-// Refuses --exponent-of-white for results that hold no exponent.
+// Refuses --exponent-of-white for results without an exponent.
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width);
 
 PassOptions pass_options(const ConvertOptions& options);

@@ -38,7 +38,7 @@ std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const
   return make_converter(*data, set);
 }
 
-// The fit that --fit names; none without that option.
+// A GivenFit is the fit of --fit, or empty without that option.
 using GivenFit = std::optional<FittedConverter>;
 
 const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
@@ -63,7 +63,7 @@ bool are_constants(const TextureSetRequest& request) {
   });
 }
 
-// Refuses results inside of the tree that a manifest lists: the next index would list them.
+// Refuses results inside the tree that a manifest lists, because the next index would list them.
 void require_outside(const std::filesystem::path& output, const std::filesystem::path& tree) {
   std::error_code failure;
   const std::filesystem::path below =
@@ -74,7 +74,7 @@ void require_outside(const std::filesystem::path& output, const std::filesystem:
                       ", the tree of the manifest (choose a folder outside of it)");
 }
 
-// A warning where roughness maps of a folder are read in another encoding than most tools write; else empty.
+// Returns a warning if roughness maps of a folder are read in an encoding that few tools write, or "".
 std::string encoding_warning(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
   if (options.folder.empty() || options.roughness_encoding ||
       source.roughness == RoughnessEncoding::kRoughness)
@@ -103,7 +103,7 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   return manifest;
 }
 
-// Per cent of one value, 0 to 255 of a color: the number from 0 to 1 that is meant.
+// Returns the number from 0 to 1 that is meant by per cent for one value, or by 0 to 255 for a color.
 std::string fractions_text(const std::vector<float>& values) {
   const bool is_percent = values.size() == 1 && values.front() <= 100.0f;
   std::string text;
@@ -138,7 +138,7 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
   for (const CarriedRequest& carried : request.carried) require("--" + carried.name, carried.parameter);
 }
 
-// The sets that the manifest, or the folder, holds; none without either.
+// Finds the sets of the manifest or the folder. Without either there are none.
 void find_sets_of(const ConvertOptions& options, std::optional<Discovery>& sets) {
   if (!sets) sets = discovered_sets(options);
 }
@@ -189,7 +189,7 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
                                     converter_ids(chosen), chosen.converter(), result_options_text(options));
 }
 
-// Textures stay in their asset: what an engine reads of a folder of maps cannot be made of it.
+// Refuses layouts of engines for assets: textures stay in their asset, so it cannot become a folder of maps.
 void refuse_engine(const ConvertOptions& options) {
   const NamedLayout* const engine = engine_layout_of(options.to.word());
   if (engine == nullptr) return;
@@ -200,7 +200,7 @@ void refuse_engine(const ConvertOptions& options) {
                     std::string(engine->name) + ")");
 }
 
-// Without --to, assets become gltf; of two paths without --output, the second is the result.
+// Fills in missing options: without --to, assets become gltf. Without --output the second path is the result.
 void complete_asset_options(ConvertOptions& options) {
   const bool is_gltf = options.to.empty() || options.to.name == "metallic";
   if (engine_layout_of(options.to.word()) == nullptr && is_gltf)
@@ -241,7 +241,7 @@ void require_asset_options(const ConvertOptions& options) {
     throw usage_error("--extensions: applies to --to gltf only (remove this option)");
 }
 
-// Refuses options of which no asset of the run makes use.
+// Refuses options that no asset of the run uses.
 void require_gltf(const ConvertOptions& options, const JobList& list) {
   if (std::ranges::any_of(list.jobs,
                           [](const Job& job) { return is_gltf_name(std::get<AssetWork>(job.work).input); }))
@@ -275,7 +275,7 @@ void plan_assets(const ConvertOptions& options, const std::optional<TreeManifest
                       result_options_text(options));
 }
 
-// Whether the run converts assets; refuses options of assets where it does not.
+// Returns true if the run converts assets. Otherwise refuses options of assets.
 bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
     return true;
@@ -284,7 +284,7 @@ bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>
   return false;
 }
 
-// Below what folders others may have put what the run reads.
+// Confines inputs to the folders in which others may have put files.
 void confine(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   std::vector<std::filesystem::path> folders;
   if (options.folder.empty() || options.follow_links) return confine_inputs({});

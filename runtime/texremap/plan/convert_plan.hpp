@@ -20,19 +20,19 @@
 
 namespace remap {
 
-// The conversion of texture sets, or of numbers.
+// A SetPlan is the conversion of texture sets, or of numbers.
 struct SetPlan {
-  UsedConverters converters;  // of which `chosen` is made
+  UsedConverters converters;  // `chosen` is made from them
   ChosenConverter chosen;
-  TextureSetRequest request;      // what the options say about one set, or about all sets of a folder
+  TextureSetRequest request;      // from the options, for one set or for all sets of a folder
   TargetChoice targets;           // without the members that differ between sets
-  PassOptions pass;               // target_convention: what --output-encoding says
-  bool scales_exponents = false;  // whether it is known which exponent a stored 1 stands for in the results
+  PassOptions pass;               // target_convention: from --output-encoding
+  bool scales_exponents = false;  // true if the exponent that a stored 1 means is known for the results
 };
 
 struct ConvertPlan {
   std::variant<SetPlan, AssetOptions> work;
-  JobList list;  // no jobs where all maps are numbers
+  JobList list;  // no jobs if all maps are numbers
   ConversionNote conversion;
 
   std::filesystem::path output;
@@ -42,16 +42,16 @@ struct ConvertPlan {
   std::optional<GivenPart> part;   // of the manifest
   ManifestHead manifest;
 
-  std::vector<std::string> messages;  // `warning: ...` and `note: ...`, what was assumed
+  std::vector<std::string> messages;  // `warning: ...` and `note: ...` about assumptions
   bool json = false, histograms = false, quiet = false, verbose = false;
 
-  // Null for assets.
+  // Returns null for assets.
   const SetPlan* sets() const { return std::get_if<SetPlan>(&work); }
   bool is_of_numbers() const { return list.jobs.empty() && list.skipped.empty() && !list.is_of_folder; }
 };
 
-// Checks everything that can be checked before the first image is opened: options, converter, and of folders
-// the names of all files. Throws kUsage, naming the option; kInput for what cannot be read.
+// Checks everything that can be checked before the first image is opened: options, converter, and the names
+// of all files in folders. Throws kUsage with the option, and kInput for files that cannot be read.
 ConvertPlan resolve(ConvertOptions options);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// Converters and paths as text and as JSON, for all commands.
+// This file writes converters and paths as text and as JSON, for all commands.
 #pragma once
 
 #include <optional>
@@ -14,38 +14,39 @@ namespace remap {
 // reports them.
 inline constexpr double kVisible = 0.01;
 
-// Pictures differ by this times the residual of metal-rough, on the mean.
+// Pictures differ on average by this factor times the residual of metal-rough.
 inline constexpr double kPictureOfResidual = 0.42;
 
-// `alpha 0.01 to 1`.
+// Returns a text such as `alpha 0.01 to 1`.
 std::string range_text(std::string_view name, const Range& range);
 
-// `alpha 0.01 to 1, specular 0 to 0.5`: the domain of a converter.
+// Returns the domain of a converter, such as `alpha 0.01 to 1, specular 0 to 0.5`.
 std::string domain_text(const ConverterInfo& info);
 
-// `pictures differ by 8.0 %, with copied numbers by 14.1 %`, an estimate `pictures differ by about 8.4 %`,
-// `both models have the same lobe, so that numbers are copied`, `nobody has compared pictures`. `path` has
-// steps.
+// Returns `pictures differ by 8.0 %, with copied numbers by 14.1 %`, or for an estimate `pictures differ by
+// about 8.4 %`. Other texts are `both models have the same lobe, so that numbers are copied` and `nobody has
+// compared pictures`. `path` must have steps.
 std::string difference_text(const ConverterPath& path);
 
-// `mitsuba/ward -> mitsuba/beckmann -> mitsuba/ggx`.
+// Returns `mitsuba/ward -> mitsuba/beckmann -> mitsuba/ggx`.
 std::string models_text(const ConverterPath& path);
 
-// `mitsuba/ward to cycles-5/ggx: pictures differ by about 8.2 %; cycles-5/beckmann matches the highlight more
-// closely`, or one of the two, or that numbers are copied. Else empty: people see no difference below 1 %.
+// Returns `mitsuba/ward to cycles-5/ggx: pictures differ by about 8.2 %; cycles-5/beckmann matches the
+// highlight more closely`, or one of these parts, or that numbers are copied. Returns an empty text below 1
+// %, which nobody sees.
 std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer);
 
-// `cycles-5/beckmann matches the highlight more closely`.
+// Returns `cycles-5/beckmann matches the highlight more closely`.
 std::string closer_text(const ConverterPath& closer);
 
-// `cycles-5/beckmann is the closest model of cycles-5`: what `--to cycles-5` chose.
+// Returns `cycles-5/beckmann is the closest model of cycles-5`, which explains the choice of `--to cycles-5`.
 std::string closest_text(const std::string& model);
 
-// The ids of the steps.
+// Returns the ids of the steps.
 Json path_json(const ConverterPath& path);
-// `pictures` (`converted` and `copied`, in per cent, `is_estimate`; null where nobody has compared them),
-// `same_lobe` (whether numbers are copied) and `closer_model` (null, or the model with its path and expected
-// error).
+// Returns `pictures` (`converted` and `copied`, in per cent, `is_estimate`; null if nobody has compared
+// them), `same_lobe` (true if numbers are copied) and `closer_model` (null, or the model with its path and
+// expected error).
 Json pictures_json(const ConverterPath& path, const std::optional<ConverterPath>& closer);
 
 }  // namespace remap

@@ -23,7 +23,7 @@ constexpr std::size_t kLongestHead = 1 << 16;
 constexpr std::int64_t kMostTile = 999'999'999;
 constexpr const char* kChanged = "is incomplete, or was changed since it was written (texremap index again)";
 
-// Whether a conversion may read the channels: of a map of normals or heights none does.
+// Returns true if a conversion may read the map. No conversion reads maps of normals or heights.
 bool is_read(const FoundMap& map) {
   constexpr Role kCopied[] = {Role::kNormal, Role::kHeight,     Role::kCavity, Role::kTransmission,
                               Role::kIor,    Role::kSubsurface, Role::kOther};
@@ -32,7 +32,7 @@ bool is_read(const FoundMap& map) {
   });
 }
 
-// A set or an asset, and what stands in its line.
+// A set or an asset with the content of its line.
 template <class Entry>
 struct ListedEntry {
   const Entry& entry;
@@ -51,7 +51,7 @@ struct ListedEntry {
   }
 };
 
-// Refuses what JSON cannot hold, and what a reader of the manifest refuses.
+// Refuses names that JSON cannot hold, or that read_manifest() refuses.
 void require_listable(const fs::path& path) {
   if (!is_utf8(path.string()))
     throw input_error(display_path(path) +
@@ -129,7 +129,7 @@ Json head_json(const ManifestHead& head) {
           {"hash", head.hash}};
 }
 
-// Of what the first line says, but for the hash itself; the other lines are added.
+// Hashes the first line except the hash itself. The other lines are added.
 ContentHash hash_of_head(ManifestHead head) {
   head.hash.clear();
   ContentHash hash;
@@ -137,7 +137,7 @@ ContentHash hash_of_head(ManifestHead head) {
   return hash;
 }
 
-// A name that somebody wrote into the manifest to lead elsewhere.
+// An UnsafeName is a name that somebody wrote into the manifest to lead out of the tree.
 struct UnsafeName {
   std::string message;
 };
@@ -269,7 +269,7 @@ TreeManifest ManifestReader::read(const Part& part) {
   } catch (const UnsafeName& name) {
     throw input_error(name.message);
   } catch (const Error&) {
-    refuse(kChanged);  // a line that makes no sense is not one that was written
+    refuse(kChanged);  // an unreadable line means that the file has changed
   }
   if (hash.hex() != manifest.head.hash) refuse(kChanged);
   return manifest;
@@ -300,7 +300,7 @@ void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, Conten
   if (!lines_.rest().empty()) refuse(kChanged);
 }
 
-// Lists the entries that can be listed; the others become problems.
+// Lists the valid entries; the others become problems.
 template <class Entry>
 std::vector<ListedEntry<Entry>> listed_all(const fs::path& root, const std::vector<Entry>& entries,
                                            ManifestHead& head, std::vector<WalkProblem>& problems) {
@@ -335,7 +335,7 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
                       ": the name is not UTF-8, which a manifest cannot hold (rename it)");
   const std::vector<ListedEntry<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
   const std::vector<ListedEntry<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
-  // The hash stands before the lines, which are made twice rather than kept: a manifest may have gigabytes.
+  // The hash precedes the lines. They are made twice and not kept, because a manifest may have gigabytes.
   const auto make_lines = [&](const auto& take) {
     for (const ListedEntry<FoundSet>& set : sets) take(line_of(set));
     for (const ListedEntry<ListedAsset>& asset : assets) take(line_of(asset));

@@ -1,5 +1,5 @@
-// The manifest of a tree: its texture sets, or its assets, as an index in a file, by which many processes
-// share one conversion without looking for them again. Lines of JSON; the first describes the rest:
+// This file reads and writes the manifest of a tree. It lists texture sets or assets, so that many processes
+// can share one conversion without searching again. It has lines of JSON; the first describes the rest:
 //
 //   {"remap_manifest": 1, "version": "1.2.0", "root": "/library", "names": "", "sets": 2, "files": 5,
 //    "bytes": 81234, "cost": 681234, "hash": "5c0e..."}
@@ -15,8 +15,8 @@
 //   {"cost": 240617, "asset": "props/chair.gltf", "prefix": "", "bytes": 40617, "files":
 //   [["props/chair.gltf", 1203], ["props/wood.png", 39414]]}
 //
-// Entries are sorted by folder and name, by bytes, so that equal trees give equal manifests. `cost` stands
-// first in the line of an entry: a process that converts a part of them reads no more of the others.
+// Entries are sorted by folder and name, by bytes, so that equal trees give equal manifests. `cost` comes
+// first in the line of an entry, because a process that skips the entry reads no further.
 #pragma once
 
 #include <cstdint>
@@ -30,34 +30,35 @@
 
 namespace remap {
 
-// Cost of opening, writing and renaming a small file, in bytes of a large one (measured: docs/farm.md).
+// This is the cost of opening, writing and renaming a small file, in bytes of a large one (docs/farm.md).
 inline constexpr std::uint64_t kCostOfFile = 200'000;
 
 enum class ListedKind { kSets, kAssets };
 inline constexpr NamedValues<ListedKind, 2> kListedKinds = {
     {{ListedKind::kSets, "sets"}, {ListedKind::kAssets, "assets"}}};
-// `set` or `asset`.
+// Returns `set` or `asset`.
 inline std::string noun_of(ListedKind kind) { return kind == ListedKind::kSets ? "set" : "asset"; }
 
-// The first line of a manifest.
+// A ManifestHead is the first line of a manifest.
 struct ManifestHead {
   std::string version;         // of the program
   std::filesystem::path root;  // absolute
-  std::string names;           // hash of the file with names; empty for the built-in habits
+  std::string names;           // hash of the file with names; empty for the built-in conventions
   ListedKind kind = ListedKind::kSets;
   std::size_t count = 0, file_count = 0;  // of sets or assets, and of their files
   std::uintmax_t bytes = 0;               // of all files
   std::uint64_t cost = 0;  // bytes of the maps that a conversion may read, and kCostOfFile for each
-  std::string hash;        // of the rest of this line, and of those that follow
+  std::string hash;        // of the rest of this line and the following lines
 };
 
 struct ListedAsset {
-  std::filesystem::path path;  // relative to the root
-  std::string image_prefix;    // of new images beside it: what other assets of the tree name tells it
-  std::vector<std::filesystem::path> files;  // that it names and that are there, relative to the root
+  std::filesystem::path path;                // relative to the root
+  std::string image_prefix;                  // of new images beside it; depends on all assets of the tree
+  std::vector<std::filesystem::path> files;  // existing files that it names, relative to the root
 };
 
-// The entries of a manifest: the texture sets of a tree, or its assets. Both keep problems in `found`.
+// A Listing holds the entries of a manifest: the texture sets of a tree, or its assets. Problems are in
+// `found`.
 struct Listing {
   ListedKind kind = ListedKind::kSets;
   Discovery found;
@@ -66,26 +67,27 @@ struct Listing {
 
 struct TreeManifest {
   ManifestHead head;
-  // The entries of the part that was asked for, with the sizes of their files. Problems, and images of no
-  // set, belong to part 1.
+  // Holds the entries of the requested part, with the sizes of their files. Problems, and images outside of
+  // sets, belong to part 1.
   Listing listing;
   std::vector<std::uint64_t> costs;  // of the entries of the part
 };
 
-// The part of `count` to which an entry belongs: in whose share of the whole cost its middle lies.
+// Returns the part of `count` to which an entry belongs. It is the part whose share of the cost contains the
+// entry's middle.
 std::size_t part_of_entry(std::uint64_t cost_before, std::uint64_t cost, const ManifestHead& head,
                           std::size_t count);
 
-// Writes a manifest. An entry whose name JSON cannot hold (no UTF-8), and one with a file that cannot be
-// looked at, becomes a problem. Throws kOutput.
+// Writes a manifest. An entry whose name JSON cannot hold (not UTF-8), or whose file cannot be examined,
+// becomes a problem. Throws kOutput.
 ManifestHead write_manifest(const std::filesystem::path& file, const std::filesystem::path& root,
                             const std::string& names, Listing listing);
 
-// Reads a part of a manifest. Throws kInput, with what to do, if the file is none, incomplete, changed since
-// it was written, or of another version of the program.
+// Reads a part of a manifest. Throws kInput, with what to do, if the file is not a manifest, is incomplete,
+// has changed since it was written, or comes from another version of the program.
 TreeManifest read_manifest(const std::filesystem::path& file, const Part& part);
 
-// Refuses files that are not what a manifest lists, such as one that is still being copied. Throws kInput.
+// Refuses files that differ from the manifest, such as a file that is still being copied. Throws kInput.
 using ListedSizes = std::map<std::filesystem::path, std::uintmax_t>;
 void require_as_listed(const ListedSizes& files);
 

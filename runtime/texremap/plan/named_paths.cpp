@@ -15,7 +15,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// The advice for a file that texremap does not read.
+// This is the advice for a file that texremap does not read.
 constexpr std::string_view kExport = "convert it to glTF or OBJ first, for example with Blender";
 constexpr std::string_view kTextures =
     "export its textures and convert their folder, or write its values: --roughness 0.3";

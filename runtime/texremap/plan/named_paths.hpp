@@ -1,4 +1,4 @@
-// The paths that a user names as inputs: what texremap cannot read, and the way around.
+// This file checks the input paths of a user, and suggests what to do about files that texremap cannot read.
 #pragma once
 
 #include <filesystem>
@@ -6,10 +6,10 @@
 
 namespace remap {
 
-// Throws kUsage, naming the format and the way around, for a file of a format that other tools use.
+// Throws kUsage, with the format and the advice, for a file of a format that other tools use.
 void require_readable(const std::filesystem::path& path);
 
-// Throws kUsage for paths that are not one folder, or assets alone.
+// Throws kUsage for paths that are neither one folder nor only assets.
 void require_one_kind(const std::filesystem::path& first, const std::vector<std::filesystem::path>& more);
 
 }  // namespace remap

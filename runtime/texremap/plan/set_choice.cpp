@@ -14,7 +14,7 @@ std::string use_text(const FoundSet& set, const MapUse& use) {
   return text;
 }
 
-// Whether a word names a role, or a part of the name of a file between separators.
+// Returns true if a word names a role, or a part of a file name between separators.
 bool names(const std::string& word, const FoundSet& set, const MapUse& use) {
   const std::string wanted = lower(word);
   if (wanted == role_name(use.role) || (wanted == "gloss" && use.role == Role::kGlossiness)) return true;
@@ -30,7 +30,7 @@ std::vector<MapUse> those(const std::vector<MapUse>& found, Wanted wanted) {
   return kept;
 }
 
-// The one use that is kept, with the reason for it; an empty reason where somebody asked for it.
+// A KeptUse is the only use that is kept, with the reason. The reason is empty if the user asked for it.
 struct KeptUse {
   MapUse use;
   std::string reason;
@@ -69,7 +69,7 @@ void drop(FoundSet& set, const MapUse& use) {
   });
 }
 
-// The source that roles tell; empty for none.
+// Returns the source model for the roles of the maps, or an empty text.
 std::string model_of_maps(bool metallic, bool base_color, bool specular, bool glossiness, bool diffuse) {
   if (metallic || (base_color && !specular)) return "metallic";
   if (specular && glossiness) return "gltf-specgloss";

@@ -1,4 +1,4 @@
-// Chooses the maps that a conversion reads of a found set, and infers the source from the names of maps.
+// This file chooses the maps of a found set that a conversion reads, and infers the source from map names.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,25 @@
 
 namespace remap {
 
-// The maps of a set that may hold a parameter, by the best role found: some sets call their base color
-// diffuse, or their diffuse color albedo.
+// Returns the maps of a set that may hold a parameter, by the best role found. Some sets call their base
+// color diffuse, or their diffuse color albedo.
 std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter);
 
-// Keeps one of several maps that hold a parameter: the one that a word of `prefer` names (a role, or a part
-// of the file name), else the parameter of the model itself (roughness before glossiness, or the reverse for
-// `own` glossiness), else a map of its own before a channel of a packed one. What stays ambiguous keeps all.
-// Returns a line for each choice that nobody asked for.
+// Keeps one of several maps that hold a parameter. First comes the one that a word of `prefer` names (a role,
+// or a part of the file name). Next is the parameter of the model itself (roughness before glossiness, or the
+// reverse for `own` glossiness). Then a separate map comes before a channel of a packed one. If several
+// remain, all are kept. Returns a line for each choice that the user did not ask for.
 std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>& parameters,
                                      const std::vector<std::string>& prefer,
                                      std::optional<RoughnessEncoding> own);
 
-// The source model that texremap infers from the names of maps or from the map options, if --from is missing.
+// An InferredSource is the source model that texremap infers, if --from is missing, from the names of maps or
+// the map options.
 struct InferredSource {
   std::string model;  // `metallic`, `gltf-specgloss`, `specular`
-  std::string note;   // what told it
+  std::string note;   // the reason
 };
-// Throws kUsage if nothing tells it, or if sets of the folder differ.
+// Throws kUsage if the source is unclear, or if sets of the folder differ.
 InferredSource inferred_source(const ConvertOptions& options, const std::optional<Discovery>& sets);
 
 }  // namespace remap

@@ -20,7 +20,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// The file of `map` for a tile; none where the tile is missing. A map without tiles serves every tile.
+// Returns the file of `map` for a tile, or nothing if it is missing. A map without tiles serves every tile.
 std::optional<fs::path> file_of(const FoundMap& map, int tile) {
   if (map.tiles.empty()) return map.path;
   for (const Tile& candidate : map.tiles)
@@ -44,7 +44,7 @@ std::vector<int> tiles_of(const FoundSet& set) {
   return {numbers.begin(), numbers.end()};
 }
 
-// The files of a set, always in the same order.
+// Returns the files of a set, always in the same order.
 std::vector<fs::path*> files_of(SetWork& set) {
   std::vector<fs::path*> files;
   const auto add = [&](ParameterRequest& parameter) {
@@ -56,13 +56,13 @@ std::vector<fs::path*> files_of(SetWork& set) {
   return files;
 }
 
-// Whether a request names a map or numbers.
+// Returns true if a request has a map or numbers.
 bool is_given(const ParameterRequest& request) {
   const auto* map = std::get_if<MapName>(&request.source);
   return map == nullptr || !map->file.empty();
 }
 
-// The set with its diffuse map as the first, for a warp that converts diffuse alone.
+// Returns the set with its diffuse map first, for a warp that converts only diffuse.
 FoundSet of_diffuse_alone(FoundSet set) {
   const std::vector<MapUse> found = uses_of(set, Parameter::kDiffuse);
   if (found.empty() || set.maps[found.front().map].is_converted) return set;
@@ -102,19 +102,19 @@ class SetJobs {
   bool takes_names(const FoundSet& set);
   void note_sizes(Job& job) const;
   void require_encoding_used() const;
-  // The map that an option gives for a parameter: one for all sets, or a pattern; null for none.
+  // Returns an option's map for a parameter: one for all sets, or a pattern. Otherwise returns null.
   const MapName* given_map(Parameter parameter) const {
     const MapSource* source = options_.map_of(parameter);
     return source != nullptr ? std::get_if<MapName>(source) : nullptr;
   }
   fs::path file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const;
   void leave_out_shared();
-  // The width that the source model takes, where one is known.
+  // Returns the roughness encoding of the source model, if known.
   std::optional<RoughnessEncoding> own_width() const {
     if (workflow_.is_material()) return width_of(*workflow_.source);
     return std::nullopt;
   }
-  // Whether a set without a map of width has one by an option, and other maps of the material.
+  // Returns true if a set gets its missing roughness map from an option, and has other maps of the material.
   bool has_given_width(const FoundSet& set) const;
   void fail(const std::string& message) { jobs_.skipped.push_back({message, true}); }
   std::string context(const FoundSet& set) const { return display_path(root_ / set.folder / set.name); }
@@ -128,7 +128,7 @@ class SetJobs {
   Discovery found_;
   std::vector<FoundSet> converted_;
   bool is_in_place_ = same_file(options_.output, root_);    // results lie beside the maps
-  std::map<std::string, std::vector<CopiedFile>> normals_;  // by the reason for what is done with green
+  std::map<std::string, std::vector<CopiedFile>> normals_;  // by the reason for the treatment of green
   JobList jobs_;
 };
 
@@ -145,7 +145,7 @@ JobList SetJobs::list() {
   note_normals();
   if (!found_.sizes.empty())
     for (Job& job : jobs_.jobs) note_sizes(job);
-  if (options_.part) return std::move(jobs_);  // what concerns all sets, no part can tell
+  if (options_.part) return std::move(jobs_);  // a part cannot report about all sets
   require_encoding_used();
   if (jobs_.jobs.empty() && jobs_.skipped.empty())
     throw Error(ErrorKind::kUsage, root_.string() + ": no texture set found by file names (use " +
@@ -154,7 +154,7 @@ JobList SetJobs::list() {
   return std::move(jobs_);
 }
 
-// A file of a set by a pattern: `*` is the name of the set, `<UDIM>` the number of the tile.
+// Returns a file of a set from a pattern: `*` is the name of the set, `<UDIM>` the number of the tile.
 fs::path named_after(const fs::path& pattern, const FoundSet& set, const std::string& number) {
   std::string name = pattern.string();
   const auto put = [&name](std::string_view token, const std::string& text) {
@@ -166,7 +166,7 @@ fs::path named_after(const fs::path& pattern, const FoundSet& set, const std::st
   return name;
 }
 
-// The name of a map as a pattern for all sets: `*_rough.jpg` of set sand.
+// Returns the name of a map as a pattern for all sets: `*_rough.jpg` for set sand.
 std::string pattern_of(std::string name, const std::string& set) {
   if (const std::size_t at = name.find(set); at != std::string::npos && !set.empty())
     name.replace(at, set.size(), "*");
@@ -178,12 +178,12 @@ bool is_file(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-// The file that an option gives for a set: one for all sets, or one in the folder of the set.
+// Returns the file that an option gives for a set: one for all sets, or one in the folder of the set.
 fs::path SetJobs::file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const {
   return shared_map(options_, given).value_or(root_ / set.folder / named_after(given, set, number));
 }
 
-// A map that an option gives for all sets is not a set of its own.
+// Removes maps that an option gives for all sets from the found sets, because they are not sets.
 void SetJobs::leave_out_shared() {
   const std::vector<fs::path> shared = shared_maps(options_);
   if (shared.empty()) return;
@@ -239,8 +239,7 @@ void SetJobs::add(FoundSet set) {
   for (const int tile : tiles_of(set)) add_tile(set, tile, notes);
 }
 
-// Puts the map of a parameter into the request. Notes a message and returns false where the set lacks the
-// tile.
+// Puts the map of a parameter into the request. Adds a message and returns false if the set lacks the tile.
 bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                           SetWork& work) {
   const bool is_glossiness = parameter == Parameter::kRoughness && options_.reads_glossiness();
@@ -270,7 +269,7 @@ bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::s
   asked.source = MapName{root_ / *file, channel_names(use.channels)};
   asked.one_channel = one_channel(use.role == Role::kGlossiness ? "--glossiness" : option,
                                   pattern_of(map.path.filename().string(), set.name));
-  // --roughness-encoding speaks of maps that are found as roughness.
+  // --roughness-encoding concerns maps that are found as roughness.
   if (parameter == Parameter::kRoughness && encoding_of(use.role))
     work.request.convention = encoding_of(use.role);
   return true;
@@ -294,7 +293,7 @@ void SetJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::str
   jobs_.jobs.push_back(std::move(job));
 }
 
-// Whether a channel of a packed map that is converted holds something else of the material (ORDp: height).
+// Returns true if a channel of a converted packed map holds something else of the material (ORDp: height).
 bool SetJobs::is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const {
   constexpr std::array kRest = {Role::kCavity,       Role::kHeight,     Role::kOpacity, Role::kEmissive,
                                 Role::kTransmission, Role::kSubsurface, Role::kIor};
@@ -335,7 +334,7 @@ bool is_normal(const FoundMap& map) {
          name.find("normal") != std::string::npos;  // of a coat
 }
 
-// One line for all maps with one reason.
+// Adds one line for all maps with the same reason.
 void SetJobs::note_normals() {
   for (const auto& [reason, maps] : normals_) {
     const CopiedFile& first = maps.front();
@@ -347,8 +346,7 @@ void SetJobs::note_normals() {
   }
 }
 
-// Copies the files that the conversion does not read, or notes them. A map without tiles goes with the first
-// tile of the set.
+// Copies or reports files that the conversion does not read. A map without tiles goes with the first tile.
 void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
   const std::vector<fs::path*> read = files_of(work);
   const bool is_first = tile == tiles_of(set).front();
@@ -373,8 +371,8 @@ void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
   }
 }
 
-// Whether a map that the conversion does not read is copied. Another map than the chosen one for a parameter
-// would be a second, unconverted form of it.
+// Returns true if a map that the conversion does not read is copied. If a parameter has two maps, the unused
+// one is not copied, because it would be a second, unconverted form.
 bool SetJobs::comes_along(const FoundMap& map) const {
   constexpr std::array kConverted = {Role::kRoughness,  Role::kGlossiness, Role::kGlossinessSquared,
                                      Role::kAlphaWidth, Role::kSpecular,   Role::kSpecularLevel,
@@ -385,7 +383,8 @@ bool SetJobs::comes_along(const FoundMap& map) const {
   });
 }
 
-// The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
+// Returns the files that the conversion of a set writes, each with one of its source maps. Tiles are one
+// file.
 std::map<fs::path, fs::path> SetJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? set.maps[set.width->map] : set.maps.front();
   const std::string end =
@@ -414,7 +413,7 @@ void SetJobs::note_sizes(Job& job) const {
       job.listed[*file] = found->second;
 }
 
-// --roughness-encoding speaks of maps that are found as roughness.
+// Refuses --roughness-encoding if no map is found as roughness.
 void SetJobs::require_encoding_used() const {
   if (!options_.roughness_encoding || converted_.empty()) return;
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
@@ -424,7 +423,7 @@ void SetJobs::require_encoding_used() const {
                 "they hold (remove this option)");
 }
 
-// Takes the names of what a set writes, and of copies of its maps. Notes a message and returns false where
+// Reserves the names of a set's results, and of copies of its maps. Adds a message and returns false if
 // another set has one of them.
 bool SetJobs::takes_names(const FoundSet& set) {
   const auto take = [&](const fs::path& path, const fs::path& source) {
@@ -441,14 +440,14 @@ bool SetJobs::takes_names(const FoundSet& set) {
   return true;
 }
 
-// A file name with a placeholder for the tile.
+// A TiledFile is a file name with a placeholder for the tile.
 struct TiledFile {
   std::size_t index = 0;  // among the files of the job
   fs::path file;
   TilePattern pattern;
 
   fs::path tile(int number) const { return file.parent_path() / tile_name(pattern, number); }
-  // The number as file names write it: 0012 for a frame.
+  // Returns the number as file names write it: 0012 for a frame.
   std::string number_text(int number) const {
     const std::string name = tile_name(pattern, number);
     return name.substr(pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
@@ -467,7 +466,7 @@ std::vector<TiledFile> tiled_files(SetWork& set) {
   return tiled;
 }
 
-// One job for each tile that all maps have. A tile that some map lacks is left out, with a message.
+// Makes one job for each tile that all maps have. It skips a tile that some map lacks, with a message.
 JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled) {
   JobList list;
   list.has_several = true;

@@ -1,5 +1,5 @@
-// The texture sets that a run converts: the one of the command line, its tiles, or those of a folder or a
-// manifest. Each job converts a set of single files.
+// This file lists the texture sets that a run converts: the one on the command line, its tiles, or the sets
+// of a folder or a manifest. Each job converts a set of single files.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 
 namespace remap {
 
-// The sets of the folder that the options name; none without a folder. Throws kInput if it, or a naming file,
-// cannot be read.
+// Finds the sets of the folder in the options. Returns nothing without a folder. Throws kInput if the folder
+// or a naming file cannot be read.
 std::optional<Discovery> discovered_sets(const ConvertOptions& options);
 
-// `request` is what the options say about one set, or about all sets of a folder. Throws kUsage if the folder
-// has no sets; of two sets that would write one file the second is left out. Throws kInput if the folder or a
-// naming file cannot be read.
+// `request` holds what the options state about one set, or about all sets of a folder. Throws kUsage if the
+// folder has no sets. If two sets would write the same file, the second is skipped. Throws kInput if the
+// folder or a naming file cannot be read.
 JobList set_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
                  const TextureSetRequest& request, std::optional<Discovery> sets);
 

@@ -5,7 +5,7 @@
 namespace remap {
 namespace {
 
-// The words of the command line.
+// Returns the words of the command line.
 ConversionWords option_words() {
   return {
       "--from",       "--to", "--from-workflow", "--to-workflow", "--dielectric-f0", "--diffuse-convention",
@@ -63,7 +63,7 @@ void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::
   refuse(options, tag, " cannot be used with the warp " + warp + " (remove this option)");
 }
 
-// The source of the warp is a diffuse map alone, so the conversion has neither specular nor roughness maps.
+// Handles a warp whose source is only a diffuse map. It has neither specular nor roughness maps.
 void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
   refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts only a diffuse map");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessEncoding::kAlpha;

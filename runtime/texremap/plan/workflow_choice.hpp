@@ -1,5 +1,5 @@
-// The meaning of `--from`, `--to` and the workflow options: the material at each end, and the conventions
-// that had to be assumed.
+// This file interprets `--from`, `--to` and the workflow options: both materials, and the assumed
+// conventions.
 #pragma once
 
 #include <map>
@@ -15,25 +15,24 @@
 namespace remap {
 
 struct WorkflowChoice : ConversionChoice {
-  std::map<Parameter, ConstantValues> constants;  // source values in place of missing maps
+  std::map<Parameter, ConstantValues> constants;  // source values for missing maps
   bool estimates_f0 = false;                      // use the F0 estimated from the maps
   bool f0_given = false;
 };
 
-// `--from` and `--to` are optional with `--fit`. A renderer as `--to` stands for the closest of its models,
-// by paths through `--via`. Throws kUsage for an unknown name, for a workflow that contradicts the named
-// model, and for options that require a workflow where neither end has one.
+// Resolves `--from` and `--to`, which are optional with `--fit`. A renderer as `--to` means the closest of
+// its models, by paths through `--via`. Throws kUsage for an unknown name, and for a workflow that
+// contradicts the named model. Also throws it for options that require a workflow if neither end has one.
 WorkflowChoice workflow_choice(const ConvertOptions& options);
 
-// The choice for a warp: both ends have diffuse, specular and roughness, in the encoding that the options
-// name. Throws kUsage for options that cannot be used with a warp, and for models other than the warp's.
+// Returns the choice for a warp: both ends have diffuse, specular and roughness, in the encoding that the
+// options name. Throws kUsage for options that cannot be used with a warp, and for other models.
 WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit);
 
 struct ModelPair {
   std::string source, target;
 };
-// Throws kUsage if the models of the fit in `file` are not the `asked` ones; an empty name asks for any
-// model.
+// Throws kUsage if the models of the fit in `file` differ from `asked`. An empty name accepts any model.
 void require_models_of_fit(const std::string& file, const ModelPair& asked, const ModelPair& own);
 
 }  // namespace remap

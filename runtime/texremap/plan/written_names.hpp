@@ -1,5 +1,5 @@
-// Every file that a run writes, by its final name, with what it is of. Planned before work starts, so that
-// two sets or assets never write one file.
+// This file records every file that a run writes, by its final name, with its owner. Names are planned before
+// work starts, so that two sets or assets never write the same file.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// The name as macOS and Windows compare it: absolute, without `.` and `..`, and without case. Links are not
-// looked at.
+// Returns the name as macOS and Windows compare it: absolute, without `.` and `..`, and without case. It does
+// not follow links.
 std::string name_key(const std::filesystem::path& path);
 
 class WrittenNames {
@@ -25,7 +25,7 @@ class WrittenNames {
   std::unordered_map<std::string, std::string> owners_;  // by name_key()
 };
 
-// That two owners would write one file, and what to do.
+// Returns a message that two owners would write the same file, and what to do.
 std::string written_twice_text(const std::filesystem::path& path, const std::string& first,
                                const std::string& second);
 

@@ -13,7 +13,7 @@ Json position_json(const std::optional<TexelPosition>& texel) {
   return texel ? Json{texel->x, texel->y} : Json();
 }
 
-// The first result that `holds` accepts; null without one.
+// Returns the first result that `holds` accepts, or null.
 template <typename Holds>
 Json file_json(const JobReport& report, const Holds& holds) {
   const auto found = std::find_if(report.results.begin(), report.results.end(), holds);
@@ -66,7 +66,7 @@ Json converter_json(const ChosenConverter& chosen) {
   return json;
 }
 
-// The reliability of the metallic that was found.
+// Returns how reliable the computed metallic is.
 Json metallic_json(const MetallicStatistics& metallic) {
   if (metallic.texel_count == 0) return {};
   return {{"texels", metallic.texel_count},
@@ -98,7 +98,7 @@ Json counts_json(const MapStatistics& counts) {
           {"clipped_values", counts.clipped_count}};
 }
 
-// The members that only texture sets have.
+// Returns the members that only texture sets have.
 Json set_json(const ConvertPlan& plan, const JobReport& report) {
   const ChosenConverter& chosen = plan.sets()->chosen;
   const MapStatistics& counts = report.statistics;

@@ -1,4 +1,4 @@
-// The outcome of a run, as JSON.
+// This file writes the outcome of a run as JSON.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace remap {
 
-// The outcome of the whole run.
+// An Outcome is the outcome of the whole run.
 struct Outcome {
   const ConvertPlan& plan;
   std::vector<JobReport> reports;
@@ -19,18 +19,18 @@ struct Outcome {
   ResourceUse used;
 
   ColorNotes colors() const;         // of all sets
-  std::size_t failed_count() const;  // failed entries, and the failures among those that were skipped
+  std::size_t failed_count() const;  // failed entries, and failures among the skipped entries
 };
 
-// `converted`, `planned`, `done before` or `failed`.
+// Returns `converted`, `planned`, `done before` or `failed`.
 std::string_view state_text(const ConvertPlan& plan, const JobReport& report);
 
-// Converter and path of texture sets; the target of assets.
+// Returns converter and path for texture sets, and the target for assets.
 Json conversion_json(const ConvertPlan& plan);
-// A set or an asset.
+// Returns a set or an asset.
 Json job_json(const ConvertPlan& plan, const JobReport& report);
 Json summary_json(const Outcome& outcome);
-// Colors, instruction set, time and memory.
+// Returns colors, instruction set, time and memory.
 Json run_json(const Outcome& outcome);
 
 }  // namespace remap

@@ -15,7 +15,7 @@
 namespace remap {
 namespace {
 
-// Both ends of a workflow conversion, and the steps between them.
+// Returns both ends of a workflow conversion, and the steps between them.
 std::string material_text(const ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
   const auto end_text = [](const WorkflowEnd& end) {
@@ -32,7 +32,7 @@ std::string material_text(const ChosenConverter& chosen) {
   return text;
 }
 
-// The domain that texels were outside of.
+// Returns the domain that some texels were outside of.
 std::string outside_text(const ChosenConverter& chosen) {
   const std::string domain = domain_text(chosen.domain());
   return chosen.path.steps.size() <= 1 ? "the domain (" + domain + ")"
@@ -137,7 +137,7 @@ void print_set(const ConvertPlan& plan, const std::string& context, const JobRep
   visible_line(counts.clipped_count, " clipped to [0, 1] by an integer pixel type", "value");
 }
 
-// Below this no picture shows the error of a material.
+// Below this value no picture shows the error of a material.
 constexpr double kShownError = 5e-4;
 
 std::string error_text(const AssetMaterial& material) {
@@ -220,7 +220,7 @@ void print_job(const ConvertPlan& plan, const JobReport& report, WarningKinds& w
 }
 
 void print_colors(const ColorNotes& colors, bool has_several) {
-  std::vector<std::pair<std::string, std::size_t>> phrases;  // reasons that read the same are one phrase
+  std::vector<std::pair<std::string, std::size_t>> phrases;  // equal reasons share one phrase
   for (const bool is_written : {false, true})
     for (const auto& [note, count] : colors) {
       if (note.is_written != is_written) continue;

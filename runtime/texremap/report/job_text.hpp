@@ -1,4 +1,4 @@
-// The outcome of a set or an asset, as lines for people.
+// This file prints the outcome of a set or an asset, as lines for people.
 #pragma once
 
 #include <map>
@@ -9,12 +9,12 @@
 
 namespace remap {
 
-// The kinds of warnings of a folder: what they say after the name of a file.
+// A WarningKinds groups the warnings of a folder by their text after the file name.
 class WarningKinds {
  public:
-  // Whether the warning is one of the first of its kind, and its kind one of the first kinds.
+  // Returns true if the warning is one of the first of its kind, and its kind is one of the first kinds.
   bool is_new(const std::string& warning);
-  // How many were not.
+  // Returns how many were not.
   std::size_t repeated() const;
 
  private:
@@ -23,15 +23,15 @@ class WarningKinds {
   std::size_t unshown_ = 0;
 };
 
-// The id of a single converter, or the models of a path, and the workflows around them.
+// Returns the id of a single converter, or the models of a path, and the workflows around them.
 std::string converter_text(const ChosenConverter& chosen);
 
-// Prints the lines about one set or asset to standard error; of a dry run also the table of a set to standard
-// output.
+// Prints the lines about one set or asset to standard error. A dry run also prints the table of a set to
+// standard output.
 void print_job(const ConvertPlan& plan, const JobReport& report, WarningKinds& warnings);
 
 // Prints one line about the color spaces of the run: `color: specular read as srgb, base_color written as
-// srgb`; nothing where all colors are floating-point numbers that nobody spoke of.
+// srgb`. Prints nothing if all colors are floating-point numbers without a choice of the user.
 void print_colors(const ColorNotes& colors, bool has_several);
 
 }  // namespace remap

@@ -16,10 +16,10 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// texremap plan makes no more.
+// texremap plan never makes more.
 constexpr std::size_t kMostReports = 1'000'000;
 
-// Many of one kind are told by the first few and their number.
+// Messages show this many cases of a kind, and then the total.
 constexpr std::size_t kNamed = 8;
 
 std::string named(const std::vector<std::string>& all) {
@@ -28,7 +28,7 @@ std::string named(const std::vector<std::string>& all) {
   return all.size() > kNamed ? text + " and " + std::to_string(all.size() - kNamed) + " more" : text;
 }
 
-// Reads the reports one after another and compares them.
+// A ReportMerger reads the reports one after another and compares them.
 class ReportMerger {
  public:
   ReportMerger(const fs::path& output, const std::function<void(std::string_view)>& take)
@@ -47,12 +47,12 @@ class ReportMerger {
   const fs::path output_, folder_;
   const std::function<void(std::string_view)>& take_;
   MergedReport merged_;
-  std::map<std::string, std::string> first_;  // what the first report says of its run
+  std::map<std::string, std::string> first_;  // the run according to the first report
   Part first_part_;
-  std::size_t lines_of_part_ = 0;                         // about sets, in the report that is being read
-  std::unordered_map<std::string, std::size_t> part_of_;  // of a set or result, by its name
+  std::size_t lines_of_part_ = 0;                         // about sets, in the current report
+  std::unordered_map<std::string, std::size_t> part_of_;  // by the name of a set or result
   std::map<std::string, std::pair<std::size_t, std::string>>
-      twice_;  // by a pair of parts: how many, the first
+      twice_;  // by a pair of parts: the number and the first case
 };
 
 std::vector<Part> ReportMerger::parts_found() const {
@@ -93,7 +93,7 @@ void ReportMerger::compare(const Part& part, const Field& said) {
     }
 }
 
-// Names each pair of parts once, with the first case.
+// Reports each pair of parts once, with the first case.
 void ReportMerger::require_once(const Part& part, const std::string& what, const std::string& name) {
   const auto [found, is_new] = part_of_.try_emplace(what + name, part.index);
   if (is_new) return;
@@ -102,7 +102,7 @@ void ReportMerger::require_once(const Part& part, const std::string& what, const
   if (count++ == 0) first = name;
 }
 
-// A set or an asset.
+// Adds a set or an asset.
 void ReportMerger::add_entry(const Part& part, const Field& entry) {
   const std::string& name = entry["name"].any_text();
   require_once(part, noun_of(merged_.kind), name);
@@ -128,7 +128,7 @@ void ReportMerger::add(const Part& part, const Field& line, std::string_view tex
   if (line.contains("summary")) {
     const Field summary = line["summary"];
     merged_.processor_seconds += summary["processor_seconds"].number();
-    constexpr std::int64_t kMost = std::int64_t{1} << 40;  // whose sum is a number, too
+    constexpr std::int64_t kMost = std::int64_t{1} << 40;  // small enough for the sum to be a number, too
     const std::string entries(name_of(kListedKinds, merged_.kind));
     const std::int64_t stated =
         std::min(summary[entries].count(), kMost) + std::min(summary["skipped"].count(), kMost);

@@ -1,5 +1,5 @@
-// Reports of the parts of a conversion: the lines of `convert --json` (reporter.hpp) after one about the
-// part:
+// This file reads and writes reports of the parts of a conversion. They are the lines of `convert --json`
+// (reporter.hpp), after one line about the part:
 //
 //   {"part": {"index": 12, "count": 400, "manifest": "HASH", "sets": 100000, "version": "1.2.0",
 //    "conversion": "HASH", "converter": "...", "options": "...", "host": "node7", "note": "Slurm: ..."}}
@@ -20,20 +20,20 @@ Json part_json(const GivenPart& part, const ManifestHead& manifest, const Conver
 // Writes the report of a finished part of the conversion to `output`. Throws kOutput.
 void write_part_report(const std::filesystem::path& output, const Part& part, const std::string& lines);
 
-// The result of merge_reports(): one report of all parts.
+// A MergedReport is the result of merge_reports(): one report of all parts.
 struct MergedReport {
   ListedKind kind = ListedKind::kSets;
-  std::size_t part_count = 0, entry_count = 0;  // as the manifest has them
+  std::size_t part_count = 0, entry_count = 0;  // from the manifest
   std::size_t converted = 0, done_before = 0, failed = 0, skipped = 0, texels = 0;
   double processor_seconds = 0.0;
   std::uintmax_t bytes_read = 0, bytes_written = 0;
   std::vector<std::string> failures;  // of sets or assets, each with its reason
-  // Parts that are missing or do not belong together, sets or assets that occur twice.
+  // Lists parts that are missing or do not belong together, and sets or assets that occur twice.
   std::vector<std::string> problems;
 };
 
-// Reads the reports of all parts in the order of the parts, and hands on each line about a set, an asset, or
-// what is left out. Throws kInput if the folder holds no report.
+// Reads the reports of all parts in the order of the parts. Passes on each line about a set, an asset, or a
+// skipped entry. Throws kInput if the folder holds no report.
 MergedReport merge_reports(const std::filesystem::path& output,
                            const std::function<void(std::string_view)>& take);
 

@@ -26,7 +26,7 @@ void print_messages(const ConvertPlan& plan) {
   for (const std::string& message : plan.messages) say(message);
 }
 
-// File names need not be UTF-8.
+// Prints JSON. File names need not be UTF-8.
 void print(const Json& json) { std::cout << json.dump(2) << std::endl; }
 
 void print_unrecognised(const JobList& list) {
@@ -75,7 +75,7 @@ void require_success(const Outcome& outcome) {
     if (!list.has_several)
       throw input_error(display_path(outcome.reports.front().name) + ": " +
                         *outcome.reports.front().failure_text());
-    int passing = 0;  // the code of the first failure that may pass when the run is repeated
+    int passing = 0;  // code of the first failure that may pass in another run
     for (const JobReport& report : outcome.reports)
       if (passing == 0 && report.failure && is_retryable(report.failure_code)) passing = report.failure_code;
     throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed", passing);
@@ -85,14 +85,14 @@ void require_success(const Outcome& outcome) {
                       "skipped, because there is nothing to convert in them");
 }
 
-// The name of a target parameter; the roughness is called by its encoding.
+// Returns the name of a target parameter. Roughness is called by its encoding.
 std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessEncoding width) {
   if (parameter == Parameter::kRoughness) return std::string(encoding_name(width));
   if (!chosen.workflow.is_material()) return chosen.info().target.specular;
   return std::string(parameter_name(parameter));
 }
 
-// The result of a conversion of numbers.
+// A ConvertedNumbers is the result of a conversion of numbers.
 struct ConvertedNumbers {
   std::string name;
   std::vector<float> channels;
@@ -108,7 +108,7 @@ void print_numbers(const ConvertPlan& plan, const std::vector<ConvertedNumbers>&
     result["in_domain"] = in_domain;
     return print(result);
   }
-  // Six digits: the precision of a float.
+  // Print six digits, the precision of a float.
   std::cout << std::setprecision(6);
   for (const ConvertedNumbers& value : values) {
     std::cout << value.name;

@@ -1,5 +1,5 @@
-// What `texremap convert` says while it runs and at its end: text to standard error, JSON to standard output
-// and into the report of a part (part_report.hpp).
+// This file prints the output of `texremap convert`: text to standard error, and JSON to standard output and
+// into the report of a part (part_report.hpp).
 #pragma once
 
 #include <string>
@@ -13,16 +13,17 @@
 
 namespace remap {
 
-// JSON is one object for a single set or asset. For several it is an object a line, each as soon as it is
-// known: `{"part": ...}` of a part of a manifest, `{"conversion": ...}`, `{"skipped": ...}` for each entry
-// that is not converted, `{"set": ...}` or `{"asset": ...}`, and `{"summary": ...}` last.
+// A Reporter prints the outcome. JSON is one object for a single set or asset. For several it is one object
+// per line, as soon as it is known: `{"part": ...}` for a part of a manifest, `{"conversion": ...}`,
+// `{"skipped": ...}` for each entry that is not converted, `{"set": ...}` or `{"asset": ...}`, and
+// `{"summary": ...}` last.
 class Reporter {
  public:
-  // `plan` must outlive it. Prints what was assumed and what is left out.
+  // Prints what was assumed and what is skipped. `plan` must outlive this object.
   explicit Reporter(const ConvertPlan& plan);
-  // Called with each set or asset as it is finished, by one thread at a time.
+  // Prints a set or asset as soon as it is finished. Only one thread at a time may call it.
   void add(const JobReport& report);
-  // Prints the summary of all of them. Throws kInput where something failed; kOutput if the report of a part
+  // Prints the summary of all of them. Throws kInput if something failed, and kOutput if the report of a part
   // cannot be written.
   void finish(std::vector<JobReport> reports);
 

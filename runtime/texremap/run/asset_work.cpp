@@ -16,7 +16,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// Files that several assets of a run name are copied by the first; the others find them whole.
+// A SharedCopies lets the first of several assets copy a shared file. The others wait for the whole file.
 class SharedCopies {
  public:
   void copy(const ResourceCopy& copy) {
@@ -89,11 +89,11 @@ class AssetWorker final : public JobWorker {
       folder_.take(image, job.owner);
     }
     const bool has_failed = report.failure_text().has_value();
-    // A file of which nothing was converted and something failed would be taken for a result.
+    // Report no result if nothing was converted and something failed.
     if (has_failed && !conversion.changed) report.results.clear();
     if (!report.results.empty()) {
       for (const ResourceCopy& copy : beside.copies) report.copies.push_back(copy.to);
-      // A resumed run tries again what failed.
+      // Without inputs in the journal, a resumed run tries the failed parts again.
       if (!plan_.dry_run) write(asset, source, conversion, report, beside, has_failed ? "" : inputs);
     }
     report.bytes_read = source.size();
@@ -102,12 +102,12 @@ class AssetWorker final : public JobWorker {
   }
 
  private:
-  // Copies are compared with what they are of: several assets may share one. Files that only converted
-  // materials used are not in the result, and have none.
+  // Returns true if the results are complete. Copies are compared with their sources, because several assets
+  // may share a copy. Files that only converted materials used have no copy.
   bool is_done(const AssetWork& asset, const std::string& inputs, std::vector<AssetResource> named) const {
     if (!folder_.is_done(inputs, folder_.files_of(asset.name()))) return false;
     const bool is_new_format =
-        asset.input.extension() != asset.output.extension();  // which names other files
+        asset.input.extension() != asset.output.extension();  // the result names other files
     if (is_new_format) return true;
     std::set<std::string> kept;
     for (const AssetResource& resource :
@@ -117,7 +117,7 @@ class AssetWorker final : public JobWorker {
     return plan_resources(asset, named, [](const fs::path&) {}).copies.empty();
   }
 
-  // The asset comes last, so that it never lies without its parts.
+  // Writes the asset last, so that it never lies without its parts.
   void write(const AssetWork& asset, const ByteSource& source, const AssetConversion& conversion,
              const JobReport& report, const ResourcePlan& beside, const std::string& inputs) {
     std::vector<std::unique_ptr<NewFile>> files;

@@ -23,11 +23,11 @@ namespace {
 
 std::atomic<bool> uses_processes = false;
 
-// A message of a copy about its job.
+// An Answer is a message of a copy about its job.
 struct Answer {
   enum class Kind { kShare, kResult, kError } kind = Kind::kShare;
   double share = 0.0;
-  std::string text;  // the result, or what an error says
+  std::string text;  // the result, or the text of an error
   ErrorKind error = ErrorKind::kInput;
   int system_code = 0;
 };
@@ -37,16 +37,16 @@ void fields(Archive& archive, Answer& answer) {
   archive(answer.kind, answer.share, answer.text, answer.error, answer.system_code);
 }
 
-// Messages have their size before them.
+// Sends a message after its size.
 bool send_message(int descriptor, const std::string& message) {
   const std::uint64_t size = message.size();
   return send_all(descriptor, std::string(reinterpret_cast<const char*>(&size), sizeof size) + message);
 }
 
-// Bytes of a stream, of which whole messages are taken.
+// A Messages collects bytes of a stream and returns whole messages.
 class Messages {
  public:
-  // Waits for bytes and reads them; false at the end of the stream.
+  // Waits for bytes and reads them. Returns false at the end of the stream.
   bool read(int descriptor) {
     std::array<char, 1 << 16> piece;
     std::ptrdiff_t count = 0;
@@ -70,7 +70,7 @@ class Messages {
   std::string bytes_;
 };
 
-// The loop of a copy: it does one job after another until this process closes the stream.
+// Is the loop of a copy. It does one job after another until the main process closes the stream.
 void serve(int descriptor, const ApartJobs& jobs) {
   Messages requests;
   for (;;) {
@@ -91,7 +91,7 @@ void serve(int descriptor, const ApartJobs& jobs) {
   }
 }
 
-// The copies of a run, and what they work on.
+// A Copies holds the copies of a run, and their current jobs.
 class Copies {
  public:
   Copies(const ApartJobs& jobs, std::size_t most) : jobs_(jobs), copies_(most) {}
@@ -102,7 +102,7 @@ class Copies {
   Copies(const Copies&) = delete;
   Copies& operator=(const Copies&) = delete;
 
-  // False where the system makes no copies.
+  // Returns false if the system cannot copy processes.
   bool run() {
     for (;;) {
       for (Copy& copy : copies_)
@@ -140,7 +140,7 @@ class Copies {
     if (!copy.process) return false;
     copy.job = again_.empty() ? next_++ : again_.back();
     if (!again_.empty()) again_.pop_back();
-    (void)send_message(copy.process->descriptor, packed(*copy.job));  // an ended one is heard of below
+    (void)send_message(copy.process->descriptor, packed(*copy.job));  // hear() detects an ended process
     return true;
   }
 
@@ -154,7 +154,7 @@ class Copies {
     if (!copy.job) return;
     const std::size_t job = *copy.job;
     copy.job.reset();
-    // Nothing in a job ends it so, but the system, where memory runs out, or somebody else.
+    // Only the system, if memory runs out, or another person kills a process with signal 9.
     jobs_.clean(job);
     const bool is_killed = how.starts_with("by signal 9 ");
     if (is_killed && ++kills_[job] < kMostTries) return again_.push_back(job);
@@ -176,7 +176,7 @@ class Copies {
   std::size_t next_ = 0;
   static constexpr int kMostTries = 3;
   std::vector<std::size_t> again_;    // jobs whose process was killed
-  std::map<std::size_t, int> kills_;  // how often, by job
+  std::map<std::size_t, int> kills_;  // number of kills, by job
   std::optional<Error> failure_;
   bool is_stopping_ = false;
 };

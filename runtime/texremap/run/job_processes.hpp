@@ -1,5 +1,4 @@
-// Jobs in processes of their own. What a decoder of images does with a hostile file, crash or loop, costs one
-// job.
+// This file runs jobs in separate processes. If a hostile image crashes a decoder, only one job is lost.
 #pragma once
 
 #include <cstddef>
@@ -8,26 +7,26 @@
 
 namespace remap {
 
-// From now on run_apart() works in copies of this process. For programs; a host of the commands has threads
-// and memory of its own, and its jobs stay in threads.
+// Makes run_apart() work in copies of this process from now on. Only programs call it. A host of the commands
+// has its own threads and memory, so its jobs stay in threads.
 void use_job_processes();
 
 struct ApartJobs {
   std::size_t count = 0;
-  unsigned at_once = 0;  // 0: one a processor
-  // Does job `i` and returns what is to be known of it (packed_values.hpp). In another process or thread;
-  // `advance` tells this one what share of the job is done, from 0 to 1.
+  unsigned at_once = 0;  // 0: one per processor
+  // Does job `i` and returns its result (packed_values.hpp), in another process or thread. `advance` reports
+  // the finished fraction of the job, from 0 to 1, to this one.
   std::function<std::string(std::size_t i, const std::function<void(double)>& advance)> work;
-  // The rest is called in this process, one call at a time.
+  // The following functions run in this process, one call at a time.
   std::function<void(std::size_t i, double share)> advanced = [](std::size_t, double) {};
   std::function<void(std::size_t i, std::string result)> finished;
-  // The process of the job was ended, and has left unfinished files.
+  // Is called when the process of the job was ended and has left unfinished files.
   std::function<void(std::size_t i)> clean = [](std::size_t) {};
-  // So it was, as `reason` says, and the job is not tried again.
+  // Is called when the process was ended for `reason` and the job is not tried again.
   std::function<void(std::size_t i, const std::string& reason)> crashed;
 };
 
-// Works through all jobs. The first Error of one stops those that have not begun, and is thrown here.
+// Does all jobs. The first Error stops the jobs that have not begun, and is thrown here.
 void run_apart(const ApartJobs& jobs);
 
 }  // namespace remap

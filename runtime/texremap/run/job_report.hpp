@@ -1,4 +1,4 @@
-// The report of a job, or of a set with all its tiles.
+// This file holds the report of a job, or of a set with all its tiles.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace remap {
 
-// The color space in which maps of a color are read or written, and why: the user's word, the file's (its
-// tag, or for a result the map that it follows), or the usual one.
+// A ColorNote is the color space in which maps of a color are read or written, with its reason. The reason is
+// the user, the file (its tag, or for a result the map that it follows), or the usual one.
 struct ColorNote {
   Parameter color;
   bool is_written;
@@ -30,49 +30,49 @@ using ColorNotes = std::map<ColorNote, std::size_t>;  // with the number of maps
 struct JobReport {
   struct Result {
     std::filesystem::path path;
-    std::vector<Parameter> parameters;  // that the file holds
+    std::vector<Parameter> parameters;  // parameters in the file
     bool mask = false;
   };
-  std::string name;                // empty for the one set of a command line
-  std::vector<std::string> tiles;  // converted tiles; empty where the set has no tiles
+  std::string name;                // empty for the only set of a command line
+  std::vector<std::string> tiles;  // converted tiles; empty if the set has no tiles
   std::vector<std::filesystem::path> inputs;
-  // Also planned ones, in a dry run and after a failure. Of an asset: itself, unless nothing is written, and
-  // its new images.
+  // These include planned results, in a dry run and after a failure. For an asset they are the asset, unless
+  // nothing is written, and its new images.
   std::vector<Result> results;
-  std::vector<std::filesystem::path> copies;  // files that are not converted; also planned ones
+  std::vector<std::filesystem::path> copies;  // unconverted files; also planned ones
   std::vector<std::string> warnings;
   std::optional<std::string> failure;
   int failure_code = 0;           // errno of the call that failed, or 0
   bool was_done = false;          // by the earlier run that this one resumes
-  double seconds = 0.0;           // sum over all tiles, even where tiles ran in parallel
+  double seconds = 0.0;           // sum over all tiles, even if tiles ran in parallel
   std::uintmax_t bytes_read = 0;  // sizes of the files on disk
   std::uintmax_t bytes_written = 0;
 
-  // Members of texture sets only.
+  // The following members are only for texture sets.
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   Transfer specular_transfer = Transfer::kLinear;
-  ColorNotes colors;                         // of whole numbers, and of what a file or the user says
+  ColorNotes colors;                         // for integers, and if a file or the user states it
   std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
-  std::vector<PlannedRole> plan;             // of a dry run; of tiles, that of the first
+  std::vector<PlannedRole> plan;             // for a dry run; for tiles, the first tile's
   bool has_8_bits = false, has_compression_level = false;  // a result does
   MapStatistics statistics;
 
-  std::vector<AssetMaterial> materials;  // of assets
+  std::vector<AssetMaterial> materials;  // for assets
 
-  // The report of a job that has not begun.
+  // Returns the report of a job that has not begun.
   static JobReport of(const Job& job);
   // Adds the report of the next tile of the set.
   JobReport& operator+=(const JobReport& other);
 
   std::size_t count(MaterialState state) const { return count_of(materials, state); }
-  // Why it has failed: the whole of it, or `1 of 3 materials failed`. None where all went well.
+  // Returns why it has failed: the whole job, or `1 of 3 materials failed`. Returns nothing after success.
   std::optional<std::string> failure_text() const;
 };
 
-// An estimated F0 as it is used and printed: with four decimals.
+// Returns an estimated F0 as it is used and printed, with four decimals.
 double used_f0(const DielectricF0& estimated);
 
-// All members, for another process (packed_values.hpp).
+// Lists all members for another process (packed_values.hpp).
 template <typename Archive>
 void fields(Archive& archive, JobReport::Result& result) {
   archive(result.path, result.parameters, result.mask);

@@ -24,8 +24,8 @@ struct Entry {
   std::string hash;
 };
 
-// A name as the journal writes it. Names that are not UTF-8, which JSON cannot hold, have % and two digits
-// for each byte that is not ASCII.
+// Returns a name as the journal writes it. JSON cannot hold names that are not UTF-8. They get % and two
+// digits for each byte that is not ASCII.
 std::string journal_name(const fs::path& path, const fs::path& folder) {
   const auto absolute = [](const fs::path& name) { return fs::absolute(name).lexically_normal(); };
   const std::string name = absolute(path).lexically_relative(absolute(folder)).generic_string();
@@ -39,25 +39,25 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
   return escaped;
 }
 
-// The content of journals. Each read continues at the end of the last one.
+// A Content is the content of journals. Each read continues at the end of the last one.
 struct Content {
   std::optional<ConversionNote> owner;
-  std::map<std::string, Entry> files;  // by name, the last line counts
+  std::map<std::string, Entry> files;  // by name; the last line counts
   std::map<std::string, std::vector<const std::string*>>
       sets;  // names of their files, which are keys of `files`
   std::map<fs::path, std::uintmax_t> read_bytes;
-  bool ends_in_line = false;  // what was read last: a line of a killed run has no end, and is not whole
+  bool ends_in_line = false;  // if true, the last line has no end, because its run was killed
 
-  // The journal `name` of a folder, if it is there. Throws kOutput if the file belongs to another user,
-  // kInput if a line is too long.
+  // Reads the journal `name` of a folder if it exists. Throws kOutput if the file belongs to another user,
+  // and kInput if a line is too long.
   void read_own(const fs::path& folder, const fs::path& name);
-  // In the order in which they were written to.
+  // Reads journals in the order in which they were last written.
   void read_own(const fs::path& folder, const std::vector<fs::path>& names);
   void read(const InputFile& journal);
   void add(std::string_view line);
 };
 
-// Names of journals in a folder, in the order in which they were written to.
+// Returns names of journals in a folder, in the order in which they were last written.
 std::vector<fs::path> by_time(const fs::path& folder, const std::vector<fs::path>& names) {
   std::vector<std::pair<fs::file_time_type, fs::path>> written;
   for (const fs::path& name : names) {
@@ -116,8 +116,7 @@ void Content::add(std::string_view line) {
       field["files"].list(0, read);
     }
   } catch (const Error&) {
-    // A killed run left half a line, or the journal is damaged. What the line meant is unknown, so it is
-    // skipped.
+    // Skip the line, because its meaning is unknown. A killed run left it, or the journal is damaged.
   }
 }
 
@@ -144,7 +143,7 @@ void Content::read_own(const fs::path& folder, const std::vector<fs::path>& name
 
 bool is_journal(const fs::path& file) { return file.extension() == kPartJournal; }
 
-// The names of all journals of an output folder that there may be.
+// Returns the names of all possible journals of an output folder.
 std::vector<fs::path> journals_of(const fs::path& folder) {
   std::vector<fs::path> journals = {kJournalName};
   std::error_code failure;
@@ -153,7 +152,7 @@ std::vector<fs::path> journals_of(const fs::path& folder) {
   return journals;
 }
 
-// Returns one journal of another part, or nothing if there is none. From it a part knows which conversion
+// Returns one journal of another part, or nothing if there is none. A part reads from it which conversion
 // owns the folder.
 std::vector<fs::path> other_part(const fs::path& folder, const fs::path& own) {
   std::vector<fs::path> names = journals_of(folder);
@@ -189,7 +188,7 @@ std::string details_of(const ConversionNote& note) {
   return text;
 }
 
-// `target mitsuba/ggx there, mitsuba/as here`: the first difference.
+// Returns the first difference: `target mitsuba/ggx there, mitsuba/as here`.
 std::string difference(const ConversionNote& owner, const ConversionNote& own) {
   const auto differ = [](const std::string& what, const std::string& there, const std::string& here) {
     return what + " " + shown_note(there) + " there, " + shown_note(here) + " here";
@@ -211,9 +210,9 @@ struct Journal::State {
   fs::path folder, file;  // the journal that this run writes, below the folder
   bool is_part = false;
   ConversionNote conversion;
-  mutable std::mutex mutex;  // of `content` and of appending
+  mutable std::mutex mutex;  // for `content` and for appending
   Content content;
-  bool has_all = false;  // journals in `content`
+  bool has_all = false;  // all journals are in `content`
   bool is_claimed = false;
 
   std::string name_of(const fs::path& path) const { return journal_name(path, folder); }
@@ -222,7 +221,7 @@ struct Journal::State {
     return found == content.files.end() || found->second.conversion != conversion.hash ? nullptr
                                                                                        : &found->second;
   }
-  // The same after a look at what other runs have written meanwhile, where the file exists.
+  // Does the same for an existing file, after reading what other runs have written meanwhile.
   const Entry* entry_of_existing(const fs::path& path) {
     if (const Entry* known = entry_of(path)) return known;
     std::error_code ignored;
@@ -231,7 +230,7 @@ struct Journal::State {
     has_all = true;
     return entry_of(path);
   }
-  // The lock of the folder for a run that shares its journal with others; null for a part.
+  // Locks the folder for a run that shares its journal with others. Returns null for a part.
   std::unique_ptr<FolderLock> lock() const {
     if (is_part) return nullptr;
     auto held = std::make_unique<FolderLock>(folder);
@@ -320,7 +319,7 @@ std::vector<fs::path> Journal::files_of(const std::string& set) const {
   const auto found = state_->content.sets.find(set);
   if (found == state_->content.sets.end()) return files;
   for (const std::string* name : found->second) {
-    if (!fault_of_relative(*name).empty()) return {};  // which this program has not written
+    if (!fault_of_relative(*name).empty()) return {};  // this program has not written it
     files.push_back(state_->folder / *name);
   }
   return files;
@@ -376,8 +375,8 @@ struct JournalLookup::State {
     return found->second;
   }
 
-  // Journals of inputs are hints, which belong to whoever made these files. One that cannot be read tells
-  // nothing from there on.
+  // Adds a journal of inputs. It is only a hint, because it belongs to whoever made these files. If it cannot
+  // be read, the rest is ignored.
   static void add(const fs::path& journal, Content& content) {
     try {
       content.read(InputFile(journal));

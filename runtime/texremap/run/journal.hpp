@@ -1,19 +1,19 @@
-// The journal of an output folder, `.texremap.jsonl`: to which conversion the folder belongs, and what was
-// written from which inputs, in any format. Lines of JSON that are only ever appended:
+// This file handles the journal of an output folder, `.texremap.jsonl`. It records the conversion that owns
+// the folder, and which results came from which inputs, in any format. It has lines of JSON that are only
+// ever appended:
 //
-//   {"conversion": {"hash": "...", "source": "mitsuba/ward", "target": "mitsuba/as", ...}}   the last one
-//   counts
-//   {"begun": ["a_rough.tga", ...], "conversion": "HASH"}                                     before the
-//   first file
-//   {"set": "a", "inputs": "HASH", "conversion": "HASH", "source": ..., "target": ..., "files": [{"name":
-//    "a_rough.tga", "bytes": 1234, "hash": "..."}, ...]}                                      after the last
-//    one
+//   {"conversion": {"hash": "...", "source": "mitsuba/ward", "target": "mitsuba/as", ...}}
+//   {"begun": ["a_rough.tga", ...], "conversion": "HASH"}
+//   {"set": "a", "inputs": "HASH", "conversion": "HASH", "source": ..., "target": ...,
+//    "files": [{"name": "a_rough.tga", "bytes": 1234, "hash": "..."}, ...]}
+//
+// The last line `conversion` counts. `begun` is written before the first file of a set, and `set` after the
+// last.
 //
 // Names are relative to the folder. A line that cannot be read, such as the last one of a killed run, is
-// ignored. A run that converts a part of a manifest writes a journal of its own,
-// `.texremap-parts/NAME.journal` (part.hpp): processes of several machines cannot append to one file of a
-// shared file system. What such a run finds in its place without a line in its own journal, it looks up in
-// all of them.
+// ignored. A run that converts a part of a manifest writes a separate journal, `.texremap-parts/NAME.journal`
+// (part.hpp), because processes of several machines cannot append to one file of a shared file system. If
+// such a run finds a file that its own journal lacks, it looks the file up in all journals.
 #pragma once
 
 #include <cstdint>
@@ -33,14 +33,14 @@
 
 namespace remap {
 
-// A finished file before it has its final name.
+// A FinishedFile is a finished file before it has its final name.
 struct FinishedFile {
   std::filesystem::path path;
   std::uintmax_t bytes = 0;
   std::string hash;
 };
 
-// `file`: a NewFile or a NewImage that is finished, and on the disk when this returns.
+// `file` is a finished NewFile or NewImage. It is on the disk when this returns.
 template <typename File>
 FinishedFile finished_file(const File& file) {
   file.flush_to_disk();
@@ -48,32 +48,32 @@ FinishedFile finished_file(const File& file) {
   return {file.path(), content->size(), hash_of_file(*content)};
 }
 
-// Runs of several processes and threads may share a folder: a set is renamed and noted under a lock of the
-// folder itself (flock), which ends with its process and leaves no file. Parts need none: two runs of one
-// part write the same bytes.
+// A Journal lets runs of several processes and threads share a folder. A set is renamed and recorded under a
+// lock of the folder itself (flock), which ends with its process and leaves no file. Parts need no lock,
+// because two runs of one part write the same bytes.
 class Journal {
  public:
-  // The journal of `folder`, which need not exist, for a run of all sets or of a part.
+  // Opens the journal of `folder`, which need not exist, for a run of all sets or of a part.
   Journal(const std::filesystem::path& folder, ConversionNote conversion, const std::optional<Part>& part);
   ~Journal();
 
-  // Throws kOutput, naming the difference, if the folder belongs to another conversion.
+  // Throws kOutput, with the difference, if the folder belongs to another conversion.
   void require_own() const;
-  // Notes that the folder belongs to this conversion, and creates it. Throws as require_own() unless `force`.
+  // Records that the folder belongs to this conversion, and creates it. Unless `force`, calls require_own().
   void claim(bool force);
 
-  // Whether this conversion wrote, or began to write, the file.
+  // Returns true if this conversion wrote, or began to write, the file.
   bool is_own(const std::filesystem::path& path) const;
-  // Whether this conversion wrote all files from `inputs`, and they still are what it wrote.
+  // Returns true if this conversion wrote all files from `inputs`, and they are unchanged since.
   bool is_done(const std::string& inputs, const std::vector<std::filesystem::path>& files) const;
-  // The files that this conversion wrote last of the set, in their order; none where it wrote none.
+  // Returns the files that this conversion last wrote for the set, in their order.
   std::vector<std::filesystem::path> files_of(const std::string& set) const;
 
-  // Notes that the files of a set are about to appear.
+  // Records that the files of a set are about to appear.
   void begin(const std::vector<std::filesystem::path>& files);
-  // Calls `rename` and notes the set, both under the lock of the folder. Throws kOutput, without calling it,
-  // if another run wrote one of the files meanwhile, unless `force`; if that run made them from the same
-  // inputs, they are whole and equal, and are written again.
+  // Calls `rename` and records the set, both under the lock of the folder. If another run wrote one of the
+  // files meanwhile, it throws kOutput without calling `rename`, unless `force`. If that run made them from
+  // the same inputs, they are complete and equal, and are written again.
   void commit(const std::string& set, const std::string& inputs, const std::vector<FinishedFile>& files,
               bool force, const std::function<void()>& rename);
 
@@ -82,12 +82,12 @@ class Journal {
   std::unique_ptr<State> state_;
 };
 
-// What journals say of input files; a journal lies in the folder of the file or in one above. Thread-safe.
+// A JournalLookup finds input files in journals. A journal lies in the file's folder or above. Thread-safe.
 class JournalLookup {
  public:
   JournalLookup();
   ~JournalLookup();
-  // The target model of the conversion that wrote the file, if the file still is what it wrote.
+  // Returns the target model of the conversion that wrote the file, if the file is unchanged since.
   std::optional<std::string> target_of(const InputFile& file);
 
  private:

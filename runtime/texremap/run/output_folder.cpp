@@ -24,7 +24,7 @@ void OutputFolder::require_free(const fs::path& file) const {
     throw output_error(file.string() + ": is a folder (choose another name)");
   if (plan_.force) return;
   const bool is_own = journal_ && journal_->is_own(file);
-  // Maps of the same name from elsewhere could be meant where a person names the maps.
+  // If the user names the maps, they may be other maps with the same name.
   if (is_own && plan_.list.is_of_folder) return;
   throw output_error(file.string() + ": already exists" +
                      (is_own     ? ", made from other maps"

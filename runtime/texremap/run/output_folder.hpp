@@ -1,4 +1,4 @@
-// The output folder of a run: which files may be replaced, which are done, and the journal.
+// This file handles the output folder of a run: which files may be replaced, which are done, and the journal.
 #pragma once
 
 #include <filesystem>
@@ -12,34 +12,33 @@
 
 namespace remap {
 
-// Named assets have no journal: the user chose their place, and other files may be there.
+// An OutputFolder has no journal for named assets, because the user's folder may have other files.
 class OutputFolder {
  public:
-  // `plan` must outlive it. Throws kOutput if the folder belongs to another conversion, unless --force is
-  // given.
+  // Throws kOutput if the folder belongs to another conversion, except with --force. `plan` must outlive it.
   explicit OutputFolder(const ConvertPlan& plan);
 
-  // Decides whether a file may be written: if it does not exist, if this conversion of a folder wrote it, or
-  // with --force. Otherwise throws kOutput, with what to do.
+  // Throws kOutput, with what to do, unless a file may be written. It may be written if it does not exist, if
+  // this conversion of a folder wrote it, or with --force.
   void require_free(const std::filesystem::path& file) const;
-  // Takes the name of a result. Throws kOutput where another job has it.
+  // Reserves the name of a result. Throws kOutput if another job has it.
   void take(const std::filesystem::path& file, const std::string& owner) const;
 
-  // Whether hashing the inputs can tell anything: this conversion wrote the first of the files.
+  // Returns true if hashing the inputs can help, because this conversion wrote the first of the files.
   bool may_be_done(const std::vector<std::filesystem::path>& files) const;
-  // Whether this conversion wrote all files from `inputs`, and they still are what it wrote; never with
-  // --force.
+  // Returns true if this conversion wrote all files from `inputs`, and they are unchanged since. Returns
+  // false with --force.
   bool is_done(const std::string& inputs, const std::vector<std::filesystem::path>& files) const;
-  // The files that this conversion wrote last of an entry.
+  // Returns the files that this conversion last wrote for an entry.
   std::vector<std::filesystem::path> files_of(const std::string& entry) const;
 
-  // Notes that files are about to appear.
+  // Records that files are about to appear.
   void begin(const std::vector<std::filesystem::path>& files);
-  // Calls `rename`, which gives finished files their names, and notes them. They are on the disk before; the
-  // lock of the folder is held for the renames only.
+  // Calls `rename`, which gives finished files their names, and records them. They must be on the disk
+  // before. The lock of the folder is held only for the renames.
   void commit(const std::string& entry, const std::string& inputs, const std::vector<FinishedFile>& files,
               const std::function<void()>& rename);
-  // Whether results are noted, and so on the disk before they have their names.
+  // Returns true if results are recorded. Then they must be on the disk before they get their names.
   bool has_journal() const { return journal_.has_value(); }
 
  private:

@@ -31,7 +31,7 @@ std::string input_of(const TextureSet& set, const SetParameter& parameter) {
   return text;
 }
 
-// The files with a channel that `is_of` accepts.
+// Returns the files with a channel that `is_of` accepts.
 template <typename IsOf>
 std::string outputs_of(const TargetPlan& plan, IsOf is_of) {
   std::string text;

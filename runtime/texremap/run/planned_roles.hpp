@@ -1,4 +1,4 @@
-// The table that `texremap convert --dry-run` shows for a set: a line for each role.
+// This file makes the table that `texremap convert --dry-run` shows for a set, with a line for each role.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace remap {
 
-// One role of a set. Empty fields have no meaning there.
+// A PlannedRole is one role of a set. Fields that do not apply are empty.
 struct PlannedRole {
   std::string role;      // `roughness`, `base_color`; empty for files without one
   std::string input;     // `rock_arm.png:G`, `0.04`
@@ -20,12 +20,12 @@ struct PlannedRole {
   bool operator==(const PlannedRole&) const = default;
 };
 
-// `own_width` is the encoding of the source where the set does not say one, `width` that of the results.
+// `own_width` is the source's encoding if the set does not state one, `width` the encoding of the results.
 std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& plan,
                                        const TargetChoice& choice, const SetWork& work,
                                        RoughnessEncoding own_width, RoughnessEncoding width);
 
-// The rows in columns, under a heading; every line begins with two spaces.
+// Returns the rows in columns, under a heading. Every line begins with two spaces.
 std::string plan_table(const std::vector<PlannedRole>& roles);
 
 }  // namespace remap

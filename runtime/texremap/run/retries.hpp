@@ -1,4 +1,4 @@
-// Work that is done again after failures that pass soon, such as a server of files that does not answer.
+// This file repeats work after failures that pass soon, such as a file server that does not answer.
 #pragma once
 
 #include <functional>
@@ -7,9 +7,9 @@
 
 namespace remap {
 
-// Does `work`, up to three times again, longer apart from time to time, where it fails with a code that
-// passes soon (core/errors.hpp). Returns the messages of the failures before it succeeded; throws the last
-// one. An interruption ends the waiting.
+// Does `work`. If it fails with a code that passes soon (core/errors.hpp), repeats it up to three times with
+// growing pauses. Returns the messages of the failures before the success, and throws the last one. An
+// interruption ends the pause.
 std::vector<std::string> with_retries(const std::function<void()>& work);
 
 }  // namespace remap

@@ -20,10 +20,10 @@
 namespace remap {
 namespace {
 
-// The share of one job in the progress line, independent of its size.
+// Each job has this share in the progress line, whatever its size.
 constexpr std::size_t kJobProgress = 1000;
 
-// The progress line of the whole run.
+// A RunProgress is the progress line of the whole run.
 class RunProgress {
  public:
   RunProgress(const ConvertPlan& plan)
@@ -56,8 +56,8 @@ class RunProgress {
   std::vector<std::size_t> shown_;  // of each job
 };
 
-// Merges the reports of the tiles of a set, which follow one another, and hands over each when the last job
-// is finished. An asset is a set of one.
+// A MergedReports merges the reports of a set's tiles, which follow one another. It passes each set on when
+// its last job is finished. An asset is a set of one job.
 class MergedReports {
  public:
   MergedReports(const std::vector<Job>& jobs, std::function<void(const JobReport&)> finished)
@@ -97,7 +97,7 @@ class MergedReports {
   std::vector<std::pair<std::size_t, std::size_t>> set_of_;  // index of the set, and of the job in it
 };
 
-// The place in messages: the set or the asset; the first map if the set has no name.
+// Returns the place for messages: the set or the asset, or the first map if the set has no name.
 std::string place_of(const Job& job) {
   if (!job.name.empty()) return display_path(job.name);
   for (const auto& [parameter, asked] : std::get<SetWork>(job.work).request.parameters)
@@ -105,7 +105,7 @@ std::string place_of(const Job& job) {
   return "the set";
 }
 
-// Does a job; where there are several, a failure is a part of the report.
+// Does a job. If there are several, a failure becomes part of the report.
 JobReport report_of(JobWorker& worker, const OutputFolder& folder, const ConvertPlan& plan, const Job& job,
                     const std::function<void(double)>& advance) {
   JobReport report;

@@ -19,10 +19,9 @@
 namespace remap {
 namespace {
 
-// Files that are open, each once.
 using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
 
-// Each file once: a file of several parts is several maps.
+// Returns each file once, because a file of several parts is several maps.
 OpenFiles files_of(const TextureSet& set) {
   OpenFiles files;
   for (const ImageReader& map : set.maps)
@@ -30,13 +29,13 @@ OpenFiles files_of(const TextureSet& set) {
   return files;
 }
 
-// The open file of that name; opens it where it is none of `files`.
+// Returns the open file of that name, and opens it if `files` lack it.
 std::shared_ptr<const InputFile> file_among(const OpenFiles& files, const std::filesystem::path& path) {
   const auto found = std::ranges::find(files, path, [](const auto& file) { return file->path(); });
   return found != files.end() ? *found : std::make_shared<const InputFile>(path);
 }
 
-// A hash of the files of a set, of what is taken from where, and of the files that are copied beside it.
+// Returns a hash of the files of a set, the use of their channels, and the files that are copied with it.
 std::string inputs_hash(const OpenFiles& files, const SetWork& set, const OpenFiles& copied) {
   ContentHash hash;
   for (const auto& file : files) hash.add_file(*file);
@@ -92,7 +91,7 @@ WidthSource width_source(const TextureSet& set) {
   return {set.maps[map->channels.front().map].path(), set.convention};
 }
 
-// Notes in which color spaces the set is read and written.
+// Records the color spaces in which the set is read and written.
 void note_colors(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) {
   for (const auto& [parameter, values] : set.parameters)
     if (is_color(parameter) && values.is_map() &&
@@ -143,8 +142,8 @@ class SetWorker final : public JobWorker {
               std::vector<TargetMap>& finished);
   std::unique_ptr<Converter> survey(TextureSet& set, JobReport& report) const;
   void note_issues(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
-  // What the roughness results hold where neither a name nor an option says it: what the target model of a
-  // workflow takes, else what the inputs hold where that is known, else what the target model takes.
+  // Returns the usual encoding of the roughness results, without a name or an option. For a workflow it is
+  // the target model's. Otherwise it is the inputs' encoding if known, and then the target model's.
   RoughnessEncoding usual_width(const TextureSet& set) const {
     if (chosen_.workflow.is_material()) return width_of(*chosen_.workflow.target);
     return set.convention.value_or(chosen_.info().target.roughness);
@@ -158,7 +157,7 @@ class SetWorker final : public JobWorker {
   JournalLookup journals_;  // of the inputs
 };
 
-// Says which colors `check` would report.
+// Reports the colors that `check` would report.
 void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport& report) {
   constexpr std::array kColors = {std::pair(Parameter::kSpecular, Role::kSpecular),
                                   std::pair(Parameter::kDiffuse, Role::kDiffuse),
@@ -177,8 +176,8 @@ void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport&
   }
 }
 
-// Samples the maps of a workflow and notes warnings. Returns a converter for this set alone if its dielectric
-// F0 is to be estimated from the maps.
+// Samples the maps of a workflow and adds warnings. Returns a converter only for this set if its dielectric
+// F0 is estimated from the maps.
 std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report) const {
   const WorkflowChoice& workflow = chosen_.workflow;
   if (!workflow.is_material()) return nullptr;
@@ -199,7 +198,7 @@ std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report)
   return make_workflow_converter(stages, chosen_.info().instructions);
 }
 
-// Says which maps of one value have a trace of color, where it could be visible.
+// Reports maps of one value that have visible traces of color.
 void note_tints(const TextureSet& set, JobReport& report) {
   constexpr float kVisibleTint = 0.01f;
   for (const auto& [parameter, tint] : report.statistics.tints) {
@@ -241,7 +240,7 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
   }
 }
 
-// Copies that are finished and have no final name yet; those that do not get one are removed.
+// A FinishedCopies holds finished copies without a final name. It removes the ones that never get a name.
 class FinishedCopies {
  public:
   FinishedCopies() = default;

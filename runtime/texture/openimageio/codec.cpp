@@ -1,4 +1,4 @@
-// Images in memory, as assets embed them.
+// This file reads and writes images in memory, as assets embed them.
 #include <webp/decode.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -11,13 +11,12 @@
 namespace remap {
 namespace {
 
-// Of the pixels of an image a conversion keeps so many copies: other maps of the material, and what it
-// becomes.
+// A conversion keeps this many copies of an image's pixels: other maps of the material, and the results.
 constexpr std::uint64_t kCopies = 4;
 
 constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
 
-// By libwebp itself: OpenImageIO 2.4 multiplies the colors by alpha in 8 bits, whatever it is asked for.
+// Uses libwebp directly, because OpenImageIO 2.4 always multiplies the colors by alpha in 8 bits.
 ImagePixels webp_pixels(std::string_view bytes, const ImageHead& head, const std::string& context) {
   const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   WebPBitstreamFeatures features;

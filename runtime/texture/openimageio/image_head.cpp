@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-// No file of these formats holds more texels for its size, but for pictures of one color.
+// No file of these formats has more texels for its size, except pictures of one color.
 constexpr std::uint64_t kMostBytesOfAByte = 1'000'000;
 // The head of an image states its size before texels are read. A larger size is a mistake or an attack.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 32;
@@ -35,7 +35,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t place, std::size_t c
   return number;
 }
 
-// Targa files do not begin with a mark: their header of 18 bytes is one that a writer of images makes.
+// Detects Targa files by the values of their 18-byte header, because they do not begin with a mark.
 bool is_targa(std::string_view head) {
   const std::string_view types("\1\2\3\11\12\13", 6), depths("\10\17\20\30\40", 5);
   return head.size() >= 18 && (head[1] == 0 || head[1] == 1) &&
@@ -61,7 +61,7 @@ std::string format_of(std::string_view head) {
   return is_targa(head) ? "targa" : "";
 }
 
-// The name of a format that is known and not read; empty for others.
+// Returns the name of a format that is known but not read, otherwise an empty text.
 std::string known_name(std::string_view head) {
   using Mark = std::pair<std::string_view, const char*>;
   constexpr std::array<Mark, 8> kMarks = {Mark{"\xabKTX", "KTX2"}, {"DDS ", "DDS"},   {"GIF8", "GIF"},
@@ -77,7 +77,7 @@ std::string known_name(std::string_view head) {
   throw input_error(context + ": is damaged: " + what);
 }
 
-// libpng allocates and fills as much as a chunk claims.
+// Checks chunk lengths, because libpng allocates and fills as much memory as a chunk claims.
 void look_at_png(const ImageBytes& image, const std::string& context, ImageHead& head) {
   constexpr std::size_t kFrame = 12, kMostChunks = 10'000;  // length, name and checksum
   std::array<char, 8> begin{};
@@ -93,9 +93,9 @@ void look_at_png(const ImageBytes& image, const std::string& context, ImageHead&
   }
 }
 
-// OpenImageIO reads beyond its memory where the compression does not fit the number of bits.
+// Checks compression and bits, because OpenImageIO reads beyond its memory if they do not fit.
 void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::string& context) {
-  constexpr std::uint32_t kOldHeader = 12;  // which has no compression
+  constexpr std::uint32_t kOldHeader = 12;  // a header without compression
   const std::uint32_t header = number_at(begin, 14, 4, false);
   const bool is_old = header == kOldHeader;
   const std::uint32_t bits = number_at(begin, is_old ? 24 : 28, 2, false),
@@ -117,7 +117,7 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
     return static_cast<std::uint64_t>(size == 4 && value > 0x7fffffffu ? 0u - value : value);
   };
   const std::uint64_t width = side(18, is_old ? 2 : 4), height = is_old ? side(20, 2) : side(22, 4);
-  if (compression == 1 || compression == 2) {  // run lengths, all of which are read when the file is opened
+  if (compression == 1 || compression == 2) {  // run lengths, which are all read on opening
     constexpr std::uint64_t kLongest = std::numeric_limits<int>::max();
     const auto shorter = [&](std::uint64_t texels) { return static_cast<int>(std::min(texels, kLongest)); };
     ImageHead head;
@@ -130,7 +130,7 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
                                 std::to_string(height) + " needs (the file may be truncated)");
 }
 
-// OpenImageIO takes texts of the extension area as far as their next zero, wherever that is.
+// Checks the ends of texts, because OpenImageIO reads texts of the extension area up to any zero.
 void look_at_targa(const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kFooter = 26, kArea = 495;
   std::string footer(kFooter, '\0'), area(kArea, '\0');
@@ -149,7 +149,7 @@ void look_at_targa(const ImageBytes& image, const std::string& context) {
       refuse_damaged(context, "a text of its extension area has no end");
 }
 
-// OpenImageIO looks up colors behind the end of a palette.
+// Checks indices, because OpenImageIO looks up colors behind the end of a palette.
 void look_at_targa_palette(std::string_view begin, const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kHeader = 18, kChunk = std::size_t{1} << 16;
   constexpr std::uint32_t kPlain = 1, kRunLengths = 9;
@@ -164,7 +164,7 @@ void look_at_targa_palette(std::string_view begin, const ImageBytes& image, cons
   std::string chunk;
   std::size_t next = 0;
   bool has_ended = false;
-  const auto number = [&](std::size_t count) {  // 0 behind the end, which the reader finds itself
+  const auto number = [&](std::size_t count) {  // 0 behind the end, which the importer finds itself
     if (chunk.size() - next < count) {
       at += next;
       chunk.resize(kChunk);
@@ -191,7 +191,7 @@ void look_at_targa_palette(std::string_view begin, const ImageBytes& image, cons
   }
 }
 
-// OpenEXR allocates and fills as much as an attribute claims.
+// Checks attribute lengths, because OpenEXR allocates and fills as much memory as an attribute claims.
 void look_at_exr(const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kStart = 8, kMostAttributes = 100'000, kNames = 2 * 256;  // name and type
   constexpr std::uint32_t kSeveralParts = 0x1000;
@@ -223,7 +223,7 @@ void look_at_exr(const ImageBytes& image, const std::string& context) {
   refuse_damaged(context, "it has too many attributes");
 }
 
-// A progressive JPEG is kept whole until its last scan.
+// Detects progressive JPEG files, which stay in memory as a whole until their last scan.
 bool is_progressive(const ImageBytes& image) {
   constexpr std::size_t kMostSegments = 10'000;
   std::array<char, 4> segment{};
@@ -253,7 +253,7 @@ ImageBytes bytes_of(std::string_view memory) {
 ImageHead checked_head(const ImageBytes& image, const std::string& context, ImageUse use) {
   const std::string begin = begin_of(image);
   ImageHead head{format_of(begin), {}, false};
-  const bool is_picture = head.format == "openexr" || head.format == "hdr";  // which no asset holds
+  const bool is_picture = head.format == "openexr" || head.format == "hdr";  // assets do not hold these
   if (head.format.empty() || (is_picture && use == ImageUse::kAsset)) {
     const std::string name = is_picture ? head.format : known_name(begin);
     throw input_error(context + ": " +
@@ -291,7 +291,7 @@ void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const
   if (bytes / kMostBytesOfAByte > image.size)
     refuse_damaged(
         context, "its size of " + size + " does not fit a file of " + std::to_string(image.size) + " bytes");
-  // Rows that readers of strips, tiles and blocks of rows keep.
+  // Importers of strips, tiles and blocks keep this many rows.
   const int strip = std::max({spec.tile_height, spec.get_int_attribute("tiff:RowsPerStrip"), 256});
   require_image_memory(
       head.is_read_whole ? bytes : row * static_cast<std::uint64_t>(std::min(strip, spec.height)), context);

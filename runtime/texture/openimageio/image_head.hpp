@@ -1,6 +1,5 @@
-// What an image says of itself before a reader of OpenImageIO sees it: every image passes here, of files, of
-// assets, of strokes and of workers. Its readers believe what headers claim, and some of them read beyond
-// their memory.
+// This file checks the head of an image before OpenImageIO reads it. Every image passes here: from files,
+// assets, strokes and workers. OpenImageIO's importers trust headers, and some then read beyond their memory.
 #pragma once
 
 #include <cstddef>
@@ -14,33 +13,34 @@
 
 namespace remap {
 
-// The bytes of an image: of a file or of memory.
+// An ImageBytes gives the bytes of an image from a file or from memory.
 struct ImageBytes {
   std::uint64_t size = 0;
-  // Reads up to `count` bytes from `context` on; returns how many there were.
+  // Reads up to `count` bytes from `place` on, and returns how many there were.
   std::function<std::size_t(std::uint64_t place, char* bytes, std::size_t count)> read;
 };
 ImageBytes bytes_of(std::string_view memory);
 
 struct ImageHead {
-  std::string format;                   // as OpenImageIO names its reader
-  std::vector<std::string> png_chunks;  // names of those before the pixels
-  bool is_read_whole = false;           // for one row of it the reader takes the memory of all
+  std::string format;                   // name of its reader in OpenImageIO
+  std::vector<std::string> png_chunks;  // names of the chunks before the pixels
+  bool is_read_whole = false;           // reading one row needs the memory of all rows
 };
 
-// An image in memory is one of an asset, which holds fewer formats.
+// An image in memory belongs to an asset, which allows fewer formats.
 enum class ImageUse { kMap, kAsset };
 
-// By the content, whatever the name: PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR and Radiance HDR. Throws
-// kInput, beginning with `context`, for every other content, and for a header that would harm a reader.
+// Detects the format by the content, not by the name: PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR and Radiance
+// HDR. Throws kInput, beginning with `context`, for other content, and for a header that would harm an
+// importer.
 ImageHead checked_head(const ImageBytes& image, const std::string& context, ImageUse use = ImageUse::kMap);
 
-// Throws kInput, beginning with `context`, for a picture that its file is too small for, and for one that
-// takes more than the memory of set_image_memory().
+// Throws kInput, beginning with `context`, if the file is too small for its picture, or if the picture needs
+// more memory than set_image_memory() allows.
 void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const ImageBytes& image,
                        const std::string& context);
 
-// The most bytes that the texels of one image may take in memory at once.
+// Limits the bytes that the texels of one image may take in memory at once.
 void set_image_memory(std::uint64_t bytes);
 void require_image_memory(std::uint64_t bytes, const std::string& context);
 

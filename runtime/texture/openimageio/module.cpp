@@ -1,4 +1,4 @@
-// The function that a program calls in the module.
+// This file holds the function that a program calls in the module.
 #include "remap/version.hpp"
 #include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"
@@ -40,7 +40,7 @@ class OpenImageIo : public ImageLibrary {
 
 }  // namespace
 
-// The only symbol that the module shows.
+// This is the only symbol that the module exports.
 extern "C" __attribute__((visibility("default"))) const ImageLibrary* remap_image_library(
     const char* version) {
   static const OpenImageIo library;

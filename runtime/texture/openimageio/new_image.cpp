@@ -1,4 +1,4 @@
-// Writes images.
+// This file writes images.
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A file that remembers its first write failure, because some encoders ignore failures (libpng) or end the
+// A CheckedFile remembers its first write failure, because some encoders ignore failures (libpng) or end the
 // process (libjpeg). It reports success to the encoder; the writer checks for a failure after every band.
 class CheckedFile : public OIIO::Filesystem::IOProxy {
  public:
@@ -35,7 +35,7 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
   std::size_t size() const override { return static_cast<std::size_t>(end_); }  // footers are written here
   void flush() const override { std::fflush(file_); }
 
-  // The errno of the first failure; 0 without a failure.
+  // Returns the errno of the first failure, or 0.
   int failure() const noexcept { return failure_; }
 
  private:
@@ -78,14 +78,14 @@ class OpenedNewImage : public NewImage {
   const OIIO::ImageSpec& spec() const {
     return specs_[static_cast<std::size_t>(part_)][static_cast<std::size_t>(level_)];
   }
-  // The name by which writers that take no stream open the file: through the descriptor where the system has
-  // such names, because another user of the folder may lead the other one elsewhere meanwhile.
+  // Returns the name by which encoders without streams open the file. If possible it refers to the open
+  // descriptor, because another user of the folder may meanwhile redirect the plain name.
   std::string open_name() const {
     std::string name = "/proc/self/fd/" + std::to_string(descriptor_of(file_->stream()));
     std::error_code ignored;
     return fs::exists(name, ignored) ? name : finished_file().string();
   }
-  // A message of a writer about the file.
+  // Replaces temporary names in an encoder's message about the file.
   std::string in_words(std::string message) const {
     const std::string name = open_name();
     for (std::size_t at = message.find(name); at != std::string::npos; at = message.find(name, at))
@@ -112,7 +112,7 @@ class OpenedNewImage : public NewImage {
   bool plane_is_open_ = false;
 };
 
-// Prepares everything without opening the encoder: libpng prints errors if it is opened and gets no texels.
+// Prepares everything without opening the encoder, because libpng prints errors if it gets no texels.
 void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
   output_ = OIIO::ImageOutput::create(path_.string());
   if (!output_) {
@@ -127,7 +127,7 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
     std::vector<OIIO::ImageSpec>& levels = specs_.emplace_back();
     for (const OIIO::ImageSpec& model : followed_levels(*part.model)) {
       levels.push_back(output_spec(model, model_format, *output_, part.changes, path_));
-      // TIFF has no mip levels. Textures store them as parts, which readers of textures treat as levels.
+      // TIFF has no mip levels. Textures store them as parts, which programs treat as levels.
       const bool has_levels =
           output_->supports("mipmap") ||
           (model_format == output_->format_name() && output_->supports("multiimage") && parts.size() == 1);
@@ -141,9 +141,9 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
 }
 
 void OpenedNewImage::open() {
-  // With a proxy, the TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data. Without
-  // one it opens the file by its name, and reports write failures itself, except for the last bytes, which
-  // `check_finished` checks.
+  // With a proxy, the TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data. Without a
+  // proxy it opens the file by its name. It then reports write failures itself, except for the last bytes,
+  // which `check_finished` checks.
   if (layout_.format != "tiff") output_->set_ioproxy(proxy_.get());
   if (specs_.size() > 1 && layout_.format == "openexr") {  // needs all parts at once
     std::vector<OIIO::ImageSpec> firsts;

@@ -1,4 +1,4 @@
-// Shared by the files of the module of images, which alone include OpenImageIO.
+// The files of the module of images share this header. Only they include OpenImageIO.
 #pragma once
 
 #include <filesystem>
@@ -15,24 +15,24 @@
 
 namespace remap {
 
-// The attribute that stops OpenImageIO from multiplying or dividing colors by alpha, because maps hold data.
+// This attribute stops OpenImageIO from multiplying or dividing colors by alpha, because maps hold data.
 inline constexpr const char* kUnassociatedAlpha = "oiio:UnassociatedAlpha";
 
-// The first line of a message of OpenImageIO, or `otherwise` if the message is empty.
+// Returns the first line of a message of OpenImageIO, or `otherwise` if the message is empty.
 std::string first_line(const std::string& text, const std::string& otherwise);
 
-// The note of results whose format has no tag for linear colors in whole numbers.
+// This note marks results whose format has no tag for linear colors in integers.
 inline constexpr const char* kNotedColorSpace = "remap:color_space";
 
-// The metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
+// Returns the metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
 std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std::string& name);
 
-// The type for passing rows without conversion. Channels of several types need TypeUnknown, which the TIFF
-// writer of OpenImageIO 2.4 gets wrong at the right and lower edge of tiled images.
+// Returns the type for passing rows without conversion. Channels of several types need TypeUnknown, which the
+// TIFF writer of OpenImageIO 2.4 gets wrong at the right and lower edge of tiled images.
 OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
 
-// Throws kInput if a channel has an unsupported type.
-// Whether the compression takes a level: that of PNG, and zip of EXR and TIFF.
+// layout_of() throws kInput if a channel has an unsupported type. has_compression_level() returns true if the
+// compression has a level: in PNG, and for zip in EXR and TIFF.
 bool has_compression_level(const OIIO::ImageSpec& spec, const std::string& format);
 
 ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
@@ -41,7 +41,7 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
 std::unique_ptr<StoredImage> open_image(const std::shared_ptr<const InputFile>& file, int part);
 std::unique_ptr<NewImage> create_image(const std::filesystem::path& path, const std::vector<NewPart>& parts);
 
-// The levels of a stored image, as new images follow them.
+// Returns the levels of a stored image, as new images follow them.
 const std::vector<OIIO::ImageSpec>& followed_levels(const StoredImage& image);
 
 Picture read_picture(const std::filesystem::path& path);
@@ -52,8 +52,8 @@ std::string png_picture_bytes(const Picture& picture);
 
 const ImageCodec& asset_codec();
 
-// The description of a new file that follows `model` in everything except `changes`, as far as the format of
-// `output` can hold it. Throws kOutput, naming `path`, if it cannot hold the channels or the requested type.
+// Returns the description of a new file that follows `model` in everything except `changes`, if the format of
+// `output` can hold it. Throws kOutput, with `path`, if the format cannot hold channels or type.
 OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& model_format,
                             const OIIO::ImageOutput& output, const ImageChanges& changes,
                             const std::filesystem::path& path);

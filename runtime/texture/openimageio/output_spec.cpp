@@ -1,5 +1,5 @@
-// The description of a new file that follows another: what it keeps, what becomes invalid with new pixels or
-// a new format, and what each format can hold.
+// This file describes a new file that follows another. It knows what the new file keeps, what becomes invalid
+// with new pixels or a new format, and what each format can hold.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,20 +11,20 @@
 namespace remap {
 namespace {
 
-// Attributes of the pixel coding, which have another meaning in another format.
+// These attributes describe the pixel coding, and have another meaning in another format.
 constexpr std::array kCodingAttributes = {
     "Compression",          "CompressionQuality", "jpeg:subsampling", "tiff:Compression",
     "tiff:RowsPerStrip",    "tiff:ColorSpace",    "tiff:zipquality",  "tiff:PhotometricInterpretation",
     "png:compressionLevel", "oiio:BitsPerSample"};
-// Attributes that OpenImageIO derives from the old pixels.
+// OpenImageIO derives these attributes from the old pixels.
 constexpr std::array kPixelSummaries = {"oiio:SHA-1", "oiio:ConstantColor", "oiio:AverageColor"};
 
 std::string name_of(PixelType type) { return std::string(name_of(kPixelTypes, type)); }
 OIIO::TypeDesc type_desc(PixelType type) { return OIIO::TypeDesc(name_of(type)); }
 PixelType pixel_type(OIIO::TypeDesc type) { return value_named(kPixelTypes, type.c_str()).value(); }
 
-// The type in which `format` holds values of `type` with the least loss; none for unsupported formats.
-// OpenImageIO's own choice takes 8 bits even if the format has 16.
+// Returns the type in which `format` holds values of `type` with the least loss, or nothing for unsupported
+// formats. OpenImageIO's own choice takes 8 bits even if the format has 16.
 std::optional<PixelType> stored_type(std::string_view format, PixelType type) {
   if (format == "openexr") {
     if (type == PixelType::kHalf || type == PixelType::kFloat || type == PixelType::kUint32) return type;
@@ -50,7 +50,7 @@ void choose_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& name
   spec.erase_attribute("tiff:PhotometricInterpretation");
 }
 
-// The reason why the format cannot hold the channels of `spec`; empty if it can.
+// Returns the reason why the format cannot hold the channels of `spec`, or an empty text if it can.
 std::string channels_refused(const OIIO::ImageOutput& output, const OIIO::ImageSpec& spec) {
   if (output.supports("nchannels")) return "";
   const bool has_alpha = spec.alpha_channel >= 0;
@@ -66,7 +66,7 @@ void leave_coding_behind(OIIO::ImageSpec& spec, const OIIO::ImageOutput& output)
   if (!output.supports("tiles") || !sides_fit) spec.tile_width = spec.tile_height = spec.tile_depth = 0;
 }
 
-// IPTC writers add the artist here again, and readers would then report two creators.
+// Removes the creator, because IPTC writers add the artist again; there would be two creators.
 void leave_creator_to_writer(OIIO::ImageSpec& spec) {
   if (spec.get_string_attribute("IPTC:Creator") == spec.get_string_attribute("Artist"))
     spec.erase_attribute("IPTC:Creator");
@@ -101,7 +101,7 @@ void suit_jpeg(OIIO::ImageSpec& spec) {
   leave_creator_to_writer(spec);
 }
 
-// OpenImageIO appends its version to the name of the program each time it writes a file.
+// Removes the version, because OpenImageIO appends it to the program's name each time it writes a file.
 void suit_targa(OIIO::ImageSpec& spec) {
   const int version = OIIO::openimageio_version();
   const std::string own = " " + std::to_string(version / 100) + "." + std::to_string(version % 100);
@@ -109,7 +109,7 @@ void suit_targa(OIIO::ImageSpec& spec) {
   if (software.ends_with(own)) spec.attribute("Software", software.substr(0, software.size() - own.size()));
 }
 
-// Settings for single formats.
+// Sets what single formats need.
 void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
   // TIFF tags associated alpha and stores it unchanged; the other formats would divide by it.
   if (format != "tiff" || spec.alpha_channel < 0) spec.attribute(kUnassociatedAlpha, 1);
@@ -131,10 +131,9 @@ void choose_compression_level(OIIO::ImageSpec& spec, const std::string& format, 
     spec.attribute("Compression", "zip:" + std::to_string(level));
 }
 
-// Tags the colors of a new file. One that stores them as the file that it follows keeps that file's tag. Data
-// has no tag, whatever the file has that it follows: readers that follow the tag would decode it. glTF and
-// most readers take the colors of PNG for sRGB and ignore its gamma, so linear colors have a tag only because
-// they were asked for.
+// Tags the colors of a new file. If it stores them like the file that it follows, it keeps that file's tag.
+// Data never has a tag, because programs that follow the tag would decode the data. glTF and most programs
+// read the colors of PNG as sRGB and ignore its gamma. So linear colors have a tag only on request.
 void tag_colors(OIIO::ImageSpec& spec, std::string_view format, PixelType type, bool follows,
                 const ImageChanges& changes, Metadata& metadata) {
   const bool keeps_tag = follows && changes.colors &&
@@ -155,7 +154,7 @@ void note_metadata(OIIO::ImageSpec& spec, std::string_view format, const Metadat
     spec.attribute(name, value);
     all += (all.empty() ? "" : "; ") + name + "=" + value;
   }
-  // TIFF and JPEG have no custom attributes; the tag for the writing program is the nearest.
+  // TIFF and JPEG have no custom attributes, so the tag for the writing program holds them.
   if (!all.empty() && (format == "tiff" || format == "jpeg")) spec.attribute("Software", all);
 }
 
@@ -176,7 +175,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   if (!output.supports("channelformats")) spec.channelformats.clear();
   const bool is_mixed = !spec.channelformats.empty() && !changes.type;
   const PixelType type = changes.type.value_or(pixel_type(spec.format));
-  // Few programs read half in TIFF, so only a file that already has half keeps it.
+  // Few programs read half floats in TIFF, so the new file uses them only if the old file does.
   const bool keeps_half = format == "tiff" && model_format == format && model.format == OIIO::TypeHalf;
   const std::optional<PixelType> stored =
       keeps_half && type == PixelType::kHalf ? type : stored_type(format, type);

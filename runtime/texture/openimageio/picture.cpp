@@ -1,4 +1,4 @@
-// Reads and writes whole pictures as floats.
+// This file reads and writes whole pictures as floats.
 #include <OpenImageIO/filesystem.h>
 
 #include "core/files.hpp"
@@ -10,7 +10,6 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// The description of a file of `type` with the picture.
 OIIO::ImageSpec spec_of(const Picture& picture, OIIO::TypeDesc type) {
   OIIO::ImageSpec spec(picture.width, picture.height, static_cast<int>(picture.channels.size()), type);
   spec.channelnames = picture.channels;

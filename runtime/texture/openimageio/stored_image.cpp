@@ -1,4 +1,4 @@
-// Reads images.
+// This file reads images.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -22,7 +22,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// The name of a lossy compression; empty for a lossless one.
+// Returns the name of a lossy compression, or an empty text for a lossless one.
 std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& format) {
   if (format == "jpeg" || format == "hdr" || format == "webp") return format;
   const std::string compression = spec.get_string_attribute("Compression");
@@ -32,19 +32,19 @@ std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& fo
   return "";
 }
 
-// OpenImageIO assumes sRGB for files of these formats without a color space.
+// Returns false if OpenImageIO assumed sRGB, as it does for files of these formats without a color space.
 bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, const ImageHead& head) {
   if (format == "png")
     return std::ranges::any_of(head.png_chunks,
                                [](const std::string& name) { return name == "sRGB" || name == "gAMA"; });
   if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
-  return format != "webp";  // which has no place for it
+  return format != "webp";  // webp has no place for a color space
 }
 
-// A material has fewer maps, and every part takes the memory and time of all headers.
+// No material has so many maps, and every part costs the memory and time of all headers.
 constexpr int kMostParts = 128;
 
-// Gamma curves are read as sRGB, which the usual 2.2 differs little from.
+// Treats gamma curves as sRGB, because the usual 2.2 differs little from it.
 std::optional<Transfer> tagged_transfer(const OIIO::ImageSpec& spec) {
   if (const auto noted = noted_metadata(spec, kNotedColorSpace)) return value_named(kTransfers, *noted);
   const std::string color_space = spec.get_string_attribute("oiio:ColorSpace");
@@ -102,7 +102,7 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
 
 namespace {
 
-// An open file as a stream with a place of its own: several images may read one file, in several threads.
+// A FileStream is an open file as a stream with its own position. Several threads may read one file.
 struct FileStream {
   explicit FileStream(const InputFile& source) : file(source), stream(opened(this), std::fclose) {}
   static std::FILE* opened(FileStream* cookie);
@@ -117,7 +117,7 @@ struct FileStream {
   const std::size_t count = stream.file.read(stream.place, bytes, size);
   stream.place += count;
   return static_cast<::ssize_t>(count);
-} catch (const Error& error) {  // which must not pass through code of C
+} catch (const Error& error) {  // an exception must not pass through C code
   errno = error.system_code();
   return -1;
 }
@@ -141,7 +141,7 @@ std::FILE* FileStream::opened(FileStream* cookie) {
   return stream;
 }
 
-// Some readers of OpenImageIO take streams of C alone.
+// A StreamProxy exists because some readers of OpenImageIO accept only C streams.
 class StreamProxy : public OIIO::Filesystem::IOFile {
  public:
   explicit StreamProxy(const FileStream& source) : IOFile(source.stream.get(), Read), source_(source) {}
@@ -157,7 +157,7 @@ class StreamProxy : public OIIO::Filesystem::IOFile {
   const FileStream& source_;
 };
 
-// Whether the reader of the format opens the file again, by its name, to go back to an earlier row.
+// Returns true if the format's importer opens the file again, by its name, to go back to an earlier row.
 bool starts_again(const ImageLayout& layout) {
   constexpr std::array<std::string_view, 4> kFormats = {"hdr", "jpeg", "png", "tiff"};
   return layout.tile_height == 0 && std::ranges::find(kFormats, layout.format) != kFormats.end();
@@ -224,14 +224,14 @@ void OpenedImage::open() {
   (void)input_->geterror();  // discards remarks on unusual headers
   find_planes();
   for (const OIIO::ImageSpec& level : levels_) require_plausible(level, head_, bytes_, path().string());
-  // A color space that OpenImageIO assumed is neither read nor written.
+  // A color space that OpenImageIO only assumed is neither read nor written.
   if (!tells_color_space(spec(), input_->format_name(), head_))
     for (OIIO::ImageSpec& level_spec : levels_) level_spec.erase_attribute("oiio:ColorSpace");
   layout_ = layout_of(spec(), input_->format_name(), path());
   refuse_spoiled_webp();
 }
 
-// From the start of the file, by the reader of its format alone.
+// Opens the input from the start of the file, and only with the importer of its format.
 void OpenedImage::open_input() {
   input_.reset();
   OIIO::ImageSpec hints, ignored;
@@ -247,7 +247,7 @@ void OpenedImage::open_input() {
   fail("cannot be read as an image: " + first_line(reason, "it is damaged"));
 }
 
-// OpenImageIO 2.4 multiplies the colors of WebP by alpha in 8 bits, whatever it is asked for.
+// Refuses WebP images with alpha below 1, because OpenImageIO 2.4 multiplies their colors by alpha in 8 bits.
 void OpenedImage::refuse_spoiled_webp() {
   if (layout_.format != "webp" || layout_.alpha_channel < 0) return;
   std::vector<std::byte> row(layout_.row_bytes());
@@ -265,7 +265,7 @@ void OpenedImage::refuse_spoiled_webp() {
 }
 
 void OpenedImage::count_parts() {
-  // The WebP reader reads nothing after it was asked for a frame that is not there; of an animation the first
+  // The WebP importer reads nothing after a request for a missing frame. Only an animation's first frame
   // counts.
   const int most_parts = std::string_view(input_->format_name()) == "webp" ? 1 : kMostParts;
   while (part_count_ < most_parts && input_->seek_subimage(part_count_, 0)) ++part_count_;
@@ -274,8 +274,8 @@ void OpenedImage::count_parts() {
 }
 
 void OpenedImage::find_planes() {
-  // The TIFF reader goes through all parts before the one that it is asked for. If every part counted the
-  // parts, the time would grow with the cube of their number.
+  // The TIFF importer goes through all parts before the requested part. If every part counted the parts, the
+  // time would grow with the cube of their number.
   if (part_ == 0 || part_ >= kMostParts || !input_->seek_subimage(part_, 0)) {
     count_parts();
     if (part_ >= part_count_)
