@@ -1,4 +1,4 @@
-// Rules of `texremap check` on made texels. tests/oracles/check_judge.py judges them on files that others wrote.
+// Rules of `texremap check` on made texels. tests/oracles/check_judge.py judges them on files of others.
 #include "check/rules.hpp"
 
 #include <cmath>
