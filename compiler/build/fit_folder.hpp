@@ -13,7 +13,7 @@ struct FitFolder {
   std::vector<Fit> fits;  // converters of width and specular
   std::vector<WorkflowFit> workflows;
   std::vector<WarpMapFit> warps;
-  ReachRecords reach;  // of fits that have not changed since
+  ReachRecords reach;  // records of fits that have not changed since
 
   void add(AnyFit fit);
 };

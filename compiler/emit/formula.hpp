@@ -43,7 +43,7 @@ Expression factor_expression(const FactorTerms& factor, const std::string& alpha
 // A Notation is the way in which a language writes an expression.
 struct Notation {
   std::string (*number)(float) = nullptr;
-  std::string least, most, root;  // functions
+  std::string least, most, root;  // names of functions
   std::string (*largest)(const std::string& color) = nullptr;
   std::string channel = {};  // suffix of the names of colors
 };

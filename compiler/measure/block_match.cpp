@@ -87,8 +87,8 @@ class WidthMatch {
   std::optional<Matcher> shared_;
   bool is_black_ = false;
   std::optional<SpecularFamily> family_;
-  std::vector<std::vector<float>> pictures_;  // of the family
-  std::vector<std::size_t> minima_;           // of the sample before
+  std::vector<std::vector<float>> pictures_;  // pictures of the family
+  std::vector<std::size_t> minima_;           // minima of the sample before
 };
 
 // This many halvings of the step between samples find a joint of regimes.

@@ -31,12 +31,12 @@ struct ParameterDescription {
   std::string name;  // the model's own name for it: alpha, exponent, specular, f0, ior, eta, k, diffuse
   ParameterRole role = ParameterRole::kSpecular;
   Range range;            // values the renderer accepts, in the parameter's own unit
-  double standard = 0.0;  // of kOther
+  double standard = 0.0;  // the value of a kOther parameter
   bool grey = false;      // takes one value and refuses three
 };
 
 struct ModelDescription {
-  std::string name;  // `renderer/brdf`
+  std::string name;  // name as `renderer/brdf`
   RoughnessEncoding roughness = RoughnessEncoding::kAlpha;
   Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;

@@ -17,7 +17,7 @@ enum class Severity {
 struct Finding {
   Severity severity = Severity::kNote;
   std::string kind;      // duplicate, contradiction, gap, non-monotone, jump, saturation, range, rows, light
-  std::size_t line = 0;  // of the file; 0 if it concerns the whole table
+  std::size_t line = 0;  // line in the file; 0 if it concerns the whole table
   std::string message;
 };
 

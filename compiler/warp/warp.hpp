@@ -18,9 +18,9 @@ struct WarpOptions {
 
 // A WarpDiagnostics holds figures that help a user to improve strokes.
 struct WarpDiagnostics {
-  int source_dimensions = 0, target_dimensions = 0;  // that each material needs
-  int dimensions = 0;                                // of the warp
-  double source_stress = 0.0, target_stress = 0.0;   // at `dimensions`
+  int source_dimensions = 0, target_dimensions = 0;  // number that each material needs
+  int dimensions = 0;                                // number in the warp
+  double source_stress = 0.0, target_stress = 0.0;   // stress at `dimensions`
   double coordinates_error = 0.0;                    // the larger Placement::fit_error, in radii
   int fixed_directions = 0;  // dimensions that strokes determine; the others follow the prior
   double fold_share = 0.0;   // fraction of source texels where the warp folds

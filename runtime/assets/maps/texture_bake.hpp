@@ -13,7 +13,7 @@ namespace remap {
 struct TextureTransform {
   double offset[2] = {0.0, 0.0};
   double scale[2] = {1.0, 1.0};
-  double rotation = 0.0;  // radians
+  double rotation = 0.0;  // in radians
   bool operator==(const TextureTransform&) const = default;
 };
 
@@ -25,7 +25,7 @@ struct TextureGrid {
 
 // A PlacedTexture is a texture that will share a grid with others.
 struct PlacedTexture {
-  std::size_t width = 0, height = 0;  // of its image, in texels
+  std::size_t width = 0, height = 0;  // size of its image, in texels
   TextureTransform transform;
 };
 
