@@ -127,7 +127,7 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
   }
 }
 
-// Matches only diffuse, in proportion.
+// Matches only diffuse: multiplies it by the ratio of the two models.
 void match_diffuse_separately(const SweepSetup& setup, TableRow* row) {
   const Range range = setup.target.diffuse_range();
   const double wanted = setup.options.diffuse * setup.diffuse.scale;

@@ -71,8 +71,8 @@ enum class TransferReason {
 
 // A SetParameter is one parameter of an open set.
 struct SetParameter : ParameterValues {
-  // Empty for a constant. If a parameter other than a color has several channels, they are nearly equal, and
-  // the first, which is green, holds its value.
+  // It is empty for a constant. If a parameter other than a color has several channels, they are nearly
+  // equal, and the first, which is green, holds its value.
   std::vector<ChannelPlace> channels;
   TransferReason transfer_reason = TransferReason::kUsual;
   bool is_whole_numbers = false;  // the file holds integers

@@ -3,17 +3,16 @@
 //
 //   {"remap_manifest": 1, "version": "1.2.0", "root": "/library", "names": "", "sets": 2, "files": 5,
 //    "bytes": 81234, "cost": 681234, "hash": "5c0e..."}
-//   {"cost": 440617, "id": "props/chair", "folder": "props", "name": "chair", "bytes": 40617, "maps":
-//   [{"file":
-//    "chair_rough.png", "habit": "...", "roles": {"all": "roughness"}, "bytes": 20308}, {"file":
-//    "chair_spec.<UDIM>.exr", ..., "tiles": [[1001, 20309]]}]}
+//   {"cost": 440617, "id": "props/chair", "folder": "props", "name": "chair", "bytes": 40617, "maps": [
+//    {"file": "chair_rough.png", "habit": "...", "roles": {"all": "roughness"}, "bytes": 20308},
+//    {"file": "chair_spec.<UDIM>.exr", ..., "tiles": [[1001, 20309]]}]}
 //   {"unrecognised": "props/notes.png"}
 //   {"problem": "props/secret: cannot be read: Permission denied"}
 //
 // If assets are listed, the first line has `"assets": 2` instead of sets, and the others are:
 //
-//   {"cost": 240617, "asset": "props/chair.gltf", "prefix": "", "bytes": 40617, "files":
-//   [["props/chair.gltf", 1203], ["props/wood.png", 39414]]}
+//   {"cost": 240617, "asset": "props/chair.gltf", "prefix": "", "bytes": 40617, "files": [
+//    ["props/chair.gltf", 1203], ["props/wood.png", 39414]]}
 //
 // Entries are sorted by folder and name, by bytes, so that equal trees give equal manifests. `cost` comes
 // first in the line of an entry, because a process that skips the entry reads no further.
