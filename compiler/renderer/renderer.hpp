@@ -63,7 +63,7 @@ class Renderer {
 
   // Returns name and version of the renderer. They are part of every cache key and recorded in every table.
   virtual std::string version() const = 0;
-  // Returns the same for the program that renders `model`, if this renderer combines several.
+  // Returns name and version of the program that renders `model`, if this renderer combines several.
   virtual std::string version_of(const std::string& model) const;
 
   virtual std::vector<ModelDescription> models() const = 0;

@@ -26,7 +26,7 @@ struct Finding {
 // (light.hpp) becomes a warning.
 std::vector<Finding> check_table(const Table& table, bool accept_light = false);
 
-// Does the same for named parameters. It finds values that are not finite, too few usable rows for the number
+// Checks a table of named parameters. It finds values that are not finite, too few usable rows for the number
 // of columns, source columns with a single value, repeated samples, and rows that are not fitted.
 std::vector<Finding> check_table(const MaterialTable& table, bool accept_light = false);
 

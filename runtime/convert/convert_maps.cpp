@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxChannels = 3;
 
-// So many texels are converted at a time, so that their rows stay in the cache of one core.
+// This many texels are converted at a time, so that their rows stay in the cache of one core.
 constexpr std::size_t kSegment = 2048;
 using FloatRow = std::array<float, kSegment>;
 

@@ -221,7 +221,7 @@ struct Journal::State {
     return found == content.files.end() || found->second.conversion != conversion.hash ? nullptr
                                                                                        : &found->second;
   }
-  // Does the same for an existing file, after reading what other runs have written meanwhile.
+  // Returns the entry of an existing file, after reading what other runs have written meanwhile.
   const Entry* entry_of_existing(const fs::path& path) {
     if (const Entry* known = entry_of(path)) return known;
     std::error_code ignored;
