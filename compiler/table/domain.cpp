@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// With up to this many different alpha1, each has a column. Otherwise neighbours share one, up to
+// With up to this many different alpha1, each has a column. Otherwise neighbours share one until it has
 // kRowsAColumn rows.
 constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
