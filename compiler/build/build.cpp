@@ -312,12 +312,12 @@ class Builder {
   const Manifest& manifest_;
   const BuildFolders& folders_;
   const BuildExecution& execution_;
-  const Lock last_lock_;  // of the previous build
+  const Lock last_lock_;  // the lock of the previous build
   Lock lock_;
   std::mutex mutex_;
   std::size_t done_ = 0;
   std::vector<BuiltItem> built_;
-  std::map<std::string, FailedItem> failures_;  // by id
+  std::map<std::string, FailedItem> failures_;  // keyed by id
   std::vector<std::string> pruned_;
 };
 

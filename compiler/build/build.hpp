@@ -29,7 +29,7 @@ struct BuildSeconds {
   double sweep = 0.0;     // the table, or the samples of a network, including waiting for pictures
   double pictures = 0.0;  // the part of it that waits for the renderer
   double fit = 0.0;
-  double lowering = 0.0;  // with its proofs
+  double lowering = 0.0;  // including its proofs
   double all = 0.0;
 };
 
@@ -48,8 +48,8 @@ struct FailedItem {
 };
 
 struct BuildResult {
-  std::vector<BuiltItem> built;     // by id
-  std::vector<FailedItem> failed;   // by id
+  std::vector<BuiltItem> built;     // sorted by id
+  std::vector<FailedItem> failed;   // sorted by id
   std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
 };
 

@@ -13,7 +13,7 @@ struct FitFolder {
   std::vector<Fit> fits;  // converters of width and specular
   std::vector<WorkflowFit> workflows;
   std::vector<WarpMapFit> warps;
-  ReachRecords reach;  // of fits that have not changed since
+  ReachRecords reach;  // records of fits that have not changed since
 
   void add(AnyFit fit);
 };
@@ -32,7 +32,7 @@ std::vector<Fit> load_fits(const std::filesystem::path& folder);
 // Loads the fit that `name` means: a file, or an id in `folder`. Throws kUsage with the closest known id.
 AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder);
 
-// Does the same for commands that need a converter of width and specular. Throws kUsage for other kinds.
+// Loads the fit for commands that need a converter of width and specular. Throws kUsage for other kinds.
 Fit find_fit(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace remap

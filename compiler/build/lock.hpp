@@ -11,7 +11,7 @@ inline constexpr const char* kLockName = "manifest.lock";
 
 // A LockedItem holds the SHA-256 of an item's inputs and results. They are empty if there are none.
 struct LockedItem {
-  std::string recipe;  // of its recipe, the tool's version and the fits that it is made from
+  std::string recipe;  // hash of its recipe, the tool's version and the fits it is made from
   std::string table;
   std::string fit;
   std::string header;
@@ -19,8 +19,8 @@ struct LockedItem {
 };
 
 struct Lock {
-  std::map<std::string, LockedItem> items;  // by id
-  std::string report;                       // of the inputs of the report: every fit of the folder
+  std::map<std::string, LockedItem> items;  // keyed by id
+  std::string report;                       // hash of the report's inputs: every fit of the folder
   bool operator==(const Lock&) const = default;
 };
 

@@ -45,7 +45,7 @@ struct ChainItem {  // other items, one after another
 // A NetworkItem is a network from the specular to the metallic workflow. It is trained on random metallic
 // materials that were matched by a specular model.
 struct NetworkItem {
-  WorkflowFit fit;                      // without the trained part
+  WorkflowFit fit;                      // the fit without its trained part
   std::string metallic, specular;       // the sampled model and the matched model
   std::map<std::string, double> fixed;  // parameters of the metallic model, by name
   std::vector<std::string> varied;      // its parameters without a role that vary
@@ -59,7 +59,7 @@ struct ManifestItem {
   std::string id;
   std::variant<SweptItem, InverseItem, FinishedItem, ChainItem, NetworkItem> kind;
   std::string recipe;      // the text that defines the item; equal recipes give equal items
-  std::uint64_t seed = 1;  // of its fit and of random materials
+  std::uint64_t seed = 1;  // seed of its fit and of random materials
   // Is true if its light is accepted unchanged (table/light.hpp). The list `accepted_light` of the manifest
   // names it, with a reason. It is not part of the recipe, because it does not change the content of a table.
   bool accept_light = false;

@@ -15,9 +15,9 @@ struct ReachRecord {
   std::string fit;            // SHA-256 of its file
   std::size_t materials = 0;  // number of compared materials
   double mean_excess = 0.0, largest_excess = 0.0;
-  double alpha = 0.0, specular = 0.0;  // of the material with the largest excess
+  double alpha = 0.0, specular = 0.0;  // excesses of the material with the largest one
 };
-using ReachRecords = std::map<std::string, ReachRecord>;  // by id
+using ReachRecords = std::map<std::string, ReachRecord>;  // keyed by id
 
 // Reads the records in `folder`; there are none without a file. Throws kInput for a file of another form.
 ReachRecords read_reach(const std::filesystem::path& folder);

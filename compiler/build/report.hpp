@@ -12,7 +12,7 @@ inline constexpr const char* kReportName = "README.md";
 inline constexpr const char* kFiguresName = "converters.csv";
 
 struct ReportFile {
-  std::string name;  // in the folder of fits
+  std::string name;  // name in the folder of fits
   std::string text;
 };
 

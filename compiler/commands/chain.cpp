@@ -19,8 +19,8 @@ namespace remap {
 namespace {
 
 struct ChainCommand {
-  std::vector<std::string> steps;  // of chain: files or ids
-  std::string fit;                 // of invert
+  std::vector<std::string> steps;  // for chain: files or ids
+  std::string fit;                 // for invert
   std::string id;
   std::filesystem::path fit_folder, output = "fits";
   bool force = false, json = false;

@@ -43,7 +43,7 @@ struct FitCommand {
   FitOptions options;
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
-  double tolerance = 1e-3;  // of lowering
+  double tolerance = 1e-3;  // tolerance of lowering
   bool swap = false, force = false, json = false;
 };
 

@@ -19,7 +19,7 @@
 namespace remap {
 
 struct MeasurementOptions {
-  PairOptions pair;  // without the objective, which the next fields choose
+  PairOptions pair;  // the objective is missing; the next fields choose it
   std::string objective = "natural";
   std::optional<std::vector<double>> lights;  // angles; if missing, the objective sets both
   std::optional<Weighting> weighting;
@@ -70,9 +70,9 @@ class Measurement {
 
   const MeasurementOptions& options_;
   Stopwatch stopwatch_;
-  std::optional<Progress> progress_;  // of rows; its label also counts the pictures of workers
+  std::optional<Progress> progress_;  // counts rows; its label also counts the pictures of workers
   std::mutex mutex_;
-  std::string estimate_;  // of the time of all rows; empty if unknown
+  std::string estimate_;  // estimated time of all rows; empty if unknown
   std::unique_ptr<RendererSet> renderer_;
   LightMatch light_;
 };

@@ -8,7 +8,7 @@ namespace remap {
 namespace {
 
 struct SampleCommand : MeasurementOptions {
-  MaterialSampleOptions sample;  // without the pair
+  MaterialSampleOptions sample;  // its pair is still missing
 };
 
 Range range_of(const ParameterSetting& setting) {

@@ -15,11 +15,11 @@ namespace remap {
 namespace {
 
 struct SweepCommand : MeasurementOptions {
-  SweepOptions sweep;  // without the pair and the samples
+  SweepOptions sweep;  // its pair and samples are still missing
   std::size_t roughness_samples = 30, specular_samples = 30;
   Range roughness_range{0.01, 1.0};
   std::optional<Range> specular_range;  // if missing, the model's range
-  TableInput samples_of;                // without a path: a grid
+  TableInput samples_of;                // a grid if it has no path
 };
 
 void choose_samples(const SweepCommand& command, const Renderer& renderer, SweepOptions* options) {
@@ -61,7 +61,7 @@ void run(const SweepCommand& command) {
   measurement.report(table.rows);
 }
 
-constexpr int kMostAxisSamples = 4096;  // of each axis
+constexpr int kMostAxisSamples = 4096;  // limit for each axis
 
 void add_sample_options(Command& app, SweepCommand& command) {
   app.option_group("Samples");

@@ -19,7 +19,7 @@ struct TableInput {
   // Reads the file once. `bytes`, if not null, receives its whole_text(). Throws kInput and kUsage like
   // parse_table. A table of named parameters is an error.
   Table read(std::string* bytes = nullptr) const;
-  // Does the same for a table of either form.
+  // Reads a table of either form.
   AnyTable read_any(std::string* bytes = nullptr) const;
 
  private:

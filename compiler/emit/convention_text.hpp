@@ -7,7 +7,7 @@ namespace remap {
 
 struct ConventionText {
   const char* meaning;  // for a comment
-  const char* formula;  // of alpha, for people; empty if the parameter is alpha
+  const char* formula;  // formula of alpha for people; empty if the parameter is alpha
 };
 
 inline ConventionText convention_text(RoughnessEncoding convention) {

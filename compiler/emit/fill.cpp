@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kLongestEscape = 6;  // of one byte
+constexpr std::size_t kLongestEscape = 6;  // escape of one byte
 
 using Parameters = std::vector<MaterialParameter>;
 

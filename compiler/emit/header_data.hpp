@@ -20,11 +20,11 @@ struct WarpHeader {
 
 // A HeaderEnd is source or target.
 struct HeaderEnd {
-  std::string model;  // `mitsuba/ggx`
+  std::string model;  // such as `mitsuba/ggx`
   std::string width;  // the name of its convention
   // These are the members of the header's Input or Output. `width` is first of two, and last for materials.
   std::vector<MaterialParameter> parameters;
-  std::string workflow = {}, diffuse = {};  // of whole materials: `specular`, `plain`
+  std::string workflow = {}, diffuse = {};  // for whole materials: `specular`, `plain`
 };
 
 // A GoldenValues holds a texel and the fit's result for it: one number for each channel of each parameter.

@@ -18,7 +18,7 @@ struct MaterialCode {
   std::string functions;  // for namespace detail
   std::string block;      // the number of texels that are converted together
   std::string call;       // converts a block: rows `from` to rows `to`
-  std::string within;     // of golden values, a float literal
+  std::string within;     // tolerance for golden values, a float literal
 };
 
 MaterialCode material_code(const WorkflowConversion& conversion);

@@ -16,16 +16,16 @@ constexpr int kIterations = 12;
 // This limits the terms of a fitted factor. More would overfit the lights that choose the form.
 constexpr std::size_t kMostTerms = 5;
 constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
-constexpr double kNear = 1.01;         // of the best
+constexpr double kNear = 1.01;         // factor to the best
 constexpr double kNearRmse = 0.05;     // percent of the display's range
-constexpr double kNearRow = 0.01;      // relative
+constexpr double kNearRow = 0.01;      // relative error
 // This is relative, for copied numbers: the least visible difference (Weber's fraction).
 constexpr double kNearCopy = 0.02;
 // Rows take part in the refinement with these weights of squared relative errors. The weight is low where
 // pictures show the difference, to stop drifting. It is high where highlights are narrower than a pixel.
 constexpr double kNarrowWidth = 0.05;
 constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
-constexpr std::size_t kMostRows = 60;  // of either kind
+constexpr std::size_t kMostRows = 60;  // limit for either kind
 
 FormSample sample_of(const TableRow& row) {
   const bool is_corner = row.status == RowStatus::kCorner;

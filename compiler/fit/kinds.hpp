@@ -14,7 +14,7 @@ namespace remap {
 struct RegressionOptions {
   std::uint64_t seed = 1;
   unsigned jobs = 0;  // threads; 0: one per core. Results do not depend on it
-  std::string form;   // of the parametric kind; if empty, the paper's
+  std::string form;   // form of the parametric kind; if empty, the paper's
   MlpOptions mlp;     // the seed and jobs above replace its own
 };
 

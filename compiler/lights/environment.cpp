@@ -47,8 +47,8 @@ struct CieSky {
     return gradation * (1.0 + c * (std::exp(d * from_sun) - std::exp(d * pi / 2.0)) + e * cos_sun * cos_sun);
   }
 };
-constexpr CieSky kOvercast{4.0, -0.7, 0.0, -1.0, 0.0};   // type 1
-constexpr CieSky kClear{-1.0, -0.32, 10.0, -3.0, 0.45};  // type 12
+constexpr CieSky kOvercast{4.0, -0.7, 0.0, -1.0, 0.0};   // CIE sky type 1
+constexpr CieSky kClear{-1.0, -0.32, 10.0, -3.0, 0.45};  // CIE sky type 12
 
 // Returns a smooth step from 1 to 0 over `softness` around `edge`.
 double soft_step(double value, double edge, double softness) {

@@ -81,7 +81,7 @@ struct DisplayedSphere {
 DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
                                  int resolution);
 
-// Does the same for `colors` in display values.
+// Adds luma to `colors`, which are display values already.
 DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std::uint32_t> pixels,
                                  int resolution);
 

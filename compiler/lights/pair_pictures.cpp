@@ -23,7 +23,7 @@ constexpr std::array kChoosingSpeculars = {0.04, 0.2, 0.6, 1.0}, kJudgingSpecula
 // counts 1. With it forms are at least as good as regressions of the rows in both, by the lights that choose
 // (docs/decisions/079-one-form.md).
 constexpr double kPointWeight = 0.5;
-constexpr double kWidthStep = 0.04;  // of differences, relative
+constexpr double kWidthStep = 0.04;  // relative step of differences
 
 // Turns an environment about the vertical axis by a fraction of a circle.
 Environment turned(const Environment& environment, double share) {

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kCoarsestHeight = 4;  // rows
+constexpr int kCoarsestHeight = 4;  // in rows
 
 // A Share is the weight of an input row or column in an output row or column. The weights sum to 1.
 struct Share {
@@ -73,7 +73,7 @@ constexpr int kLampTexels = 2;  // width and height of a spot
 
 // A Spot is a small part of a map with light above a luminance.
 struct Spot {
-  int row, column;  // of its first texel
+  int row, column;  // place of its first texel
   Lamp lamp;
   double luminance;
 };

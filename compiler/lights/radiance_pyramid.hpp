@@ -25,7 +25,7 @@ class RadiancePyramid {
   // directions. `height` is a power of two, at least 8.
   explicit RadiancePyramid(std::span<const Environment> environments, int height = 256);
 
-  // Returns three for each environment, in their order.
+  // Returns the number of channels: three for each environment, in the order of the environments.
   std::size_t channel_count() const { return channel_count_; }
 
   // Returns at most 128 spots of 1.4 degrees (for 256 rows), with their radiance above four times the mean.

@@ -15,9 +15,9 @@
 namespace remap {
 namespace {
 
-constexpr int kAlphas = 401, kSpeculars = 64;  // of the grid on which the domain is found
+constexpr int kAlphas = 401, kSpeculars = 64;  // sizes of the grid on which the domain is found
 constexpr int kCoarse = 25;                    // alphas and speculars on which errors are propagated
-constexpr double kSameEdge = 1e-9;             // of a domain, relative
+constexpr double kSameEdge = 1e-9;             // relative tolerance for the edge of a domain
 // A form is close enough to its steps within these distances, which pictures do not show.
 constexpr double kNearAlpha = 2e-3, kNearSpecular = 4e-3;
 

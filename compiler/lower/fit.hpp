@@ -62,8 +62,8 @@ struct Split {
 
 // A TableRecord describes the table that was fitted.
 struct TableRecord {
-  std::string name;                             // of the file, without folder
-  std::string sha256;                           // of its bytes
+  std::string name;                             // name of the file, without folder
+  std::string sha256;                           // hash of its bytes
   std::map<std::string, std::string> comments;  // `# key: value`: the options of the sweep
   bool operator==(const TableRecord&) const = default;
 };
@@ -72,8 +72,8 @@ struct TableRecord {
 // (compiler/fit/comparison.hpp).
 struct CandidateRecord {
   std::string name;              // kind, and its shape
-  std::size_t number_count = 0;  // of its coefficients: its complexity
-  ErrorFigures alpha, specular;  // on the held-out rows
+  std::size_t number_count = 0;  // number of coefficients: the complexity
+  ErrorFigures alpha, specular;  // errors on the held-out rows
   // These are root mean squares on them relative to the value, or to a fiftieth of 1 if this is more.
   double relative_alpha = 0.0, relative_specular = 0.0;
   std::optional<PictureErrors> pictures;  // none if a renderer does not take part
@@ -92,7 +92,7 @@ struct SphereSimilarity {
 // An ImageSimilarity states how well the two models can match, by the table's rows in the domain.
 struct ImageSimilarity {
   ErrorFigures image_error;  // difference of the pictures relative to the source's, as the match weighs them
-  std::vector<SphereSimilarity> ssim;  // by rising alpha; empty if no spheres were compared
+  std::vector<SphereSimilarity> ssim;  // sorted by alpha; empty if no spheres were compared
   bool operator==(const ImageSimilarity&) const = default;
 };
 
@@ -103,11 +103,11 @@ struct Fit {
   Domain domain;
   MappingKind mapping;
   Limits limits;                                    // of the target
-  std::map<std::string, std::string> method;        // of the regression: hyper-parameters, search, starts
-  std::vector<CandidateRecord> candidates;          // of `auto`; otherwise empty
+  std::map<std::string, std::string> method;        // facts: hyper-parameters, search, starts
+  std::vector<CandidateRecord> candidates;          // from `auto`; otherwise empty
   ErrorFigures alpha_error;                         // of the target's alpha
   ErrorFigures specular_error;                      // of the target's specular
-  std::optional<ImageSimilarity> image_similarity;  // none for published formulas, without pictures
+  std::optional<ImageSimilarity> image_similarity;  // none for published formulas
   std::optional<JudgedPictures> pictures;           // none if the built-in renderer lacks a model
   std::vector<std::string> remarks;                 // lines of the card: sources, errata, limits of the pair
   Split split;

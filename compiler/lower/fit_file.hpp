@@ -23,7 +23,7 @@ std::string fit_to_json(const WorkflowFit& fit);
 // Also throws it for an empty domain, a coefficient that is not finite, and a fit of whole materials.
 Fit fit_from_json(std::string_view json, const std::string& context);
 
-// Reads the same from a file. Throws kInput if it cannot be read.
+// Reads a fit of alpha and specular from a file. Throws kInput if it cannot be read.
 Fit load_fit(const std::filesystem::path& path);
 
 // These functions do the same for fits of all types.

@@ -14,7 +14,7 @@
 namespace remap {
 namespace {
 
-constexpr std::int64_t kLargestPower = 4;  // of specular, in a parametric form
+constexpr std::int64_t kLargestPower = 4;  // largest power of specular in a parametric form
 
 Json to_json(const Range& range) { return Json::list({finite(range.min), finite(range.max)}); }
 
@@ -280,7 +280,7 @@ std::string fit_to_json(const Fit& fit) {
       {"tool", "remapc " + fit.tool_version},
   };
   std::string text = json.dump(2);
-  text.resize(text.size() - 2);  // without the newline and the brace at its end
+  text.resize(text.size() - 2);  // drop the newline and the brace at its end
   return text + ",\n  \"converter\": " + (fit.converter ? converter_to_json(*fit.converter) : "null") +
          "\n}\n";
 }

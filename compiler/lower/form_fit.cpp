@@ -19,10 +19,10 @@ constexpr float kMostBend = 4.0f;  // above it, a hinge is a step
 constexpr double kLeastRelative = 2e-4;
 constexpr int kRowIterations = 30;
 constexpr int kGrid = 80;               // steps over the domain, in each direction
-constexpr double kLeastFactor = 1e-5;   // of a sound form
-constexpr double kSmallestGain = 2e-5;  // of a sum of errors, relative
+constexpr double kLeastFactor = 1e-5;   // least factor of a sound form
+constexpr double kSmallestGain = 2e-5;  // relative gain in the sum of errors
 constexpr double kStep = 1e-5;          // of difference quotients: the smallest change of a number
-constexpr double kRidge = 1e-9;         // of normal equations, relative
+constexpr double kRidge = 1e-9;         // relative ridge of normal equations
 
 // Pictures show errors relative to a value, and nothing below `least`.
 constexpr double kLeastShown = 0.02;

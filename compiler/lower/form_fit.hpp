@@ -26,10 +26,10 @@ struct FormShape {
 // Returns the shapes, beginning with few numbers. Factors of only alpha serve lobes without Fresnel, whose
 // scale is a power of alpha.
 std::vector<FormShape> form_shapes();
-std::size_t term_count(const FormShape& shape);  // of each factor
+std::size_t term_count(const FormShape& shape);  // number of terms of each factor
 std::string shape_name(const FormShape& shape);
 bool is_within(const CompactForm& form, const FormShape& shape);
-CompactForm padded(CompactForm form, const FormShape& shape);  // with terms that are 0
+CompactForm padded(CompactForm form, const FormShape& shape);  // adds terms that are 0
 
 // Returns the numbers of a form in a row, as a search changes them: the pole as its logarithm, P, Q, and the
 // hinge if there are limits.

@@ -16,7 +16,7 @@ bool is_inside(const Fit& fit, double alpha, double specular);
 
 // Returns both parameters of a texel with one channel, with the domain rule and limits.
 MappedTexel evaluate_fit(const Fit& fit, double alpha, double specular);
-// Does the same for a form, which has its own limits.
+// Evaluates a form in the same way. A form has its own limits.
 MappedTexel form_texel(const CompactForm& form, const Domain& domain, double alpha, double specular);
 
 // Converts one texel with the domain rule, in the models' own parameters. `roughness` is the source's width

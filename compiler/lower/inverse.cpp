@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-constexpr double kSameEnd = 1e-12;  // of a range, relative to its value there
+constexpr double kSameEnd = 1e-12;  // tolerance for a range's end, relative to its value
 constexpr int kHalvings = 60;
 
 // Returns the argument within `range` at which a rising function takes `value`, if there is one.

@@ -16,7 +16,7 @@ constexpr double kFloatUnit = 1.0 / 16777216.0;  // unit roundoff of a float, 2^
 // a few units in the last place of alpha or, for glossiness, of 1 - sqrt(alpha).
 double room(double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); }
 
-using TexelTaylor = Taylor<2, 7>;  // of alpha (variable 0) and specular (variable 1)
+using TexelTaylor = Taylor<2, 7>;  // variable 0 is alpha, variable 1 specular
 using TexelFunction = std::function<TexelTaylor(const TexelTaylor& alpha, const TexelTaylor& specular)>;
 
 struct Box {

@@ -26,7 +26,7 @@ struct NetworkTraining {
 struct WorkflowFit {
   std::string id;
   WorkflowConversion conversion;
-  std::optional<NetworkTraining> training;  // of a network
+  std::optional<NetworkTraining> training;  // set for a network
   std::vector<std::string> remarks;         // lines of the card
   std::string tool_version;
   bool operator==(const WorkflowFit&) const = default;

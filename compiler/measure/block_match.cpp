@@ -87,8 +87,8 @@ class WidthMatch {
   std::optional<Matcher> shared_;
   bool is_black_ = false;
   std::optional<SpecularFamily> family_;
-  std::vector<std::vector<float>> pictures_;  // of the family
-  std::vector<std::size_t> minima_;           // of the sample before
+  std::vector<std::vector<float>> pictures_;  // pictures of the family
+  std::vector<std::size_t> minima_;           // minima of the sample before
 };
 
 // This many halvings of the step between samples find a joint of regimes.
@@ -127,7 +127,7 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
   }
 }
 
-// Matches only diffuse, in proportion.
+// Matches only diffuse: multiplies it by the ratio of the two models.
 void match_diffuse_separately(const SweepSetup& setup, TableRow* row) {
   const Range range = setup.target.diffuse_range();
   const double wanted = setup.options.diffuse * setup.diffuse.scale;

@@ -29,7 +29,7 @@ struct SweepSetup {
   MatchTarget target;
   double irradiance_scale = 1.0;     // multiplies the source's pictures
   DiffuseMatch diffuse;              // after that multiplication
-  std::unique_ptr<TargetGrid> grid;  // of a target without a family
+  std::unique_ptr<TargetGrid> grid;  // set for a target without a family
   EffectiveWidths source_widths, target_widths;
 
   LightMatch light() const { return {irradiance_scale, diffuse.error, options.accept_light}; }

@@ -91,7 +91,7 @@ class FamilyProbe {
  private:
   struct Width {
     double alpha;
-    std::map<std::size_t, Radiances> pictures;  // by point
+    std::map<std::size_t, Radiances> pictures;  // keyed by point
   };
 
   const Radiances& picture(Width& width, std::size_t point) const {

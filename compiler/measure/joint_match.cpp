@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr double kJointRivalError = 1.01;    // as in match.cpp
+constexpr double kJointRivalError = 1.01;    // see kRivalError in match.cpp
 constexpr double kJointRivalDistance = 0.1;  // relative difference of a parameter
 // A search ends at this relative change of the squared error. Rivals are compared with the answer only to one
 // percent, so they need less precision.

@@ -52,7 +52,7 @@ double quadratic_form(const std::vector<std::vector<double>>& matrix,
 // A LossWindow holds the losses at neighbouring nodes, interpolated coefficient by coefficient.
 struct LossWindow {
   std::array<std::vector<double>, kInterpolationNodes> losses;
-  LagrangeBasis::Values logs{};  // log(alpha)
+  LagrangeBasis::Values logs{};  // values of log(alpha)
 
   std::vector<double> sum(const LagrangeBasis::Values& weights) const {
     std::vector<double> total(losses.front().size());

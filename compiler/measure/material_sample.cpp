@@ -210,7 +210,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   comments = {{"tool", std::string("remapc ") + kVersion},
               {"source", matching.source.name},
               {"source_roughness", std::string(encoding_name(matching.source.roughness))}};
-  ProbedModel target = matching.target;  // without the matched parameters: the rest is fixed
+  ProbedModel target = matching.target;  // the matched parameters are left out, the rest is fixed
   std::erase_if(target.model.parameters, [&](const ParameterDescription& parameter) {
     return std::find(options.searched.begin(), options.searched.end(), parameter.name) !=
            options.searched.end();
@@ -226,7 +226,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   comments.emplace_back(
       "samples", std::to_string(options.count) + " random, uniform in " + ranges_text(matching.varied));
   comments.emplace_back("seed", std::to_string(options.seed));
-  ModelDescription source = matching.source;  // without the varying parameters
+  ModelDescription source = matching.source;  // the varying parameters are left out
   std::erase_if(source.parameters, [&](const ParameterDescription& parameter) {
     return std::any_of(matching.varied.begin(), matching.varied.end(),
                        [&](const Varied& v) { return v.parameter.name == parameter.name; });

@@ -23,7 +23,7 @@ inline constexpr NamedValues<Weighting, 2> kWeightings = {
 // - target)^2. With `mean_share`, each light adds mean_share * P * (mean(target) / mean(source) - 1)^2, where
 // P is the sum of w^2 source^2 over its pixels. The lobe's energy then counts more.
 struct Objective {
-  std::string name;  // of the preset, or `custom`
+  std::string name;  // name of the preset, or `custom`
   std::vector<Light> lights;
   Weighting weighting = Weighting::kRelative;
   double floor = 0.1;       // used by kRelative

@@ -17,7 +17,7 @@ struct ParameterRoles {
   std::optional<RoughnessEncoding> convention;  // of `roughness`; if empty, the model's own
   std::string specular;
   std::string diffuse;
-  std::map<std::string, double> fixed;  // by name
+  std::map<std::string, double> fixed;  // keyed by name
 };
 
 // Reads back the roles recorded in a table of remapc sweep, from its comments `<side>_roughness_parameter`,

@@ -58,12 +58,12 @@ class PictureTaker {
   // model's own parameter. Throws kInput for a picture of another size and for values that are not finite.
   std::vector<float> take(const ModelDescription& model, const RoleValues& role_values) const;
 
-  // Does the same for canonical specular, clamped to the model's range; applies the exposure.
+  // Renders with a canonical specular, clamped to the model's range, and applies the exposure.
   std::vector<float> take(const ProbedModel& probed_model, const RoleValues& role_values) const;
 
   std::vector<float> take(const Material& material) const;
 
-  // Does the same for each channel of a material: one row if all its parameters are grey, otherwise three.
+  // Renders each channel of a material: one row if all its parameters are grey, otherwise three.
   std::vector<std::vector<float>> take_channels(const Material& material) const;
 
   // Returns squared_weights() of the objective for pictures that this object took.

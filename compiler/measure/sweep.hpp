@@ -26,7 +26,7 @@ std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range&
 // Returns the law of the specular of `model` (probe_specular), from small pictures with alpha from 0.1.
 SpecularResponse specular_response(const Renderer& renderer, const ModelDescription& model);
 
-// Returns the canonical speculars that `model` accepts, by the same law.
+// Returns the range of canonical speculars that `model` accepts, by the law of specular_response().
 Range canonical_speculars(const Renderer& renderer, const ModelDescription& model);
 
 // Matches every sample. With two stages, width and specular come from pictures without diffuse, and then

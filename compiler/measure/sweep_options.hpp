@@ -15,7 +15,7 @@ namespace remap {
 
 struct SamplePoint {
   double alpha = 0.0;
-  double specular = 0.0;  // canonical (probe.hpp)
+  double specular = 0.0;  // canonical value (probe.hpp)
 };
 
 // A PairOptions holds two models, and how their pictures are compared.

@@ -14,7 +14,7 @@ namespace {
 // This is the step of central differences, as a fraction of alpha or of the range. The truncation error is
 // its square, the rounding error is a float's divided by it.
 constexpr double kDifferenceStep = 1e-3;
-// So many pixels are interpolated together, because their sums fit into the first-level cache.
+// This many pixels are interpolated together, because their sums fit into the first-level cache.
 constexpr std::size_t kBlockPixels = 512;
 
 // A Window holds the nodes of the bank around `alpha` and their Lagrange basis in log(alpha).

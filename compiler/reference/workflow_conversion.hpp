@@ -126,8 +126,8 @@ struct MetallicDiagnosis {
   // natural light differ by about 0.42 times this value, as root mean square of display values.
   float residual = 0.0f;
   // This is the range of metallic values, as a fraction of [0, 1], whose squared error (with the best base
-  // color for each) is within (1/255)^2 of the least one. Above 0.2 metallic is undetermined, which does not
-  // change the picture.
+  // color for each) is within (1/255)^2 of the least one. If it is above 0.2, metallic is undetermined, which
+  // does not change the picture.
   float metallic_uncertainty = 0.0f;
   // This is true if a parameter was outside [0, 1], or a base color by more than half a step of 8 bits.
   bool is_clamped = false;

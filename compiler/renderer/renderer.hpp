@@ -31,12 +31,12 @@ struct ParameterDescription {
   std::string name;  // the model's own name for it: alpha, exponent, specular, f0, ior, eta, k, diffuse
   ParameterRole role = ParameterRole::kSpecular;
   Range range;            // values the renderer accepts, in the parameter's own unit
-  double standard = 0.0;  // of kOther
+  double standard = 0.0;  // the value of a kOther parameter
   bool grey = false;      // takes one value and refuses three
 };
 
 struct ModelDescription {
-  std::string name;  // `renderer/brdf`
+  std::string name;  // name as `renderer/brdf`
   RoughnessEncoding roughness = RoughnessEncoding::kAlpha;
   Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;
@@ -63,7 +63,7 @@ class Renderer {
 
   // Returns name and version of the renderer. They are part of every cache key and recorded in every table.
   virtual std::string version() const = 0;
-  // Returns the same for the program that renders `model`, if this renderer combines several.
+  // Returns name and version of the program that renders `model`, if this renderer combines several.
   virtual std::string version_of(const std::string& model) const;
 
   virtual std::vector<ModelDescription> models() const = 0;

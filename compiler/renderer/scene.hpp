@@ -30,7 +30,7 @@ struct Scene {
   int resolution = 512;  // width and height in pixels
   int samples_per_axis = 1;
   Light light;
-  int seed = 0;  // for renderers with noise
+  int seed = 0;  // only for renderers with noise
   Shape shape = Shape::kSphere;
   bool operator==(const Scene&) const = default;
 };

@@ -381,7 +381,7 @@ Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOpti
   if (options.alphas.empty()) options.alphas = preview_alphas(fit.domain);
   if (options.specular.empty()) options.specular = {0.5 * fit.domain.specular.max};
   require_options(options);
-  std::vector<std::vector<Shape>> shapes;  // of each light
+  std::vector<std::vector<Shape>> shapes;  // shapes under each light
   std::size_t rows = 0;
   for (const PreviewLight& light : options.lights) {
     shapes.push_back(lit_shapes(light, options.shapes));

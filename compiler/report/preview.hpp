@@ -46,8 +46,8 @@ struct PreviewOptions {
 // A PreviewSimilarity compares a picture with the source's, in display values (sRGB) over the pixels that
 // show the shape. Under a point light, a white diffuse surface facing it at the closest point is white.
 struct PreviewSimilarity {
-  double ssim = 0.0;  // of luma, 1 for equal pictures
-  double rms = 0.0;   // over red, green and blue
+  double ssim = 0.0;  // similarity of luma, 1 for equal pictures
+  double rms = 0.0;   // error over red, green and blue
 };
 
 // A PreviewFigure is one source material, shown in three pictures.
@@ -55,7 +55,7 @@ struct PreviewFigure {
   std::string light;
   Shape shape = Shape::kSphere;
   double alpha = 0.0;                   // of the source
-  double target_alpha = 0.0;            // canonical
+  double target_alpha = 0.0;            // canonical value
   std::vector<double> target_specular;  // in the fit's unit
   bool in_domain = true;                // of the fit
   PreviewSimilarity copied, converted;
@@ -63,7 +63,7 @@ struct PreviewFigure {
 
 struct Preview {
   std::vector<double> specular;        // of the source, as rendered
-  std::vector<PreviewFigure> figures;  // by light, then shape, then alpha
+  std::vector<PreviewFigure> figures;  // sorted by light, then shape, then alpha
   Image sheet;  // a row for each figure; columns: source, numbers copied, numbers converted; a margin of a
                 // twentieth of the resolution around each picture
   SheetLabels labels;

@@ -65,7 +65,7 @@ void draw_line(std::string line, int x, int y, int dot, Image* picture) {
     float x = 0.0f, y = 0.0f, z = 0.0f;
     std::array<unsigned char, 4> color{};
   };
-  constexpr std::size_t kBarsAtMost = 16;  // of a letter
+  constexpr std::size_t kBarsAtMost = 16;  // limit for a letter
   std::vector<std::array<Corner, 4>> bars(kBarsAtMost * line.size());
   bars.resize(static_cast<std::size_t>(stb_easy_font_print(0.0f, 0.0f, line.data(), nullptr, bars.data(),
                                                            static_cast<int>(sizeof(bars[0]) * bars.size()))));

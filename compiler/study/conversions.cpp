@@ -58,7 +58,7 @@ const Fit* find_pair(const std::vector<Fit>& fits, const StudyPair& pair) {
 }
 
 constexpr int kWidths = 11;
-constexpr double kWidthRatio = 1.085;  // between neighboring alphas
+constexpr double kWidthRatio = 1.085;  // ratio of neighboring alphas
 constexpr int kLeastErrorSamples = 256;
 constexpr double kWidestAlpha = 1.0;  // limit of the built-in models
 
@@ -101,7 +101,7 @@ Conversion best_of(const SpherePictures& pictures, std::span<const SphereMateria
   for (std::size_t i = 0; i < optima.size(); ++i) {
     const Pictures dark = pictures_of(first + 1 + 2 * i), bright = pictures_of(first + 2 + 2 * i);
     // The error has one minimum over specular, because brightness increases with specular.
-    constexpr int kSteps = 16;  // to 5e-4
+    constexpr int kSteps = 16;  // reach a precision of 5e-4
     optima[i] = golden_section(0.0, 1.0, kSteps,
                                [&](double specular) { return mean_rmse(source, dark, bright, specular); });
   }

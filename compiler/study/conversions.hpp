@@ -36,7 +36,7 @@ struct EnvironmentsOptions : SphereSampling {
   std::vector<double> alphas;             // of the source
   double specular = 0.5;                  // of the source, linear, above 0 to 1
   double diffuse = 0.0;                   // of source and target, linear, 0 to 1
-  std::vector<Environment> environments;  // of different names and equal mean luminance
+  std::vector<Environment> environments;  // with different names and equal mean luminance
   std::vector<Fit> fits;                  // fits for kShipped
   int match_resolution = 512;             // width and height of the pictures of the matches
   bool least_error = false;               // compare kBest, too

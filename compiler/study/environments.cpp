@@ -29,7 +29,7 @@ double mean_radiance(const std::vector<float>& radiance) {
 // A LitPicture is a picture of one material under one environment.
 struct LitPicture {
   DisplayedSphere display;
-  double mean = 0.0;                           // linear luminance
+  double mean = 0.0;                           // mean linear luminance
   std::array<std::vector<float>, 2> halves{};  // display colors from each half of the light directions
 };
 
@@ -57,14 +57,14 @@ double squared_noise(const LitPicture& source, const LitPicture& target) {
 // Renders all materials of one alpha together and compares them.
 void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                    std::span<const Conversion> conversions, EnvironmentsResult* result) {
-  std::vector<SphereMaterial> materials;  // distinct
+  std::vector<SphereMaterial> materials;  // each material once
   const auto place_of = [&](const SphereMaterial& material) {
     const auto found = std::ranges::find(materials, material);
     const auto place = static_cast<std::size_t>(found - materials.begin());
     if (found == materials.end()) materials.push_back(material);
     return place;
   };
-  std::vector<std::pair<std::size_t, std::size_t>> places;  // of source and target of each conversion
+  std::vector<std::pair<std::size_t, std::size_t>> places;  // indices of source and target of each conversion
   for (const Conversion& c : conversions) {
     const StudyPair& pair = options.pairs[c.pair];
     const std::size_t source =

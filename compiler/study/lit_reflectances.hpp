@@ -51,7 +51,7 @@ class LitReflectances {
   std::size_t environment_count_;
   int resolution_;
   std::vector<std::uint32_t> pixels_;
-  std::vector<BasisPictures> bases_;  // [alpha][light]
+  std::vector<BasisPictures> bases_;  // indexed by alpha, then light
 };
 
 // A MetallicReflection holds the reflectances of a metallic material (remap/workflow.hpp). With n = 1 -

@@ -21,8 +21,8 @@
 namespace remap {
 namespace {
 
-constexpr double kAlphaRatio = 1.01;  // of neighbouring widths of the target
-constexpr std::size_t kStride = 6;    // of the widths that are examined first
+constexpr double kAlphaRatio = 1.01;  // ratio of neighbouring widths of the target
+constexpr std::size_t kStride = 6;    // step between the widths that are examined first
 constexpr double kNarrowest = 0.25;   // width of the target, relative to the source's least
 
 // Returns value `i` of `count` over a range, including its ends.
@@ -76,7 +76,7 @@ class TargetWidths {
   const PictureTaker& taker_;
   ProbedModel target_;
   std::vector<double> alphas_;
-  mutable std::vector<std::vector<std::vector<float>>> pictures_;  // of each width
+  mutable std::vector<std::vector<std::vector<float>>> pictures_;  // pictures of each width
   mutable std::deque<std::once_flag> are_rendered_;
 };
 

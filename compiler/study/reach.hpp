@@ -15,7 +15,7 @@ namespace remap {
 struct ReachOptions {
   std::vector<Fit> fits;           // between models that the renderer has
   std::vector<Range> speculars;    // of the sources, canonical, one range per fit; empty: their whole ranges
-  std::size_t materials = 32;      // of each parameter: their product is compared
+  std::size_t materials = 32;      // number per parameter; their product is compared
   Range alphas{0.05, 1.0};         // of the source; narrower highlights need more pixels
   int resolution = 192;            // width and height of the pictures in pixels
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
@@ -29,8 +29,8 @@ std::size_t progress_steps(const ReachOptions& options);
 // objective of the fit's table weighs them.
 struct ReachedMaterial {
   double alpha = 0.0, specular = 0.0;                // of the source
-  double target_alpha = 0.0, target_specular = 0.0;  // by the converter
-  double error = 0.0;                                // of the converter
+  double target_alpha = 0.0, target_specular = 0.0;  // found by the converter
+  double error = 0.0;                                // error of the converter
   double least_alpha = 0.0, least_specular = 0.0;    // the best that the target can do
   double least_error = 0.0;
   double excess() const { return error - least_error; }

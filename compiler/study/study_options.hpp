@@ -17,7 +17,7 @@ struct StudyOptions {
   std::vector<std::filesystem::path> environments;  // if empty, the built-in environments
   double exposure = 1.0;                            // mean luminance of each environment after scaling
   std::filesystem::path fit_folder;                 // if empty, the default, if it exists
-  std::filesystem::path folder;                     // of the results; if empty, standard output
+  std::filesystem::path folder;                     // folder of the results; if empty, standard output
   bool pictures = false, force = false, quiet = false;
 };
 

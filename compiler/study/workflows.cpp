@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kSheetRowsAGroup = 2;
 constexpr double kLeastAlpha = 0.01;
-constexpr const char* kHeadlight = "headlight";  // as a light of the table
+constexpr const char* kHeadlight = "headlight";  // name of the light in the table
 constexpr const char* kColumns[] = {"material",  "group", "alpha", "diffuse_r", "diffuse_g",
                                     "diffuse_b", "f0_r",  "f0_g",  "f0_b"};
 

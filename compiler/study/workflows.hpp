@@ -39,7 +39,7 @@ struct StudyMaterial {
 struct WorkflowsOptions : SphereSampling {
   std::vector<StudyMaterial> materials;
   std::vector<double> alphas;
-  std::vector<Environment> environments;  // of different names and equal mean luminance
+  std::vector<Environment> environments;  // with different names and equal mean luminance
   std::vector<WorkflowFit> learned;
   bool sheets = false;  // draw contact sheets
 };
@@ -54,7 +54,7 @@ void read_materials(const std::string& text, const std::string& name, WorkflowsO
 struct WorkflowPictures {
   MetallicSurface surface;
   std::vector<double> rmse;  // for each light: error of display values, in percent of the display range
-  std::vector<double> ssim;  // for each light: of luma
+  std::vector<double> ssim;  // for each light: similarity of luma
 };
 
 // A WorkflowComparison holds all methods in one convention. The last is kLeastErrorMethod, a search.
@@ -89,7 +89,7 @@ std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult
 // A FamilyKind is the distribution of the materials and the storage of the specular maps.
 enum class FamilyKind {
   kExact,    // base color and metallic uniform; floats
-  kStored,   // as kExact, stored with 8 bits in sRGB
+  kStored,   // like kExact, stored with 8 bits in sRGB
   kAuthored  // like assets: base color uniform in sRGB, metallic 0 or 1 in four of five; 8 bits
 };
 inline constexpr std::size_t kFamilyKinds = 3;

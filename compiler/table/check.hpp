@@ -17,7 +17,7 @@ enum class Severity {
 struct Finding {
   Severity severity = Severity::kNote;
   std::string kind;      // duplicate, contradiction, gap, non-monotone, jump, saturation, range, rows, light
-  std::size_t line = 0;  // of the file; 0 if it concerns the whole table
+  std::size_t line = 0;  // line in the file; 0 if it concerns the whole table
   std::string message;
 };
 
@@ -26,7 +26,7 @@ struct Finding {
 // (light.hpp) becomes a warning.
 std::vector<Finding> check_table(const Table& table, bool accept_light = false);
 
-// Does the same for named parameters. It finds values that are not finite, too few usable rows for the number
+// Checks a table of named parameters. It finds values that are not finite, too few usable rows for the number
 // of columns, source columns with a single value, repeated samples, and rows that are not fitted.
 std::vector<Finding> check_table(const MaterialTable& table, bool accept_light = false);
 

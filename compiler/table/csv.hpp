@@ -25,17 +25,17 @@ struct CsvCell {
 };
 
 struct CsvLine {
-  std::size_t number = 0;  // in the file, 1-based
+  std::size_t number = 0;  // line number in the file, from 1
   std::vector<CsvCell> cells;
 };
 
 // These limit the tables that are read: twice the largest table of remapc sample. A million rows take 300 MB
 // of memory while they are read.
 inline constexpr std::size_t kMostCsvRows = 2'000'000, kMostCsvColumns = 1000, kMostCsvComments = 1000;
-inline constexpr std::size_t kLongestCsvLine = 100'000, kLongestComment = 5000;  // bytes
+inline constexpr std::size_t kLongestCsvLine = 100'000, kLongestComment = 5000;  // in bytes
 
 struct Csv {
-  std::string name;  // for messages
+  std::string name;  // name for messages
   Comments comments;
   CsvLine header;
   std::vector<CsvLine> lines;

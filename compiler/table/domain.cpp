@@ -11,7 +11,8 @@
 namespace remap {
 namespace {
 
-// Up to this many different alpha1, each is a column. More are grouped into as many columns by their order.
+// With up to this many different alpha1, each has a column. Otherwise neighbours share one until it has
+// kRowsAColumn rows.
 constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
 // In scattered rows, a column that ends within this fraction of the highest specular1 reaches it.

@@ -38,7 +38,7 @@ using AnyTable = std::variant<Table, MaterialTable>;
 // Reads CSV text that was parsed as the form that its comments declare. A comment source_columns makes it a
 // MaterialTable. `map` applies only to a Table. Throws like parse_table and parse_material_table.
 AnyTable any_table(const Csv& csv, const ColumnMap& map);
-// Reads the same from text.
+// Parses text and then calls any_table().
 AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
 }  // namespace remap

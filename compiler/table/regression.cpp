@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr double kSmallestSpread = 2e-4;  // of alpha; a smaller spread is not visible
+constexpr double kSmallestSpread = 2e-4;  // spread of alpha; a smaller one is not visible
 constexpr double kTimesScatter = 2.0;
 constexpr std::size_t kFewestRows = 10;
 

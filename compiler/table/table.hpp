@@ -96,7 +96,7 @@ ColumnMap column_map(const std::string& text);
 // text without rows.
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
-// Does the same from CSV text that parse_csv has split.
+// Makes the table from CSV text that parse_csv has split.
 Table table_from_csv(const Csv& csv, const ColumnMap& map);
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});

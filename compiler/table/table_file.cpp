@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-constexpr const char* kDigest = "sha256";  // of the whole_text() that was written
+constexpr const char* kDigest = "sha256";  // hash of the whole_text() that was written
 
 std::filesystem::path metadata_of(const std::filesystem::path& table) { return table.string() + ".json"; }
 

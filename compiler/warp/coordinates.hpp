@@ -16,7 +16,7 @@ namespace remap {
 using Points = Eigen::MatrixXd;
 
 struct AppearanceSpace {
-  Eigen::VectorXd mean;            // of the features
+  Eigen::VectorXd mean;            // mean of the features
   Eigen::MatrixXd axes;            // features x 3, orthonormal, in order of decreasing variance
   double radius = 0.0;             // spread: RMS distance of texels from the mean, the unit of coordinates
   std::array<double, 3> stress{};  // RMS error of distances over RMS distance, in 1, 2 and 3 dimensions

@@ -12,7 +12,7 @@ namespace remap {
 struct CopiedTemplate {
   MaterialRef material;
   MapFrame frame;
-  std::filesystem::path table;  // of a tabulated material: profiles.exr, profiles.csv or brdfs.txt
+  std::filesystem::path table;  // for a tabulated material: profiles.exr, profiles.csv or brdfs.txt
 };
 
 // These are the files of all kinds.

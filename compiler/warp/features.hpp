@@ -27,7 +27,7 @@ inline constexpr Eigen::Index kFeatureBasis = 14;  // features per channel; the 
 // features of one channel are d * diffuse + s * slope(alpha) + base(alpha), where d is diffuse and s
 // specular. Columns are nodes of alpha.
 struct SeparableFeatures {
-  Eigen::VectorXd diffuse;      // kFeatureBasis
+  Eigen::VectorXd diffuse;      // kFeatureBasis values
   Eigen::MatrixXd slope, base;  // kFeatureBasis x kWidthNodes
 };
 
@@ -38,7 +38,7 @@ struct SampledFeatures {
   Eigen::VectorXd weights;    // square roots of the weights of the samples of one channel
   Eigen::MatrixXd basis;      // 3 x samples rows; orthonormal columns that span 512 texels
   LobeTable lobes;            // for parametric materials; empty for tables
-  Eigen::VectorXd cosines;    // of the angle between light and half vector; dielectrics only
+  Eigen::VectorXd cosines;    // cosine between light and half vector; dielectrics only
 };
 
 using AppearanceFeatures = std::variant<SeparableFeatures, SampledFeatures>;

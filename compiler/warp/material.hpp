@@ -17,7 +17,7 @@ namespace remap {
 // A WarpMaterial holds the texels of one material in any order. Texels with a value that is not finite are
 // skipped. Reflectances and alpha are in 0 to 1 (clamped()).
 struct WarpMaterial {
-  std::string name;  // for messages
+  std::string name;  // name for messages
   BrdfModel model;   // of the specular lobe; default: GGX with Schlick's Fresnel
   std::vector<WarpTexel> texels;
   bool is_dielectric = false;  // as in MapModel: reflectance is not linear in specular
@@ -26,7 +26,7 @@ struct WarpMaterial {
 // A TabulatedMaterial has texels that are entries of a table. These are measured BRDFs, or radially symmetric
 // scattering profiles P(r) of the diffuse component of a BSSRDF (Song et al. 2009).
 struct TabulatedMaterial {
-  std::string name;  // for messages
+  std::string name;  // name for messages
   // These are the radii of profiles in increasing order, above 0. For BRDFs there are none: their samples are
   // at the directions of half_vector_quadrature().
   std::vector<double> radii;
@@ -60,7 +60,7 @@ class MaterialRef {
 
 // A MapFrame is the size of the map that the texels of a material form, row-major from the top.
 struct MapFrame {
-  std::string name;  // of the material, for messages
+  std::string name;  // name of the material, for messages
   std::size_t width = 0, height = 0;
 };
 
@@ -79,7 +79,7 @@ std::string stroke_name(const std::vector<StrokePair>& strokes, std::size_t stro
 // An Overlap is the fraction of a stroke that another stroke covers.
 struct Overlap {
   std::size_t other = 0;  // index of that stroke
-  double share = 0.0;     // of the texels, 0 to 1
+  double share = 0.0;     // fraction of the texels, 0 to 1
 };
 // Finds the stroke that covers most of `stroke` on one side. Indices are below `texel_count`.
 Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,

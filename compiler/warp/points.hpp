@@ -20,7 +20,7 @@ Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uin
 
 struct Occupancy {
   Points points;                          // centroids of the bins with four texels or more
-  Eigen::VectorXd texel_count;            // of each point
+  Eigen::VectorXd texel_count;            // number of texels of each point
   std::vector<std::vector<int>> strokes;  // for each stroke, the points with one of its texels; at least one
   double spacing = 0.0;                   // width of a bin
 };

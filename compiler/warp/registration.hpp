@@ -14,7 +14,7 @@ namespace remap {
 struct PointSets {
   Occupancy source, target;
   Eigen::MatrixXd common_axes;  // dimension x dimension
-  Points source_centres;        // of the texels of each stroke
+  Points source_centres;        // centres of the texels of each stroke
   Points target_centres;
 };
 

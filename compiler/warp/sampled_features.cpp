@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kBasisTexels = 256;  // of each material
+constexpr std::size_t kBasisTexels = 256;  // number from each material
 constexpr double kLeastShare = 1e-9;       // relative to the largest eigenvalue; weaker directions are noise
 constexpr Eigen::Index kLargestBasis = 64;
 constexpr double kLargestF0 = 0.999;

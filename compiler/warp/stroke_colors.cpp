@@ -19,10 +19,10 @@ constexpr Color kTransparent = Color{1} << 24;
 constexpr double kColorRadius = 40.0;         // colors within it are treated as one
 constexpr double kPairRadius = 48.0;          // colors of two images match within this distance
 constexpr double kShadeRadius = 80.0;         // for shades of the background next to strokes, from JPEG
-constexpr double kBlendRadius = 60.0;         // from the line between two colors to their blend
+constexpr double kBlendRadius = 60.0;         // distance from the line between two colors to their blend
 constexpr double kMostBlends = 0.4;           // fraction of the texels; thin strokes have long edges
-constexpr double kLeastColorShare = 2e-5;     // of the texels, for a color
-constexpr std::size_t kLeastColorTexels = 8;  // for a color
+constexpr double kLeastColorShare = 2e-5;     // least fraction of the texels for a color
+constexpr std::size_t kLeastColorTexels = 8;  // least number of texels for a color
 constexpr std::size_t kMostColors = 33;       // including the background
 constexpr std::size_t kMostCandidates = 128;
 

@@ -18,15 +18,15 @@ struct WarpOptions {
 
 // A WarpDiagnostics holds figures that help a user to improve strokes.
 struct WarpDiagnostics {
-  int source_dimensions = 0, target_dimensions = 0;  // that each material needs
-  int dimensions = 0;                                // of the warp
-  double source_stress = 0.0, target_stress = 0.0;   // at `dimensions`
+  int source_dimensions = 0, target_dimensions = 0;  // number that each material needs
+  int dimensions = 0;                                // number in the warp
+  double source_stress = 0.0, target_stress = 0.0;   // stress at `dimensions`
   double coordinates_error = 0.0;                    // the larger Placement::fit_error, in radii
   int fixed_directions = 0;  // dimensions that strokes determine; the others follow the prior
   double fold_share = 0.0;   // fraction of source texels where the warp folds
   double coverage = 0.0;     // fraction of the template's occupied bins that the result uses
-  // This is the RMS distance from the image of a source stroke's centre to the template stroke's centre, in
-  // template radii: after the warp, and after only the affine map of the strokes.
+  // These are RMS distances in template radii, from the images of the source strokes' centres to the template
+  // strokes' centres. The first is after the warp, the second after only the affine map.
   double stroke_distance = 0.0;
   double stroke_contradiction = 0.0;
   std::size_t worst_stroke = 0;                          // index of the stroke with the largest distance

@@ -10,7 +10,7 @@ namespace remap {
 // An AffineMap is F(x) = x linear + offset, where rows are points.
 struct AffineMap {
   Eigen::MatrixXd linear;     // dimension x dimension
-  Eigen::RowVectorXd offset;  // dimension
+  Eigen::RowVectorXd offset;  // dimension values
 };
 
 // A SmoothWarp is F(x) = x linear + offset + sum_c weights_c exp(-|x - centre_c|^2 / (2 width^2)).

@@ -11,7 +11,7 @@
 namespace remap {
 
 // A PictureCache holds the pictures of one version of one renderer, in a folder of the cache named after
-// both. Safe for many threads and processes. A picture appears complete or not at all.
+// both. It is safe for many threads and processes. A picture appears complete or not at all.
 class PictureCache {
  public:
   // `renderer` is WorkerDescription::renderer.

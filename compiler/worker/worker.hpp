@@ -18,13 +18,13 @@ namespace remap {
 struct WorkerEntry {
   std::string name;     // prefix of its models; if empty, any
   std::string command;  // run by the shell
-  std::string folder;   // of the file that registers it: REMAP_WORKER_FOLDER
+  std::string folder;   // folder of its list file: REMAP_WORKER_FOLDER
   std::string install;  // how to install it, shown if it does not start; may be empty
 };
 
 struct WorkerLimits {
-  double seconds = 120.0;                        // for one answer
-  unsigned threads = 1;                          // of each process
+  double seconds = 120.0;                        // limit for one answer
+  unsigned threads = 1;                          // number for each process
   const std::atomic<bool>* cancelled = nullptr;  // ends a wait and throws kInterrupted
 };
 

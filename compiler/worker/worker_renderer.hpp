@@ -25,7 +25,7 @@ namespace remap {
 struct WorkerSettings {
   std::optional<std::filesystem::path> cache;  // if empty, every picture is rendered
   std::filesystem::path folder;                // for pictures in transit; if empty, one in memory
-  unsigned processes = 0;                      // at most, of one worker at once; 0: one for each core
+  unsigned processes = 0;                      // most processes of one worker at once; 0: one for each core
   WorkerLimits limits;
   std::function<void()> on_picture;  // called after every picture, from any thread
   std::function<void()> on_start;  // called before the first process starts, which leaves files and processes

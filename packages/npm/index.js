@@ -2,7 +2,8 @@
 import makeCore from './texremap.mjs';
 import { bytesOf } from './wasm_bytes.js';
 
-// So many texels are copied to the core and converted at a time, because they fit into the cache of a processor.
+// This many texels are copied to the core and converted at a time, because they fit into the cache of a
+// processor.
 const BAND = 8192;
 
 // These are the element types of arrays: their names in the core, and the largest value of integers.

@@ -11,7 +11,8 @@
 namespace remap {
 
 struct ColorIssue {
-  // For example: `read as linear, is 0.19 to 0.26 in 80 % of the texels, like F0 0.04 stored in sRGB`.
+  // This text reads for example `read as linear, is 0.19 to 0.26 in 80 % of the texels, like F0 0.04 stored
+  // in sRGB`.
   std::string text;
   std::optional<Transfer> transfer;  // the curve with which the values would be usual
 };

@@ -22,7 +22,7 @@ struct TexelSample {
   int columns = 0;
   int rows = 0;
   std::vector<std::vector<float>> channels;  // row-major, one per channel of `layout`
-  ImageLayout layout;                        // of the file
+  ImageLayout layout;                        // layout of the file
   // These members count texels of floating-point channels.
   std::size_t nan_count = 0, negative_count = 0, above_one_count = 0;
 
@@ -51,9 +51,9 @@ struct MaterialUse {
   std::size_t map = 0;  // index into CheckedMaterial::maps
   Channels channels = Channels::kWhole;
   std::string slot;             // the map's name in an asset: `metallicRoughnessTexture`
-  std::vector<double> factors;  // by which an asset multiplies the map; may be empty
-  std::string factor_name;      // `metallicFactor`
-  bool is_neighbour = false;    // of another material in the folder; only for comparison
+  std::vector<double> factors;  // numbers by which an asset multiplies the map; may be empty
+  std::string factor_name;      // such as `metallicFactor`
+  bool is_neighbour = false;    // belongs to another material in the folder, for comparison
   // This is the UV set of the map (glTF).
   std::size_t tex_coord = 0;
   std::string transform = {};  // text of KHR_texture_transform; may be empty
@@ -74,7 +74,7 @@ struct GltfStatements {
 // An Exponent is the Ns of a material in a Wavefront MTL file.
 struct Exponent {
   std::string material;
-  double value = 0.0;  // Ns
+  double value = 0.0;  // the value of Ns
 };
 
 enum class MaterialKind { kFolder, kGltf, kMtl };

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct MapLine {
-  std::string_view word;  // in lower case
+  std::string_view word;  // word in lower case
   Role role;
 };
 constexpr std::array<MapLine, 11> kMapLines = {{{"map_kd", Role::kDiffuse},

@@ -192,7 +192,7 @@ requires std::is_class_v<Run> Options& set_work(Command& command, Run run) {
   command.callback([options, run = std::move(run)] { run(std::as_const(*options)); });
   return *options;
 }
-// Does the same for a function, which may have overloads.
+// Accepts a function as the work. The function may have overloads.
 template <typename Options>
 Options& set_work(Command& command, void (*run)(const Options&)) {
   return set_work<Options>(command, [run](const Options& options) { run(options); });

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxChannels = 3;
 
-// So many texels are converted at a time, so that their rows stay in the cache of one core.
+// This many texels are converted at a time, so that their rows stay in the cache of one core.
 constexpr std::size_t kSegment = 2048;
 using FloatRow = std::array<float, kSegment>;
 
@@ -226,7 +226,7 @@ const TargetParameter* Conversion::wanted(Parameter parameter) const {
   return found == maps_.targets.end() || found->second.channels.empty() ? nullptr : &found->second;
 }
 
-// Skips measures that no map and no statistics ask for.
+// Returns false for measures that no map and no statistics ask for.
 bool Conversion::is_made(Parameter parameter) const {
   const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicUncertainty;
   return !is_measure(parameter) || counts || wanted(parameter) != nullptr;

@@ -27,16 +27,16 @@ inline constexpr std::size_t kMostPowersOfT = 16, kMostPowersOfAlpha = 32;
 using FactorTerms = std::vector<std::vector<float>>;
 
 struct Hinge {
-  float turn = 0.0f, turn_by_alpha = 0.0f;  // of alpha, if specular is cut off
+  float turn = 0.0f, turn_by_alpha = 0.0f;  // turn alpha if specular is cut off
   float bend = 0.0f;                        // at least 0; flattens the turn at larger cuts
-  float spread = 0.0f;                      // of specular, if alpha is cut off
+  float spread = 0.0f;                      // spreads specular if alpha is cut off
   bool operator==(const Hinge&) const = default;
 };
 
 struct CompactForm {
   float pole = 1.0f;  // above 0
   FactorTerms alpha = {{1.0f}}, specular = {{1.0f}};
-  std::optional<float> alpha_limit, specular_limit;  // of the target, above 0; none if unlimited
+  std::optional<float> alpha_limit, specular_limit;  // limits of the target, above 0; none if unlimited
   Hinge hinge;                                       // 0 without limits
   bool operator==(const CompactForm&) const = default;
 };
@@ -64,8 +64,8 @@ Scalar factor_value(const FactorTerms& terms, const Scalar& alpha, const Scalar&
 struct FormEnds {
   float width_min = 0.0f, width_max = 0.0f;  // the domain, in the source's own width parameter
   float width_from = 0.0f, width_to = 0.0f;  // ends for clamping; one side reaches perfectly sharp
-  float alpha_min = 0.0f;                    // of the sharpest source in the domain
-  float least_alpha = 0.0f;                  // of the target, because exponents end somewhere
+  float alpha_min = 0.0f;                    // alpha of the sharpest source in the domain
+  float least_alpha = 0.0f;                  // least alpha of the target: exponents end somewhere
 };
 // Returns the ends for the domain `width`.
 FormEnds ends_of(RoughnessEncoding source, RoughnessEncoding target, const Range& width);

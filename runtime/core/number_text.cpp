@@ -44,7 +44,7 @@ std::string printed(const char* format, int digits, double value) {
   return buffer.data();
 }
 
-// Does what to_chars does. It chooses the fewest digits, then the shortest text, with an exponent only if
+// Formats like std::to_chars: with the fewest digits, then the shortest text. It uses an exponent only if
 // that is shorter.
 template <typename Float>
 std::string shortest(Float value) {

@@ -47,7 +47,7 @@ std::string owner_tag() { return own_tag() + std::to_string(own_process()); }
 
 std::string random_letters() {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz234567";
-  constexpr std::size_t kCount = 12;  // of five bits each
+  constexpr std::size_t kCount = 12;  // letters of five bits each
   std::random_device device;
   std::string letters(kCount, ' ');
   for (char& letter : letters) letter = kLetters[device() % kLetters.size()];

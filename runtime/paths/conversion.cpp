@@ -13,7 +13,7 @@ namespace {
 struct NamedEnd {
   std::string name;
   const WorkflowModel* model = nullptr;  // null if `name` is a BRDF model
-  std::optional<WorkflowKind> kind;      // from the request
+  std::optional<WorkflowKind> kind;      // kind in the request
 
   // The graph gives the roughness parameter of a BRDF model. The search for a path refuses unknown models.
   const ConverterGraph* graph = nullptr;

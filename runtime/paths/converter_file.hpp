@@ -21,7 +21,7 @@ using FittedConverter = std::variant<ConverterData, WarpMapFit, UnusedFit>;
 // file, and for a fit without a converter.
 FittedConverter fitted_converter_from_json(std::string_view text, const std::string& context);
 
-// Reads the same from a file. Throws kInput if it cannot be read.
+// Reads the converter in the fit file `path`. Throws kInput if it cannot be read.
 FittedConverter load_fitted_converter(const std::filesystem::path& path);
 
 }  // namespace remap

@@ -10,7 +10,7 @@ namespace remap {
 
 struct KnownName {
   std::string_view title;  // such as `Unreal Engine`
-  std::string_view word;   // for `--from` and `--to`, such as `unreal`
+  std::string_view word;   // word for `--from` and `--to`, such as `unreal`
 };
 
 // Returns engines, modellers, renderers and texture libraries. Their words are aliases or models.

@@ -19,7 +19,7 @@ namespace remap {
 // A FoundMap is one map of a set: a file, or the tiles of a pattern.
 struct FoundMap {
   std::filesystem::path path;          // relative to the root; `<UDIM>` in the name means tiles
-  std::optional<TilePattern> pattern;  // of the file name
+  std::optional<TilePattern> pattern;  // pattern of the file name
   std::vector<Tile> tiles;             // by number, paths relative to the root; empty for a single file
   std::string habit;
   std::vector<ChannelMeaning> meaning;
@@ -67,7 +67,7 @@ struct DiscoveryOptions : WalkOptions {
 };
 
 struct Discovery {
-  std::vector<FoundSet> sets;  // by folder and name, by bytes
+  std::vector<FoundSet> sets;  // sorted by folder and name, by bytes
   std::vector<std::filesystem::path>
       unrecognised;                           // images without a naming convention; tiles as one pattern
   std::vector<std::filesystem::path> others;  // files of WalkOptions::also, by bytes

@@ -49,7 +49,7 @@ bool is_acronym(std::string_view word) { return std::none_of(word.begin(), word.
 
 // A Stem is the end of the set's name, and the resolution between it and the word of the map.
 struct Stem {
-  std::size_t end = 0;           // of the set's name
+  std::size_t end = 0;           // end of the set's name
   std::size_t numbered_end = 0;  // the end after a number that may belong to the name
   ResolutionPlace resolution = ResolutionPlace::kNone;
 };

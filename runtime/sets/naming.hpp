@@ -185,7 +185,7 @@ class Naming {
 
   std::vector<Habit> habits_;
   std::vector<std::string> ignored_words_;
-  std::unordered_set<std::string> ignored_;                   // in lower case
+  std::unordered_set<std::string> ignored_;                   // words in lower case
   std::unordered_map<std::string, std::vector<Word>> words_;  // keyed by their letters in lower case
   std::size_t longest_word_ = 0;
 };

@@ -55,7 +55,7 @@ std::vector<Tile> existing_tiles(const std::filesystem::path& path);
 struct TileGroup {
   std::string name;                    // the file name, or the text of the pattern
   std::optional<TilePattern> pattern;  // none for a single file
-  std::vector<int> numbers;            // of the tiles, ascending; empty for a single file
+  std::vector<int> numbers;            // numbers of the tiles, ascending; empty for a single file
 };
 
 // Groups the UDIM and u1_v1 tiles among the file names of one folder. Other names stay single. Frames stay

@@ -27,12 +27,12 @@ struct FormPass {
   RoughnessEncoding target = RoughnessEncoding::kAlpha;
   float width_min = 0.0f, width_max = 0.0f;    // the domain, in the source's own width parameter
   float width_from = 0.0f, width_to = 0.0f;    // ends for clamped widths
-  float alpha_min = 0.0f, least_alpha = 0.0f;  // of the source in the domain; of the target
+  float alpha_min = 0.0f, least_alpha = 0.0f;  // alpha_min: source in the domain; least_alpha: target
   float specular_min = 0.0f, specular_max = 0.0f;
   float pole = 1.0f;
   float alpha_limit = 0.0f, specular_limit = 0.0f;  // infinite if there is no limit
   float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
-  std::size_t powers = 1, terms = 1;  // of both factors, which are padded with zeros
+  std::size_t powers = 1, terms = 1;  // sizes of both factors, which are padded with zeros
   Terms alpha_terms{}, specular_terms{};
 };
 

@@ -36,7 +36,7 @@ struct PackedWarp {
   float least_alpha = 0.0f, largest_alpha = 0.0f;
   float width_start = 0.0f, width_scale = 0.0f;  // place of alpha: (log2(alpha) - start) scale
   std::variant<PackedSeparable, PackedQuadratic> coordinates;
-  std::int32_t nodes = 0;                                   // of the table, along each dimension
+  std::int32_t nodes = 0;                                   // nodes of the table along each dimension
   std::array<float, kLargestWarpDimension> low{}, scale{};  // nodes = (x - low) scale
   std::variant<PackedBlended, PackedCopied> table;
 };

@@ -11,7 +11,7 @@
 
 namespace remap {
 
-// So many texels pass through all stages before the next block. The rows that two stages share, 2 KB each,
+// This many texels pass through all stages before the next block. The rows that two stages share, 2 KB each,
 // then stay in the first-level cache.
 inline constexpr std::size_t kBlockTexels = 1024;
 

@@ -15,7 +15,7 @@ namespace remap {
 struct Channel {
   std::string name;
   PixelType type = PixelType::kFloat;
-  std::size_t offset = 0;  // in a texel, in bytes
+  std::size_t offset = 0;  // place in a texel, in bytes
   bool operator==(const Channel&) const = default;
 };
 
@@ -32,7 +32,7 @@ struct ImageLayout {
   std::string format;                       // name in OpenImageIO: "openexr", "tiff", "png", "jpeg", ...
   std::string lossy_compression;            // empty for a lossless file
   bool has_compression_level = false;       // the compression has a level
-  std::optional<Transfer> tagged_transfer;  // of colors, if the file has a tag for it
+  std::optional<Transfer> tagged_transfer;  // curve of colors, if the file has a tag for it
 
   std::size_t row_bytes() const noexcept { return static_cast<std::size_t>(width) * texel_bytes; }
 };
@@ -54,8 +54,8 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;  // name and 
 
 // A ColorStorage decides how a new image stores its colors, depending on its pixel type.
 struct ColorStorage {
-  std::optional<Transfer> chosen;    // by the user
-  std::optional<Transfer> followed;  // from a map of integers that the colors follow
+  std::optional<Transfer> chosen;    // chosen by the user
+  std::optional<Transfer> followed;  // curve of the map of integers that the colors follow
 
   Transfer of(PixelType type) const {
     const Transfer usual = usual_color_transfer(type);
@@ -65,7 +65,7 @@ struct ColorStorage {
 
 // An ImageChanges lists how a new image differs from the image that it follows.
 struct ImageChanges {
-  std::optional<PixelType> type;                     // of all channels
+  std::optional<PixelType> type;                     // type of all channels
   std::optional<std::vector<std::string>> channels;  // new channels, all of the type of the first old one
   std::optional<ColorStorage> colors;                // none: all channels are data
   std::optional<int> compression_level;              // 1 (fast) to 9 (small), if the compression has levels

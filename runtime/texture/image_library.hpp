@@ -24,9 +24,9 @@ namespace remap {
 class StoredImage {
  public:
   virtual ~StoredImage() = default;
-  virtual const ImageLayout& layout() const noexcept = 0;  // of the selected level
+  virtual const ImageLayout& layout() const noexcept = 0;  // layout of the level
   virtual std::string part_name() const = 0;               // empty for a part without a name
-  virtual int part_count() const noexcept = 0;             // of the file; only part 0 knows it
+  virtual int part_count() const noexcept = 0;             // parts of the file; only part 0 knows
   virtual int level_count() const noexcept = 0;            // mip levels of the part
   // Selects the mip level for layout() and read_rows(). The initial level 0 is the full picture.
   virtual void select_level(int level) = 0;
@@ -53,9 +53,9 @@ class NewImage {
  public:
   virtual ~NewImage() = default;
   virtual const std::filesystem::path& path() const noexcept = 0;
-  virtual const ImageLayout& layout() const noexcept = 0;  // of the selected plane
+  virtual const ImageLayout& layout() const noexcept = 0;  // layout of the plane
   virtual int level_count(int part) const noexcept = 0;
-  virtual ImageLayout layout(int part) const = 0;  // of its level 0
+  virtual ImageLayout layout(int part) const = 0;  // layout of level 0
   // Selects the next plane: all levels of a part in order, the largest first, then the next part. The
   // previous plane must be complete. The initial plane is level 0 of part 0.
   virtual void select(int part, int level) = 0;
@@ -79,13 +79,13 @@ class NewImage {
 struct Picture {
   int width = 0;
   int height = 0;
-  std::vector<std::string> channels;  // names
+  std::vector<std::string> channels;  // channel names
   std::vector<float> values;          // interleaved, row-major from the top
 };
 
 struct ImageLimits {
-  int threads = 0;                 // at least 1, of the image library in this process; 0: automatic
-  std::uint64_t memory_bytes = 0;  // for the texels of one image; 0: automatic
+  int threads = 0;                 // at least 1, in this process; 0: automatic
+  std::uint64_t memory_bytes = 0;  // limit for one image's texels; 0: automatic
 };
 
 class ImageLibrary {

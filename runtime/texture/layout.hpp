@@ -30,7 +30,7 @@ using LayoutContent = std::variant<LayoutParameter, LayoutCarried, float>;
 
 struct LayoutFile {
   std::string name;                    // without extension; `*` is the set's name, otherwise put in front
-  std::vector<LayoutContent> content;  // of 1, 3 or 4 channels
+  std::vector<LayoutContent> content;  // content of 1, 3 or 4 channels
 };
 
 struct Layout {
@@ -57,7 +57,7 @@ Layout separate();
 struct NamedLayout {
   std::string_view name;
   std::string_view words;   // words of `--to` that mean it; `--to gltf` means only the material
-  std::string_view files;   // as layout_from() reads it; empty: separate
+  std::string_view files;   // text for layout_from(); empty: separate
   std::string_view format;  // extension; empty for as-inputs and for layouts without an engine
   std::optional<PixelType> type;
   std::optional<NormalGreen> normals;  // its convention for green of normal maps, if documented

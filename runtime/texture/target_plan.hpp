@@ -31,8 +31,7 @@ struct CopiedFile {
 struct PlannedCopy {
   std::filesystem::path source;
   std::filesystem::path path;
-  std::vector<TargetPart>
-      parts;  // of a result that repeats the source; empty for files that are not converted
+  std::vector<TargetPart> parts;  // parts of a result that repeats the source; empty for unconverted files
   bool turns_green = false;
 };
 
@@ -60,9 +59,9 @@ struct TargetChoice {
   bool colors_stay_grey = true;          // colors that are grey in the set stay grey in a separate file
   std::vector<TargetChannel> diagnoses;  // the mask and measures, one grey map each, in a separate folder
   std::filesystem::path diagnosis_folder;
-  std::string extension;                 // of all files; if empty, inputs decide
-  std::optional<PixelType> type;         // of all files
-  std::optional<int> compression_level;  // of all files whose compression has levels
+  std::string extension;                 // extension of all files; if empty, inputs decide
+  std::optional<PixelType> type;         // type of all files
+  std::optional<int> compression_level;  // for all files whose compression has levels
   ResultNames names;
   Layout layout = as_inputs();
   // The stored values of these stay unchanged. A result that would repeat a file becomes a copy of it.

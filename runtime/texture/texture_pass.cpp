@@ -64,7 +64,7 @@ struct Round {
   std::vector<Target> targets;
   int part;
   bool is_converting;             // false if all channels are copies
-  std::vector<std::size_t> maps;  // to read
+  std::vector<std::size_t> maps;  // maps to read
 };
 
 std::vector<Round> rounds_of(const TextureSet& set, std::vector<TargetMap>& targets) {

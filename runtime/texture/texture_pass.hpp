@@ -40,7 +40,7 @@ struct TargetMap {
 };
 
 struct PassOptions : MapTreatment {
-  int thread_count = 1;  // of the conversion; above 1, reading and writing run at the same time
+  int thread_count = 1;  // threads of the conversion; above 1, reading and writing overlap
   // This is the largest size of a band of the set, unless whole tiles need more. Two bands are in memory, or
   // three if pixel types change.
   std::size_t band_bytes = std::size_t{8} << 20;

@@ -30,7 +30,7 @@ struct MapName {
 struct ParameterRequest {
   std::variant<MapName, ConstantValues> source;
   std::vector<float> factors;        // for the linear values: none, one, or one per channel
-  std::optional<Transfer> transfer;  // of a color; by default from the file, otherwise the usual one
+  std::optional<Transfer> transfer;  // curve of a color; by default from the file, otherwise the usual
   std::string one_channel = {};      // the option for one channel of the map, for messages
 };
 
@@ -52,7 +52,7 @@ struct CarriedRequest {
 struct TextureSetRequest {
   std::map<Parameter, ParameterRequest> parameters;
   std::vector<CarriedRequest> carried;          // one channel each
-  std::optional<RoughnessEncoding> convention;  // of the roughness map; by default the model's own
+  std::optional<RoughnessEncoding> convention;  // of the roughness map; default: the model's
   bool resample = false;                        // enlarge maps to the largest width and height among them
 };
 
@@ -71,12 +71,12 @@ enum class TransferReason {
 
 // A SetParameter is one parameter of an open set.
 struct SetParameter : ParameterValues {
-  // Empty for a constant. If a parameter other than a color has several channels, they are nearly equal, and
-  // the first, which is green, holds its value.
+  // It is empty for a constant. If a parameter other than a color has several channels, they are nearly
+  // equal, and the first, which is green, holds its value.
   std::vector<ChannelPlace> channels;
   TransferReason transfer_reason = TransferReason::kUsual;
   bool is_whole_numbers = false;  // the file holds integers
-  std::string one_channel = {};   // of the request
+  std::string one_channel = {};   // option in the request
 
   bool is_map() const noexcept { return !channels.empty(); }
   std::size_t channel_count() const noexcept { return is_map() ? channels.size() : constants.size(); }

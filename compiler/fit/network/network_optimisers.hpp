@@ -23,7 +23,7 @@ struct OptimiserSettings {
   int patience = 100;      // stops after so many iterations without a better validation error
   int batch = 128;         // samples per step of run_adam
   double step = 3e-3;      // largest step of run_adam
-  std::uint64_t seed = 1;  // of the sample order of run_adam
+  std::uint64_t seed = 1;  // seed of the sample order of run_adam
 };
 
 struct OptimisedNetwork {

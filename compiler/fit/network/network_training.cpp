@@ -34,7 +34,7 @@ constexpr double kFewestResiduals = 1500.0, kMostResiduals = 3000.0;
 constexpr int kLevenbergIterations = 300;
 constexpr int kLevenbergPatience = 80;
 constexpr int kRefitIterations = 60;
-constexpr double kStartsShare = 0.95;  // of the progress; the rest is the refit
+constexpr double kStartsShare = 0.95;  // fraction of the progress; the rest is the refit
 // This number of multiplications determines the number of Adam passes, within bounds.
 constexpr double kAdamWork = 1e10;
 constexpr double kFewestPasses = 10.0, kMostPasses = 400.0;
@@ -210,7 +210,7 @@ using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepRe
 struct BestStart {
   OptimisedNetwork network;
   std::size_t start = 0;
-  std::string words;  // for `method`
+  std::string words;  // words for `method`
 };
 
 BestStart run_starts(const Training& train, const TrainingOptions& options, const FitProgress& progress) {

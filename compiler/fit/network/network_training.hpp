@@ -24,9 +24,9 @@ struct Samples {
 struct TrainingOptions {
   std::vector<std::size_t> hidden = {8, 8};  // units of each hidden layer; if empty, a linear map
   Activation activation = Activation::kTanh;
-  std::uint64_t seed = 1;             // of the initial weights and the validation rows
+  std::uint64_t seed = 1;             // seed of initial weights and validation rows
   std::size_t starts = 4;             // independent trainings, at least 1; the best is kept
-  double validation_fraction = 0.15;  // of the rows, 0 to 0.5; 0: validate on the training rows
+  double validation_fraction = 0.15;  // fraction of rows, 0 to 0.5; 0: validate on the training rows
   // This weights the sum of squared weights. On the published table, 1e-9 halves the error of a polynomial of
   // low degree fitted to the network. The error on unseen rows rises from 1.3e-5 to 2.1e-5.
   double weight_decay = 1e-9;

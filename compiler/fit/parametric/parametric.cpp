@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr int kAlphaSteps = 1000;  // of the grid on which a curve is checked
+constexpr int kAlphaSteps = 1000;  // steps of the grid on which a curve is checked
 constexpr int kSpecularSteps = 16;
 
 double grid_value(const Range& range, int i, int steps) {

@@ -14,7 +14,7 @@
 namespace remap {
 
 struct SvrOptions {
-  std::uint64_t seed = 1;  // of the folds of the search and of the drawn samples
+  std::uint64_t seed = 1;  // seed of the search's folds and of the drawn samples
   unsigned jobs = 0;       // threads; 0: one per core. The result does not depend on it
   // Missing hyper-parameters are searched.
   std::optional<SvrHyperParameters> alpha, specular;

@@ -70,7 +70,7 @@ enum class AssetTarget {
 
 struct AssetOptions {
   bool extensions = false;     // metal-rough with KHR_materials_specular and _ior, instead of only core
-  double prior = kCleanPrior;  // of the projection (docs/workflows.md)
+  double prior = kCleanPrior;  // prior of the projection (docs/workflows.md)
   InstructionSet instructions = best_instruction_set();
   bool enlarges = false;  // enlarges images of a material that are smaller than another one
   AssetTarget target = AssetTarget::kMetalRough;
@@ -103,10 +103,10 @@ struct MaterialFactor {
 };
 
 struct AssetMaterial {
-  std::size_t index = 0;  // in the order of the file
-  std::string name;       // from the file; may be empty
+  std::size_t index = 0;  // index in the file
+  std::string name;       // name in the file; may be empty
   MaterialState state = MaterialState::kUntouched;
-  std::vector<MaterialFactor> factors;  // of a converted material without varying maps
+  std::vector<MaterialFactor> factors;  // set for a converted material without varying maps
   double residual = 0.0;                // Parameter::kResidual; for maps the root of its mean square
   std::string becomes;                  // `base color 0.2 0.3 0.4, metallic 0, roughness 0.75`
   std::vector<std::string> warnings;    // without the name of the material
@@ -126,7 +126,7 @@ struct AssetPiece {
 
 // A NewResource is a new file beside the result.
 struct NewResource {
-  std::string path;  // relative
+  std::string path;  // relative path
   std::string bytes;
 };
 
@@ -143,7 +143,7 @@ struct AssetConversion {
   std::string text;                      // edited text of the materials, as UTF-8; the rest is unchanged
   std::vector<TextSpan> touched;         // bytes of the text that were replaced or removed
   bool changed = false;                  // true if a material was converted
-  std::vector<AssetPiece> pieces;        // of the converted file; empty if nothing was converted
+  std::vector<AssetPiece> pieces;        // pieces of the converted file; empty if nothing was converted
   std::vector<NewResource> files;        // new images
   std::vector<AssetResource> resources;  // files that the asset names, each path once, in order of the text
 

@@ -35,7 +35,7 @@ enum class UriKind {
   kData,      // the bytes are in the URI
   kFile,      // a relative path; AssetResources decide how far up `..` may lead
   kAbsolute,  // a path from a root, a drive or a host
-  kRemote,    // of another scheme, such as https
+  kRemote,    // an address with another scheme, such as https
 };
 UriKind uri_kind(std::string_view uri);
 

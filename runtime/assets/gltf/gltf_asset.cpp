@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-constexpr std::uint64_t kMostPadding = 3;  // of a binary chunk, after its buffer
+constexpr std::uint64_t kMostPadding = 3;  // padding of a binary chunk, after its buffer
 
 // Returns a path such as `/images/2/uri`.
 std::string pointer_of(SpanValue value) {
@@ -112,7 +112,7 @@ class ViewCheck {
   SpanValue root_;
   const GltfContainer& container_;
   const std::string& context_;
-  std::vector<std::size_t> lengths_;  // of the buffers
+  std::vector<std::size_t> lengths_;  // lengths of the buffers
 };
 
 }  // namespace

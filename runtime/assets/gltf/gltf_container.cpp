@@ -27,7 +27,7 @@ std::string bytes_of(std::uint32_t value) {
 
 struct Chunk {
   std::uint32_t type = 0;
-  std::uint64_t begin = 0, end = 0;  // of the content
+  std::uint64_t begin = 0, end = 0;  // range of the content
 };
 
 Chunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string& context) {

@@ -45,7 +45,7 @@ GltfContainer read_container(const ByteSource& source, const std::string& contex
 // A BinaryTail is the new end of the binary chunk.
 struct BinaryTail {
   std::optional<std::uint64_t> kept;  // bytes from its start; all if missing
-  std::string appended;               // from the next multiple of four
+  std::string appended;               // starts at the next multiple of four
 };
 
 // Returns the file with other JSON. Chunks keep their order, and the binary chunk gets another tail. Throws

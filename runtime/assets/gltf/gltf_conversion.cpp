@@ -192,7 +192,7 @@ class GltfConversion {
   const AssetOptions& options_;
   std::unique_ptr<ImageParts> parts_;
   std::vector<std::unique_ptr<GltfDirection>> directions_;  // the first that accepts a material converts it
-  std::set<std::pair<std::size_t, std::string>> pointers_;  // by material
+  std::set<std::pair<std::size_t, std::string>> pointers_;  // keyed by material
   std::vector<std::pair<std::size_t, MaterialEdit>> edits_;
   GltfResult result_;
 };

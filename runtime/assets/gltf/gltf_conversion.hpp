@@ -19,7 +19,7 @@ struct GltfSource {
 };
 
 struct GltfResult {
-  AssetConversion asset;  // without pieces and resources
+  AssetConversion asset;  // its pieces and resources are still missing
   BinaryTail tail;
 };
 

@@ -20,7 +20,7 @@ class MaterialTextures;
 // index.
 struct TextureText {
   SpanValue info;                    // empty without a texture
-  std::optional<std::size_t> added;  // of GltfNewImages::add_texture()
+  std::optional<std::size_t> added;  // result of GltfNewImages::add_texture()
 
   explicit operator bool() const noexcept { return static_cast<bool>(info); }
 };
@@ -44,7 +44,7 @@ struct MaterialEdit {
   std::vector<MemberText> core;  // members of pbrMetallicRoughness, in their order
   std::vector<std::string_view> removed_extensions;
   std::vector<ExtensionText> added_extensions;
-  SpanValue carried_extras;          // of a removed extension; pbrMetallicRoughness gets them
+  SpanValue carried_extras;          // extras of a removed extension; pbrMetallicRoughness gets them
   std::string vertex_color_warning;  // what changes if vertex colors multiply a color, or empty
 };
 

@@ -18,7 +18,7 @@ namespace remap {
 
 // An AssetImage is a decoded image with its origin.
 struct AssetImage {
-  std::size_t texture = 0, image = 0;  // indices
+  std::size_t texture = 0, image = 0;  // indices in the file
   std::shared_ptr<const ImagePixels> pixels;
   bool is_jpeg = false;
 };

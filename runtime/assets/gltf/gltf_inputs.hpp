@@ -89,11 +89,11 @@ bool has_textures(const GltfMaterial& material, std::span<const GltfInput> input
 // Returns the shortest text that reads back as the float.
 inline std::string float_text(float value) { return number_text(decimal_value(value)); }
 
-// Returns true if `own` is that number. Arithmetic of floats changes a factor by less than this tolerance.
+// Returns true if `own` equals `value`, up to the error of float arithmetic.
 inline bool is_factor(float value, const FactorText& own) {
   return std::fabs(static_cast<double>(value) - own.value) < 1e-6;
 }
-// Returns the text of `own` if it is that number, otherwise a text of the number.
+// Returns the text of `own` if it equals `value`, otherwise a text of `value`.
 inline std::string factor_text(float value, const FactorText& own) {
   return is_factor(value, own) ? own.text : float_text(value);
 }

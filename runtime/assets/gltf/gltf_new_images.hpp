@@ -24,7 +24,7 @@
 namespace remap {
 
 struct ImageCoding {
-  std::optional<int> jpeg_quality = std::nullopt;  // none for PNG
+  std::optional<int> jpeg_quality = std::nullopt;  // missing for PNG
   int png_level = kUsualPngLevel;
 };
 
@@ -86,16 +86,16 @@ class GltfNewImages {
   std::vector<NewImage> new_images_;
   std::vector<NewTexture> new_textures_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // keyed by image and sampler
-  GltfSpares spares_;                                                          // that are not taken yet
+  GltfSpares spares_;                                                          // the free ones
   std::set<std::size_t> unused_images_;                                        // spare images, taken or not
   std::vector<std::size_t> image_places_;
   std::vector<Location> locations_;
   std::size_t image_count_ = 0, texture_count_ = 0, view_count_ = 0;
-  std::uint64_t chunk_start_ = 0;  // of the appended bytes
+  std::uint64_t chunk_start_ = 0;  // start of the appended bytes
   BinaryTail tail_;
   std::vector<NewResource> files_;
   std::vector<SpanValue> removed_extensions_;
-  NewImageNames names_;  // beside the URIs of files
+  NewImageNames names_;  // names beside the URIs of files
 };
 
 }  // namespace remap

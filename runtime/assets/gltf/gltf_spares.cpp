@@ -115,7 +115,7 @@ class SpareFinder {
 
   // Returns where the spare views at the end of the buffer begin. Without any it returns the buffer's end.
   std::uint64_t spare_tail() const {
-    constexpr std::uint64_t kMostGap = 15;  // between views that exporters align
+    constexpr std::uint64_t kMostGap = 15;  // gap between views that exporters align
     std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;
     for (const std::size_t view : spares_.views) {
       const std::uint64_t begin = views_[view]["byteOffset"].whole().value_or(0);
@@ -145,8 +145,8 @@ class SpareFinder {
   SpanValue root_;
   const GltfContainer& container_;
   std::vector<SpanValue> textures_, images_, views_;
-  Indices used_;         // textures
-  Indices lost_values_;  // that converted materials lose
+  Indices used_;         // textures in use
+  Indices lost_values_;  // values that converted materials lose
   GltfSpares spares_;
 };
 

@@ -15,7 +15,7 @@
 namespace remap {
 
 enum class GltfWorkflow {
-  kMetalRough,  // core
+  kMetalRough,  // core glTF
   kDielectric,  // core with KHR_materials_specular and _ior, which set the F0 of dielectrics
   kSpecGloss,   // KHR_materials_pbrSpecularGlossiness
 };

@@ -20,8 +20,8 @@ namespace remap {
 
 // A UsedTexture is a texture of a material.
 struct UsedTexture {
-  std::string_view member;              // of the material or an extension: `specularGlossinessTexture`
-  Transfer transfer = Transfer::kSrgb;  // of its colors
+  std::string_view member;              // name in the material or extension: `specularGlossinessTexture`
+  Transfer transfer = Transfer::kSrgb;  // curve of its colors
   TextureInfo info;
   AssetImage image;
   std::string bake;  // how its pixels were resampled, or empty

@@ -39,7 +39,7 @@ struct SpecGlossMaps {
   // factor.
   std::optional<ImagePixels> diffuse;
   bool keeps_color = false;  // diffuse is the color map times `diffuse_factors`
-  float alpha = 1.0f;        // of a color map that a factor replaces
+  float alpha = 1.0f;        // alpha of a color map that a factor replaces
   std::array<float, 3> diffuse_factors = {1.0f, 1.0f, 1.0f};
   std::optional<ImagePixels> specgloss;  // sRGB specular, with glossiness as alpha; none if both are factors
   std::array<float, 3> specular = {1.0f, 1.0f, 1.0f};

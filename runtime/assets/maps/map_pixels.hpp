@@ -54,7 +54,7 @@ bool is_map_times(const ImagePixels& result, const ImagePixels& map, const std::
 // A NormalShares holds measures that separate normals from other colors. Vectors are decoded from 0 to 1.
 struct NormalShares {
   double unit = 0.0, inwards = 0.0;  // fractions of texels: of about unit length; pointing into the surface
-  std::array<double, 3> mean{};      // of red, green and blue as stored
+  std::array<double, 3> mean{};      // mean of red, green and blue as stored
 
   // Returns true if a map of heights or normals holds normals of tangent space. Heights are grey.
   bool are_normals() const;

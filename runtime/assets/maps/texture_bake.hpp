@@ -13,7 +13,7 @@ namespace remap {
 struct TextureTransform {
   double offset[2] = {0.0, 0.0};
   double scale[2] = {1.0, 1.0};
-  double rotation = 0.0;  // radians
+  double rotation = 0.0;  // in radians
   bool operator==(const TextureTransform&) const = default;
 };
 
@@ -25,7 +25,7 @@ struct TextureGrid {
 
 // A PlacedTexture is a texture that will share a grid with others.
 struct PlacedTexture {
-  std::size_t width = 0, height = 0;  // of its image, in texels
+  std::size_t width = 0, height = 0;  // size of its image, in texels
   TextureTransform transform;
 };
 
@@ -36,9 +36,9 @@ struct CommonGrid {
   bool repeats = true;  // if false, it needs mesh coordinates within 0 to 1
 };
 
-// Returns the place of the texture that repeats least, if every other one repeats in it an integer number of
-// times. Texels are as fine as the finest, up to 4096 a side or the largest image. Otherwise returns the
-// place of a texture that covers coordinates from 0 to 1 without a repeat. Returns nothing otherwise.
+// Chooses the texture that repeats least, if all others repeat in it an integer number of times. Otherwise it
+// chooses one that covers coordinates from 0 to 1 without a repeat. Returns its place, or nothing without
+// such a texture. Texels are as fine as the finest, up to 4096 a side or the largest image.
 std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures);
 
 // Returns `map` on another grid: for each texel, the value of the map at the same texture coordinates before

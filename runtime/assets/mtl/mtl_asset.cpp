@@ -52,7 +52,7 @@ std::string argument(const std::string& file) { return (file.starts_with('-') ? 
 struct MtlResult {
   std::array<double, 3> base{};
   double metallic = 0.0, roughness = 1.0;
-  bool keeps_map = false;  // map_Kd stays
+  bool keeps_map = false;  // true if map_Kd stays
   std::string base_file;
   std::string roughness_map, metallic_map;  // arguments of map_Pr and map_Pm
 };

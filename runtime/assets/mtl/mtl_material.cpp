@@ -17,7 +17,7 @@ enum class OptionArguments { kWord, kNumbers };
 struct MapOption {
   std::string_view name;
   OptionArguments arguments;
-  std::size_t most;  // numbers
+  std::size_t most;  // most numbers
 };
 constexpr std::array<MapOption, 14> kMapOptions = {{{"-s", OptionArguments::kNumbers, 3},
                                                     {"-o", OptionArguments::kNumbers, 3},

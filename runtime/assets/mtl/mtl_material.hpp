@@ -19,13 +19,13 @@ std::optional<double> mtl_number(std::string_view text);
 
 // An MtlMap is a texture: `map_Kd -s 2 2 wood.jpg`.
 struct MtlMap {
-  std::size_t statement = 0;  // index
-  TextSpan name;              // in the text
+  std::size_t statement = 0;  // index of the statement
+  TextSpan name;              // place in the text
   std::string file;           // the name with '/' between folders; may hold spaces; may be empty
   std::string options;        // as written before and after the name
   std::array<double, 2> scale = {1.0, 1.0}, offset = {0.0, 0.0};  // -s and -o: u and v
-  double strength = 1.0;                                          // -bm
-  bool clamps = false;                                            // -clamp on
+  double strength = 1.0;                                          // option -bm
+  bool clamps = false;                                            // option -clamp on
   char channel = '\0';                                            // -imfchan, or 0
   double base = 0.0, gain = 1.0;     // -mm: base + gain times a stored value, kept within 0 to 1
   std::vector<TextSpan> levels;      // places of -mm, with the white space after it
@@ -47,7 +47,7 @@ MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement);
 struct MtlSurface {
   std::optional<std::array<double, 3>> diffuse, specular;  // Kd, Ks, clamped to 0 and 1
   std::optional<double> exponent;                          // Ns, at most 10000; may be below 0
-  std::optional<double> illumination;                      // illum
+  std::optional<double> illumination;                      // value of illum
   std::optional<double> ambient;                           // red of Ka
   std::optional<double> roughness, metallic;               // Pr, Pm
   std::optional<double> specular_level;                    // 1 means F0 0.04; only if the maker writes it
@@ -55,7 +55,7 @@ struct MtlSurface {
   bool has_pbr_bsdf = false;                     // bsdf pbr
   bool is_metal_rough = false;                   // Pr, Pm or the maker give metallic and roughness
   std::optional<std::size_t> diffuse_statement;  // Kd; makers define the color of a material without it
-  std::size_t last_statement = 0;                // of the material
+  std::size_t last_statement = 0;                // last statement of the material
 
   bool is_empty() const {
     return !diffuse && !specular && !exponent && !diffuse_map && !specular_map && !exponent_map;

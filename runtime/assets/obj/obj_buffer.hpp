@@ -44,7 +44,7 @@ class GltfBuffer {
   const Json& views() const noexcept { return views_; }
 
  private:
-  std::vector<std::string> parts_;  // of the views
+  std::vector<std::string> parts_;  // bytes of the views
   std::uint64_t size_ = 0;
   Json views_ = Json::list();
 };

@@ -10,7 +10,7 @@ namespace remap {
 
 struct GltfOutput {
   bool as_glb = true;         // one file, otherwise .gltf with a buffer beside it
-  std::string name = "mesh";  // of the buffer of a .gltf, without its extension
+  std::string name = "mesh";  // name of a .gltf's buffer, without its extension
 };
 
 // Converts meshes by tinyobjloader (obj_mesh.hpp), with a node for each group or object. Converts materials

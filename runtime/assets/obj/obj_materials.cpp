@@ -74,8 +74,8 @@ struct ObjMaterials::MaterialDraft {
   const MtlMap* base_map = nullptr;
   bool keeps_file = false;
   std::shared_ptr<const ImagePixels> base_pixels;
-  std::size_t base_image = kNoImage;    // that is in the file already
-  std::size_t* shared_image = nullptr;  // where other materials find it
+  std::size_t base_image = kNoImage;    // index of an image in the file
+  std::size_t* shared_image = nullptr;  // place where other materials find it
   Json core = Json::object(), material = Json::object();
   bool blends = false;
 

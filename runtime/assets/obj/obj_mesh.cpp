@@ -85,7 +85,7 @@ class ObjLines {
 
   TextReader reader_;
   std::string block_, joined_;
-  std::size_t at_ = 0;  // in the block
+  std::size_t at_ = 0;  // place in the block
   std::string_view line_, word_, rest_;
 };
 
@@ -242,7 +242,7 @@ class ObjStream final : public std::streambuf {
   std::size_t vertices_ = 0, faces_ = 0, farthest_ = 0;  // farthest_: largest vertex index in this part
   std::vector<ObjMaterialName> materials_;
   std::vector<std::string> groups_;
-  std::map<std::string, std::string> numbers_;  // of materials
+  std::map<std::string, std::string> numbers_;  // numbers of materials
 };
 
 // NumberedMaterials makes the importer treat the name of a library as the number of its only material.
@@ -523,7 +523,7 @@ class ObjReader {
   tinyobj::attrib_t attributes_;
   std::vector<tinyobj::shape_t> shapes_;
   std::vector<ObjGroup> groups_;
-  std::map<int, std::size_t> part_of_;  // of the last group, keyed by the number of its material
+  std::map<int, std::size_t> part_of_;  // parts of the last group, keyed by the number of its material
   ObjStream stream_;
 };
 

@@ -42,8 +42,8 @@ struct ObjMaterialName {
 
 struct ObjScene {
   std::vector<std::string> libraries;      // the arguments of each line `mtllib`
-  std::vector<ObjMaterialName> materials;  // that faces use, in the order of the file
-  std::vector<ObjShape> shapes;            // with at least one triangle
+  std::vector<ObjMaterialName> materials;  // materials that faces use, in the order of the file
+  std::vector<ObjShape> shapes;            // shapes with at least one triangle
   std::vector<std::string> warnings;
 };
 

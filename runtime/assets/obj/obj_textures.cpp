@@ -15,7 +15,7 @@
 namespace remap {
 namespace {
 
-constexpr int kClampToEdge = 33071;  // of samplers (glTF 2.0, section 5.26)
+constexpr int kClampToEdge = 33071;  // value for samplers (glTF 2.0, section 5.26)
 
 // Returns the type of an image that glTF can hold unchanged, otherwise an empty text.
 const char* core_type_of(std::string_view bytes) {

@@ -40,8 +40,8 @@ struct ConversionRequest {
   std::optional<WorkflowKind> source_workflow, target_workflow;
   std::vector<std::string> via;  // models that the path visits, in this order
   std::optional<DiffuseConvention> diffuse_convention;
-  std::optional<double> dielectric_f0;  // of metallic workflows, [0, 0.9]; by default the model's own
-  double prior = kCleanPrior;           // of the projection, towards a metallic of 0 and 1
+  std::optional<double> dielectric_f0;  // of metallic workflows, [0, 0.9]; default: the model's own
+  double prior = kCleanPrior;           // prior of the projection, towards a metallic of 0 and 1
   // The fit provides the BRDFs, so the graph need not know them.
   bool uses_fit_file = false;
   ConversionWords words;
@@ -85,10 +85,10 @@ ConversionChoice choose_conversion(const ConversionRequest& request, const Conve
 // A BuiltConversion holds the converter of a choice and its parts.
 struct BuiltConversion {
   std::unique_ptr<Converter> owned_brdf;  // set unless `brdf` belongs to the graph
-  const Converter* brdf = nullptr;        // of width and specular; null if both ends share a BRDF
-  ConverterPath path;                     // for whole materials; null if only width and specular change
+  const Converter* brdf = nullptr;        // for width and specular; null if both ends share a BRDF
+  ConverterPath path;                     // the steps of `brdf`
   std::optional<ConverterPath> closer;    // to a model that matches the highlight more closely (path.hpp)
-  std::unique_ptr<Converter> material;  // for whole materials; null if only width and specular are converted
+  std::unique_ptr<Converter> material;    // for whole materials; null if only width and specular change
 
   // Returns the converter for the whole conversion.
   const Converter& converter() const noexcept { return material ? *material : *brdf; }

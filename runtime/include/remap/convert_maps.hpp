@@ -24,7 +24,7 @@ namespace remap {
 // encoding of the map. All members are 0 if they were not requested.
 struct ParameterStatistics {
   static constexpr std::size_t kBins = 32;
-  float min = 0.0f;  // of finite values; min and max are 0 without any
+  float min = 0.0f;  // over finite values; min and max are 0 without any
   float max = 0.0f;
   std::size_t finite_count = 0;
   std::array<std::size_t, kBins>
@@ -119,7 +119,7 @@ inline constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 
 struct MapTreatment {
-  std::optional<RoughnessEncoding> target_convention;  // of the results; by default the model's own
+  std::optional<RoughnessEncoding> target_convention;  // of results; by default the model's own
   float target_roughness_factor = 1.0f;                // stored roughness times this is the roughness
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;               // add noise of half a step to 8-bit integers, the same in every run
@@ -139,7 +139,7 @@ struct MapConversion : MapTreatment {
   std::map<Parameter, TargetParameter> targets;
   // Holds the opacity. Texels with coverage 0 or less are converted, too, but do not count in statistics.
   std::optional<ConstChannelView> coverage;
-  std::optional<RoughnessEncoding> source_convention;  // of the roughness; by default the model's own
+  std::optional<RoughnessEncoding> source_convention;  // of roughness; by default the model's own
   std::optional<ChannelView> mask;                     // 1 for texels outside the domain, 0 for others
   std::size_t first_row = 0;  // position of row 0 in the whole map, for positions and dithering
 };

@@ -45,10 +45,10 @@ InstructionSet instruction_set_from_name(const std::string& context, const std::
 
 // A Parameter is a parameter of a material or a measure of a conversion.
 enum class Parameter {
-  kRoughness,  // of the highlight: roughness, glossiness, alpha or a Phong exponent
+  kRoughness,  // width of the highlight: roughness, glossiness, alpha or exponent
   kSpecular,   // reflectance at normal incidence
-  kDiffuse,    // of the specular workflow
-  kBaseColor,  // of the metallic workflow
+  kDiffuse,    // color of the specular workflow
+  kBaseColor,  // color of the metallic workflow
   kMetallic,
   kMetalMask,            // source only: chooses among metallic values that look alike
   kResidual,             // target only: the part of a texel that metal-rough cannot express

@@ -116,8 +116,8 @@ class ConverterGraph {
   std::vector<std::size_t> waypoints(const PathRequest& request) const;
   [[noreturn]] void refuse(const std::vector<std::size_t>& waypoints) const;
 
-  std::vector<const Converter*> converters_;  // by id
-  std::vector<std::string> models_;           // sorted
+  std::vector<const Converter*> converters_;  // sorted by id
+  std::vector<std::string> models_;           // sorted names
   std::shared_ptr<DirectedGraph> graph_;      // nodes as models_, edges as converters_, costs in 1e-9
 };
 

@@ -116,8 +116,8 @@ inline Transfer usual_color_transfer(PixelType type) noexcept {
 // A ParameterValues completes a map: it holds what is needed to get a parameter's linear values.
 struct ParameterValues {
   std::vector<float> constants;           // one, or one each for red, green and blue; used without a map
-  std::vector<float> factors;             // for the linear values: none, one, or one per channel
-  Transfer transfer = Transfer::kLinear;  // of the stored values
+  std::vector<float> factors;             // factors of the linear values: none, one, or one per channel
+  Transfer transfer = Transfer::kLinear;  // curve of the stored values
 
   float factor(std::size_t channel) const {
     return factors.empty() ? 1.0f : factors[factors.size() == 1 ? 0 : channel];

@@ -81,7 +81,7 @@ struct BlendedNodes {
 // A CopiedNodes copies the closest node, so results are template reflectances (An et al. 2011, principle 5).
 struct CopiedNodes {
   std::vector<WarpTexel> palette;      // texels of the template, 1 to 65536
-  std::vector<std::uint16_t> indices;  // into the palette; nodes^dimension, the first dimension fastest
+  std::vector<std::uint16_t> indices;  // index into the palette; nodes^dimension, first dimension fastest
 
   bool operator==(const CopiedNodes&) const = default;
 };
@@ -98,7 +98,7 @@ struct ParameterTable {
 inline constexpr std::size_t kMostNodes = std::size_t{1} << 24;
 
 struct CompiledWarp {
-  AppearanceCoordinates coordinates;  // of the source
+  AppearanceCoordinates coordinates;  // coordinates of the source
   ParameterTable table;
 
   bool operator==(const CompiledWarp&) const = default;
@@ -129,7 +129,7 @@ void require_valid(const CompiledWarp& warp, const std::string& context);
 
 struct WarpMapFit {
   std::string id;
-  std::string source_model, template_model;  // of the texels before and after, such as `mitsuba/ggx`
+  std::string source_model, template_model;  // models of the texels before and after: `mitsuba/ggx`
   CompiledWarp warp;
   // This is the RMS distance in appearance from the exact copy of template texels. It is a fraction of the
   // template's spread, or -1 if unknown.

@@ -126,8 +126,8 @@ struct WorkflowStages {
   WorkflowEnd source, target;
   // This converts between the BRDFs of both ends. It is null if they are the same.
   const Converter* brdf = nullptr;
-  RoughnessEncoding width = RoughnessEncoding::kRoughness;  // of both ends if `brdf` is null
-  double prior = kCleanPrior;                               // of the projection, if the target is metallic
+  RoughnessEncoding width = RoughnessEncoding::kRoughness;  // width of both ends if `brdf` is null
+  double prior = kCleanPrior;                               // for the projection to metallic
 };
 
 // Makes the converter from up to three stages. Equation (2) comes first if the source is metallic. Then

@@ -19,10 +19,10 @@ inline constexpr NamedValues<PlanKind, 3> kPlanKinds = {
 struct PlannedFarm {
   std::string program;                                   // texremap, as the jobs call it
   std::filesystem::path manifest, tree, output, folder;  // absolute; `folder` is the plan's
-  std::vector<std::string> options;                      // of convert, without the above
+  std::vector<std::string> options;                      // options of convert, without the above
   std::size_t parts = 1;
-  unsigned threads = 1;      // of a part; 0 for all threads of its machine
-  int memory_megabytes = 0;  // of a part
+  unsigned threads = 1;      // threads of a part; 0 for all of its machine
+  int memory_megabytes = 0;  // memory of a part
   int minutes = 0;           // limit for a part
 };
 

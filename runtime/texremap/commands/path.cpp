@@ -23,7 +23,7 @@ constexpr std::size_t kPathsShown = 3;
 // A Plan holds the paths and errors that the command prints.
 struct Plan {
   std::vector<ConverterPath> paths;     // the chosen one and the next best
-  ConverterInfo whole;                  // of the chosen one
+  ConverterInfo whole;                  // facts of the chosen one
   std::optional<ConverterPath> closer;  // closer than the chosen one
 };
 

@@ -25,7 +25,7 @@ namespace {
 struct PlanOptions {
   PlanKind kind = PlanKind::kCommands;
   std::filesystem::path manifest, folder;
-  std::vector<std::string> words;  // of convert
+  std::vector<std::string> words;  // words for convert
   std::size_t parts = 0;           // 0: automatic
   unsigned threads = 1;
   int memory_megabytes = 0, minutes = 0;  // 0: measured
@@ -41,7 +41,7 @@ constexpr std::size_t kMeasuredEntries = 8;
 
 // A Measurement holds time and memory of a conversion on this machine.
 struct Measurement {
-  double seconds_a_cost = 0.0;  // on one thread
+  double seconds_a_cost = 0.0;  // seconds on one thread
   double memory_bytes = 0.0;
 };
 

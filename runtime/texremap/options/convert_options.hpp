@@ -26,17 +26,17 @@ namespace remap {
 enum : OptionTags {
   kChangesResults = 1u << 0u,
   kNeedsFiles = 1u << 1u,   // has no effect if all maps are numbers
-  kNeedsFolder = 1u << 2u,  // of texture sets
+  kNeedsFolder = 1u << 2u,  // needs a folder of texture sets
   kNeedsWorkflow = 1u << 3u,
-  kNeedsMetallic = 1u << 4u,  // as a result
+  kNeedsMetallic = 1u << 4u,  // needs metallic as a result
   kNotWithWorkflow = 1u << 5u,
   kNotWithWarp = 1u << 6u,
   kNotWithDiffuseWarp = 1u << 7u,  // a warp whose source is only a diffuse map
   kNeedsAsset = 1u << 8u,          // assets instead of texture sets
-  kNeedsGltf = 1u << 9u,           // among the assets
+  kNeedsGltf = 1u << 9u,           // needs a glTF file among the assets
   kForAssets = 1u << 10u,          // assets as well as texture sets
   kNeedsTree = 1u << 11u,          // if assets are converted, a folder of them
-  kIsPath = 1u << 12u,             // of a file or folder, relative to the working folder
+  kIsPath = 1u << 12u,             // path of a file or folder, relative to the working folder
   kOfPlan = 1u << 13u,             // texremap plan writes it itself
 };
 
@@ -62,29 +62,29 @@ Option* add_memory_option(Command& command, int& megabytes);
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
-  std::filesystem::path folder;  // of texture sets, or a glTF file; empty if the options name one set
+  std::filesystem::path folder;  // folder of texture sets, or a glTF file; empty if options name one set
   std::vector<std::filesystem::path> more_assets;
   bool assets = false;                // the folder holds assets, not texture sets
   std::filesystem::path asset_root;   // assets may name files only below it
-  bool extensions = false;            // of glTF, instead of core
-  std::optional<MtlMaker> mtl_maker;  // of MTL files; if none, the files decide
+  bool extensions = false;            // glTF extensions instead of core
+  std::optional<MtlMaker> mtl_maker;  // maker of MTL files; if none, the files decide
   bool fold_specular = false, keep_unused = false, bake = false;
-  std::optional<int> jpeg;  // quality
+  std::optional<int> jpeg;  // JPEG quality
   ModelName from, to;
   std::vector<std::string> via;
   std::string fit;
   UsedConverters converters;
   bool recursive = false;
-  bool follow_links = false;       // out of the folder of the inputs
+  bool follow_links = false;       // links that leave the folder of the inputs
   std::filesystem::path manifest;  // lists the sets or assets, so that the folder is not searched
-  std::optional<GivenPart> part;   // of the manifest
+  std::optional<GivenPart> part;   // part of the manifest
 
   std::map<Parameter, std::optional<MapSource>> maps;
   std::optional<MapSource> glossiness;  // also read into `maps` as roughness
   std::optional<MapSource> occlusion;
-  std::optional<RoughnessEncoding> roughness_encoding;  // of roughness maps
+  std::optional<RoughnessEncoding> roughness_encoding;  // encoding of roughness maps
   std::map<Parameter, std::vector<float>> factors;
-  std::vector<std::string> prefer;  // among several maps of one parameter
+  std::vector<std::string> prefer;  // choice among several maps of one parameter
   std::vector<ColorSpaceWord> color_spaces;
   std::filesystem::path names;
   bool resample = false;
@@ -96,10 +96,10 @@ struct ConvertOptions {
 
   std::filesystem::path output;
   std::optional<Layout> layout;
-  const NamedLayout* engine = nullptr;  // whose files are written (choose_files())
+  const NamedLayout* engine = nullptr;  // engine whose files are written (choose_files())
   std::string format;
   std::optional<PixelType> type;
-  std::optional<int> compression;  // level
+  std::optional<int> compression;  // compression level
   std::optional<RoughnessEncoding> output_encoding;
   std::optional<double> output_roughness_factor;  // the exponent that a stored 1 means, if known
   std::vector<ColorSpaceWord> output_color_spaces;

@@ -17,7 +17,7 @@ struct Scheduler {
   const char* name;
   const char* index;
   const char *first, *last, *step, *count;
-  std::size_t usual_first;  // of its arrays
+  std::size_t usual_first;  // first number of its arrays
 };
 
 // Slurm: job array support. AWS Batch: array jobs. Kubernetes: indexed jobs. Grid Engine: qsub -t. PBS: qsub

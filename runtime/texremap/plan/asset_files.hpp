@@ -54,7 +54,7 @@ struct ResourceCopy {
 };
 
 struct ResourcePlan {
-  std::vector<ResourceCopy> copies;   // that are missing beside the result
+  std::vector<ResourceCopy> copies;   // files that are missing beside the result
   std::vector<std::string> warnings;  // about missing files that the asset names
 };
 

@@ -16,7 +16,7 @@ bool is_gltf_name(const std::filesystem::path& path);
 // Returns the extensions, without dot, of the assets in a folder that a run with this `--format` converts. If
 // `--format` is given these are OBJ files, otherwise files that keep their format.
 std::vector<std::string> asset_extensions(const std::string& format);
-// Returns the same in words, such as `glTF or MTL file`.
+// Returns these assets in words, such as `glTF or MTL file`.
 std::string asset_words(const std::string& format);
 
 // Returns the extension of the result, with its dot, or an empty text if the input's extension stays. Throws

@@ -10,8 +10,8 @@
 namespace remap {
 
 struct ConversionNote {
-  std::string source, target;  // models
-  std::string hash;            // of all, including the converter's results
+  std::string source, target;  // names of models
+  std::string hash;            // hash of everything, including the converter's results
   // These are the differences that a message shows: converter, options, version.
   std::vector<std::pair<std::string, std::string>> details;
 };

@@ -31,7 +31,7 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
 // folder. Returns nothing for a pattern and for a name in the folders of sets.
 std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
                                                 const std::filesystem::path& given);
-// Returns all such files.
+// Returns the shared maps of all options.
 std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
 // A WidthSource is the roughness of a set before the conversion.

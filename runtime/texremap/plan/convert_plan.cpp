@@ -103,7 +103,7 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   return manifest;
 }
 
-// Returns the number from 0 to 1 that is meant by per cent for one value, or by 0 to 255 for a color.
+// Returns values as numbers from 0 to 1. A single value up to 100 is per cent; others are 0 to 255.
 std::string fractions_text(const std::vector<float>& values) {
   const bool is_percent = values.size() == 1 && values.front() <= 100.0f;
   std::string text;
@@ -143,7 +143,7 @@ void find_sets_of(const ConvertOptions& options, std::optional<Discovery>& sets)
   if (!sets) sets = discovered_sets(options);
 }
 
-// Converts numbers, or texture sets.
+// Plans the conversion of numbers, or of texture sets.
 void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, ConvertPlan& plan) {
   std::optional<Discovery> found;
   choose_files(options);

@@ -24,8 +24,8 @@ namespace remap {
 struct SetPlan {
   UsedConverters converters;  // `chosen` is made from them
   ChosenConverter chosen;
-  TextureSetRequest request;      // from the options, for one set or for all sets of a folder
-  TargetChoice targets;           // without the members that differ between sets
+  TextureSetRequest request;      // request by options, for one set or for all sets of a folder
+  TargetChoice targets;           // members that differ between sets are still missing
   PassOptions pass;               // target_convention: from --output-encoding
   bool scales_exponents = false;  // true if the exponent that a stored 1 means is known for the results
 };
@@ -38,8 +38,8 @@ struct ConvertPlan {
   std::filesystem::path output;
   bool force = false, dry_run = false;
   int threads = 1;
-  std::uint64_t memory_bytes = 0;  // of images, in all threads
-  std::optional<GivenPart> part;   // of the manifest
+  std::uint64_t memory_bytes = 0;  // memory for images, in all threads
+  std::optional<GivenPart> part;   // part of the manifest
   ManifestHead manifest;
 
   std::vector<std::string> messages;  // `warning: ...` and `note: ...` about assumptions

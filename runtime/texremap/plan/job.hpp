@@ -20,8 +20,8 @@ std::filesystem::path folder_of_asset(const std::filesystem::path& asset);
 // A SetWork is one set of single files: a texture set, or one tile of it.
 struct SetWork {
   TextureSetRequest request;
-  std::filesystem::path folder, diagnosis_folder;  // for the results
-  ResultNames names;                               // of results without an input of the same name
+  std::filesystem::path folder, diagnosis_folder;  // folders for the results
+  ResultNames names;                               // names of results without an input of the same name
   std::vector<CopiedFile> copies;
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   std::vector<std::string> notes;                  // which map was chosen out of several
@@ -32,7 +32,7 @@ struct SetWork {
 struct AssetWork {
   std::filesystem::path input, output;
   std::filesystem::path input_root, output_root;
-  std::string image_prefix = {};                  // of new images beside it
+  std::string image_prefix = {};                  // prefix of new images beside it
   std::vector<std::filesystem::path> files = {};  // existing files that it names, if there are several assets
 
   // Returns the path of the copy that the result uses for `file`, a file below the input root.

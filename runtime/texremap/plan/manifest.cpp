@@ -36,7 +36,7 @@ bool is_read(const FoundMap& map) {
 template <class Entry>
 struct ListedEntry {
   const Entry& entry;
-  std::vector<std::uintmax_t> sizes;  // of its files, in order
+  std::vector<std::uintmax_t> sizes;  // sizes of its files, in order
   std::uintmax_t bytes = 0;
   std::uint64_t cost = 0;
 

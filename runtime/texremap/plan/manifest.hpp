@@ -3,17 +3,16 @@
 //
 //   {"remap_manifest": 1, "version": "1.2.0", "root": "/library", "names": "", "sets": 2, "files": 5,
 //    "bytes": 81234, "cost": 681234, "hash": "5c0e..."}
-//   {"cost": 440617, "id": "props/chair", "folder": "props", "name": "chair", "bytes": 40617, "maps":
-//   [{"file":
-//    "chair_rough.png", "habit": "...", "roles": {"all": "roughness"}, "bytes": 20308}, {"file":
-//    "chair_spec.<UDIM>.exr", ..., "tiles": [[1001, 20309]]}]}
+//   {"cost": 440617, "id": "props/chair", "folder": "props", "name": "chair", "bytes": 40617, "maps": [
+//    {"file": "chair_rough.png", "habit": "...", "roles": {"all": "roughness"}, "bytes": 20308},
+//    {"file": "chair_spec.<UDIM>.exr", ..., "tiles": [[1001, 20309]]}]}
 //   {"unrecognised": "props/notes.png"}
 //   {"problem": "props/secret: cannot be read: Permission denied"}
 //
 // If assets are listed, the first line has `"assets": 2` instead of sets, and the others are:
 //
-//   {"cost": 240617, "asset": "props/chair.gltf", "prefix": "", "bytes": 40617, "files":
-//   [["props/chair.gltf", 1203], ["props/wood.png", 39414]]}
+//   {"cost": 240617, "asset": "props/chair.gltf", "prefix": "", "bytes": 40617, "files": [
+//    ["props/chair.gltf", 1203], ["props/wood.png", 39414]]}
 //
 // Entries are sorted by folder and name, by bytes, so that equal trees give equal manifests. `cost` comes
 // first in the line of an entry, because a process that skips the entry reads no further.
@@ -41,19 +40,19 @@ inline std::string noun_of(ListedKind kind) { return kind == ListedKind::kSets ?
 
 // A ManifestHead is the first line of a manifest.
 struct ManifestHead {
-  std::string version;         // of the program
-  std::filesystem::path root;  // absolute
+  std::string version;         // version of the program
+  std::filesystem::path root;  // absolute path
   std::string names;           // hash of the file with names; empty for the built-in conventions
   ListedKind kind = ListedKind::kSets;
-  std::size_t count = 0, file_count = 0;  // of sets or assets, and of their files
-  std::uintmax_t bytes = 0;               // of all files
+  std::size_t count = 0, file_count = 0;  // counts of sets or assets, and of their files
+  std::uintmax_t bytes = 0;               // size of all files
   std::uint64_t cost = 0;  // bytes of the maps that a conversion may read, and kCostOfFile for each
-  std::string hash;        // of the rest of this line and the following lines
+  std::string hash;        // hash of the rest of this line and the following lines
 };
 
 struct ListedAsset {
   std::filesystem::path path;                // relative to the root
-  std::string image_prefix;                  // of new images beside it; depends on all assets of the tree
+  std::string image_prefix;                  // prefix of new images beside it; depends on the whole tree
   std::vector<std::filesystem::path> files;  // existing files that it names, relative to the root
 };
 
@@ -70,7 +69,7 @@ struct TreeManifest {
   // Holds the entries of the requested part, with the sizes of their files. Problems, and images outside of
   // sets, belong to part 1.
   Listing listing;
-  std::vector<std::uint64_t> costs;  // of the entries of the part
+  std::vector<std::uint64_t> costs;  // costs of the entries of the part
 };
 
 // Returns the part of `count` to which an entry belongs. It is the part whose share of the cost contains the

@@ -128,7 +128,7 @@ class SetJobs {
   Discovery found_;
   std::vector<FoundSet> converted_;
   bool is_in_place_ = same_file(options_.output, root_);    // results lie beside the maps
-  std::map<std::string, std::vector<CopiedFile>> normals_;  // by the reason for the treatment of green
+  std::map<std::string, std::vector<CopiedFile>> normals_;  // keyed by the reason for the treatment of green
   JobList jobs_;
 };
 
@@ -331,7 +331,7 @@ void SetJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) c
 bool is_normal(const FoundMap& map) {
   const std::string name = lower(map.path.filename().string());
   return std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() ||
-         name.find("normal") != std::string::npos;  // of a coat
+         name.find("normal") != std::string::npos;  // normal map of a coat
 }
 
 // Adds one line for all maps with the same reason.
@@ -442,7 +442,7 @@ bool SetJobs::takes_names(const FoundSet& set) {
 
 // A TiledFile is a file name with a placeholder for the tile.
 struct TiledFile {
-  std::size_t index = 0;  // among the files of the job
+  std::size_t index = 0;  // index among the files of the job
   fs::path file;
   TilePattern pattern;
 

@@ -22,7 +22,7 @@ class WrittenNames {
 
  private:
   std::mutex mutex_;
-  std::unordered_map<std::string, std::string> owners_;  // by name_key()
+  std::unordered_map<std::string, std::string> owners_;  // keyed by name_key()
 };
 
 // Returns a message that two owners would write the same file, and what to do.

@@ -50,9 +50,9 @@ class ReportMerger {
   std::map<std::string, std::string> first_;  // the run according to the first report
   Part first_part_;
   std::size_t lines_of_part_ = 0;                         // about sets, in the current report
-  std::unordered_map<std::string, std::size_t> part_of_;  // by the name of a set or result
+  std::unordered_map<std::string, std::size_t> part_of_;  // keyed by the name of a set or result
   std::map<std::string, std::pair<std::size_t, std::string>>
-      twice_;  // by a pair of parts: the number and the first case
+      twice_;  // keyed by a pair of parts: the number and the first case
 };
 
 std::vector<Part> ReportMerger::parts_found() const {

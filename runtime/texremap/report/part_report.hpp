@@ -23,11 +23,11 @@ void write_part_report(const std::filesystem::path& output, const Part& part, co
 // A MergedReport is the result of merge_reports(): one report of all parts.
 struct MergedReport {
   ListedKind kind = ListedKind::kSets;
-  std::size_t part_count = 0, entry_count = 0;  // from the manifest
+  std::size_t part_count = 0, entry_count = 0;  // numbers from the manifest
   std::size_t converted = 0, done_before = 0, failed = 0, skipped = 0, texels = 0;
   double processor_seconds = 0.0;
   std::uintmax_t bytes_read = 0, bytes_written = 0;
-  std::vector<std::string> failures;  // of sets or assets, each with its reason
+  std::vector<std::string> failures;  // failed sets or assets, each with its reason
   // Lists parts that are missing or do not belong together, and sets or assets that occur twice.
   std::vector<std::string> problems;
 };

@@ -33,7 +33,7 @@ class Reporter {
   const ConvertPlan& plan_;
   const Stopwatch stopwatch_;
   WarningKinds warnings_;
-  std::string lines_;  // of the report of a part
+  std::string lines_;  // lines for the report of a part
 };
 
 // Converts the numbers of a plan without maps, and prints them. Throws kUsage for a factor without an

@@ -70,7 +70,7 @@ class Messages {
   std::string bytes_;
 };
 
-// Is the loop of a copy. It does one job after another until the main process closes the stream.
+// Runs in a copy: does one job after another until the main process closes the stream.
 void serve(int descriptor, const ApartJobs& jobs) {
   Messages requests;
   for (;;) {

@@ -25,7 +25,7 @@ struct ColorNote {
   TransferReason reason;
   auto operator<=>(const ColorNote&) const = default;
 };
-using ColorNotes = std::map<ColorNote, std::size_t>;  // with the number of maps
+using ColorNotes = std::map<ColorNote, std::size_t>;  // notes with their number of maps
 
 struct JobReport {
   struct Result {
@@ -43,7 +43,7 @@ struct JobReport {
   std::vector<std::string> warnings;
   std::optional<std::string> failure;
   int failure_code = 0;           // errno of the call that failed, or 0
-  bool was_done = false;          // by the earlier run that this one resumes
+  bool was_done = false;          // done by the earlier run that this one resumes
   double seconds = 0.0;           // sum over all tiles, even if tiles ran in parallel
   std::uintmax_t bytes_read = 0;  // sizes of the files on disk
   std::uintmax_t bytes_written = 0;
@@ -53,11 +53,11 @@ struct JobReport {
   Transfer specular_transfer = Transfer::kLinear;
   ColorNotes colors;                         // for integers, and if a file or the user states it
   std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
-  std::vector<PlannedRole> plan;             // for a dry run; for tiles, the first tile's
+  std::vector<PlannedRole> plan;             // plan of a dry run; for tiles, the first tile's
   bool has_8_bits = false, has_compression_level = false;  // a result does
   MapStatistics statistics;
 
-  std::vector<AssetMaterial> materials;  // for assets
+  std::vector<AssetMaterial> materials;  // materials of assets
 
   // Returns the report of a job that has not begun.
   static JobReport of(const Job& job);

@@ -42,7 +42,7 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
 // A Content is the content of journals. Each read continues at the end of the last one.
 struct Content {
   std::optional<ConversionNote> owner;
-  std::map<std::string, Entry> files;  // by name; the last line counts
+  std::map<std::string, Entry> files;  // keyed by name; the last line counts
   std::map<std::string, std::vector<const std::string*>>
       sets;  // names of their files, which are keys of `files`
   std::map<fs::path, std::uintmax_t> read_bytes;
@@ -210,7 +210,7 @@ struct Journal::State {
   fs::path folder, file;  // the journal that this run writes, below the folder
   bool is_part = false;
   ConversionNote conversion;
-  mutable std::mutex mutex;  // for `content` and for appending
+  mutable std::mutex mutex;  // guards `content` and appending
   Content content;
   bool has_all = false;  // all journals are in `content`
   bool is_claimed = false;
@@ -221,7 +221,7 @@ struct Journal::State {
     return found == content.files.end() || found->second.conversion != conversion.hash ? nullptr
                                                                                        : &found->second;
   }
-  // Does the same for an existing file, after reading what other runs have written meanwhile.
+  // Returns the entry of an existing file, after reading what other runs have written meanwhile.
   const Entry* entry_of_existing(const fs::path& path) {
     if (const Entry* known = entry_of(path)) return known;
     std::error_code ignored;
@@ -361,7 +361,7 @@ void Journal::commit(const std::string& set, const std::string& inputs,
 
 struct JournalLookup::State {
   std::mutex mutex;
-  std::map<fs::path, std::shared_ptr<const Content>> journals;  // by folder; null for none
+  std::map<fs::path, std::shared_ptr<const Content>> journals;  // keyed by folder; null for none
 
   std::shared_ptr<const Content> of(const fs::path& folder) {
     const auto [found, is_new] = journals.try_emplace(folder);

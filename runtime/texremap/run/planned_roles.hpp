@@ -14,7 +14,7 @@ namespace remap {
 struct PlannedRole {
   std::string role;      // `roughness`, `base_color`; empty for files without one
   std::string input;     // `rock_arm.png:G`, `0.04`
-  std::string encoding;  // of the input: `srgb`, `linear`, `glossiness`
+  std::string encoding;  // encoding of the input: `srgb`, `linear`, `glossiness`
   std::string happens;   // `converted`, `kept`, `read`, `made`, `carried`, `copied`, `left behind`
   std::string output;    // names of the files that hold it
   bool operator==(const PlannedRole&) const = default;

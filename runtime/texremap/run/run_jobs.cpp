@@ -53,7 +53,7 @@ class RunProgress {
   std::size_t done_ = 0;
   std::size_t texels_ = 0;
   Progress line_;                   // declared after the counts that its first text needs
-  std::vector<std::size_t> shown_;  // of each job
+  std::vector<std::size_t> shown_;  // progress of each job
 };
 
 // A MergedReports merges the reports of a set's tiles, which follow one another. It passes each set on when

@@ -154,7 +154,7 @@ class SetWorker final : public JobWorker {
   const ChosenConverter& chosen_;
   OutputFolder& folder_;
   PassOptions pass_;
-  JournalLookup journals_;  // of the inputs
+  JournalLookup journals_;  // journals of the inputs
 };
 
 // Reports the colors that `check` would report.

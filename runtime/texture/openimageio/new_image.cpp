@@ -103,11 +103,11 @@ class OpenedNewImage : public NewImage {
   std::unique_ptr<NewFile> file_;
   std::unique_ptr<CheckedFile> proxy_;
   std::unique_ptr<OIIO::ImageOutput> output_;  // declared after `proxy_`, which it uses until its destructor
-  std::vector<std::vector<OIIO::ImageSpec>> specs_;  // of every level of every part
+  std::vector<std::vector<OIIO::ImageSpec>> specs_;  // specs of every level and part
   int part_ = 0;
   int level_ = 0;
   std::string format_;  // name in OpenImageIO
-  ImageLayout layout_;  // of the selected plane
+  ImageLayout layout_;  // layout of the selected plane
   bool is_open_ = false;
   bool plane_is_open_ = false;
 };

@@ -210,8 +210,8 @@ class OpenedImage : public StoredImage {
   int part_count_ = 0;
   int level_ = 0;
   int next_row_ = 0;                     // the row after the last one that was read
-  std::vector<OIIO::ImageSpec> levels_;  // of the levels of the part, at the size that new images follow
-  ImageLayout layout_;                   // of `level_`, as stored
+  std::vector<OIIO::ImageSpec> levels_;  // levels of the part, at the size that new images follow
+  ImageLayout layout_;                   // layout of `level_`, as stored
 };
 
 void OpenedImage::fail(const std::string& what, int system_code) const {
