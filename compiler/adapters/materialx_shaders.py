@@ -184,21 +184,27 @@ def on_a_sphere(pixel_stage):
     return text + MAIN.replace("OUT", output)
 
 
-class Shader:
-    """A compiled surface shader. Inputs of its node that are not connected are uniforms."""
+def input_types(node):
+    definition = node.getNodeDef()
+    if definition is None:
+        raise Unusable(f"{node.getNamePath()}: {node.getCategory()} is not a node that MaterialX knows")
+    return {one.getName(): one.getType() for one in definition.getActiveInputs()}
 
-    def __init__(self, node):
-        self.name = node.getCategory()
-        definition = node.getNodeDef()
-        if definition is None:
-            raise Unusable(f"{node.getNamePath()}: {node.getCategory()} is not a node that MaterialX knows")
-        self.types = {one.getName(): one.getType() for one in definition.getActiveInputs()}
+
+class Shader:
+    """A compiled surface shader. Its values are the inputs of its node, or of `entry`, the first of the nodes that feed it."""
+
+    def __init__(self, node, entry=None):
+        self.name = (entry or node).getCategory()
+        self.types = input_types(entry or node)
+        self.prefix = entry.getName() + "_" if entry else ""
         try:
             self.program = gl().program(vertex_shader=VERTEX, fragment_shader=on_a_sphere(generate(node)))
         except moderngl.Error as failure:
             raise Unusable(f"{node.getNamePath()}: the shader does not compile: {failure}") from None
         self.vertices = gl().vertex_array(self.program, [])
-        self.defaults = {name: self.program[name].value for name in self.types if name in self.program}
+        self.defaults = {name: self.program[self.prefix + name].value for name in self.types
+                         if self.prefix + name in self.program}
 
     def set(self, name, value):
         if name in self.program:
@@ -210,7 +216,7 @@ class Shader:
         if unknown:
             raise Unusable(f"{self.name} has no input {', '.join(sorted(unknown))}")
         for name, default in self.defaults.items():
-            self.set(name, uniform(self.types[name], values[name]) if name in values else default)
+            self.set(self.prefix + name, uniform(self.types[name], values[name]) if name in values else default)
 
     def set_lights(self, lights):
         if len(lights) > MOST_LIGHTS:
@@ -255,3 +261,31 @@ def model_shader(model):
     document = mx.createDocument()
     document.setDataLibrary(libraries())
     return Shader(document.addNode(model, "model", "surfaceshader"))
+
+
+@functools.cache
+def chain_shader(models):
+    """Returns a shader that takes values of the first of `models`, and shows the last one, by MaterialX' own translations."""
+    document = mx.createDocument()
+    document.setDataLibrary(libraries())
+    nodes = []
+    for source, target_model in zip(models, models[1:]):
+        node = document.addNode(f"{source}_to_{target_model}", f"to_{target_model}", "multioutput")
+        if node.getNodeDef() is None:
+            raise Unusable(f"MaterialX has no translation from {source} to {target_model}")
+        connect(nodes[-1:], node)
+        nodes.append(node)
+    shader = document.addNode(models[-1], "model", "surfaceshader")
+    connect(nodes[-1:], shader)
+    return Shader(shader, nodes[0])
+
+
+def connect(sources, node):
+    """Connects the outputs of a translation, NAME_out, to the inputs NAME of the next node."""
+    for source in sources:
+        outputs = {one.getName() for one in source.getNodeDef().getActiveOutputs()}
+        for wanted in node.getNodeDef().getActiveInputs():
+            if wanted.getName() + "_out" in outputs:
+                taken = node.addInput(wanted.getName(), wanted.getType())
+                taken.setNodeName(source.getName())
+                taken.setOutputString(wanted.getName() + "_out")
