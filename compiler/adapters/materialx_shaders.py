@@ -12,7 +12,7 @@ import os
 import re
 
 os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")  # a picture must not depend on the graphics card
-os.environ.setdefault("LP_NUM_THREADS", "1")
+os.environ.setdefault("LP_NUM_THREADS", "1")  # of llvmpipe; pictures do not depend on it
 
 import MaterialX as mx  # noqa: E402
 import MaterialX.PyMaterialXGenGlsl as mx_glsl  # noqa: E402
@@ -130,9 +130,9 @@ def surface_nodes(document):
 @functools.cache
 def gl():
     try:
-        return moderngl.create_context(standalone=True, backend="egl", require=400)
+        return moderngl.create_context(standalone=True, backend="egl", require=400, libgl="libGL.so.1", libegl="libEGL.so.1")
     except Exception as failure:
-        raise Unusable(f"OpenGL 4 by EGL is missing: {failure} (install libegl1, libegl-mesa0 and libgl1-mesa-dri)") from None
+        raise Unusable(f"OpenGL 4 by EGL is missing: {failure} (install libegl1 and libgl1)") from None
 
 
 @functools.cache
@@ -184,11 +184,15 @@ def on_a_sphere(pixel_stage):
     return text + MAIN.replace("OUT", output)
 
 
-def input_types(node):
+def definition_of(node):
     definition = node.getNodeDef()
     if definition is None:
         raise Unusable(f"{node.getNamePath()}: {node.getCategory()} is not a node that MaterialX knows")
-    return {one.getName(): one.getType() for one in definition.getActiveInputs()}
+    return definition
+
+
+def input_types(node):
+    return {one.getName(): one.getType() for one in definition_of(node).getActiveInputs()}
 
 
 class Shader:
@@ -196,6 +200,7 @@ class Shader:
 
     def __init__(self, node, entry=None):
         self.name = (entry or node).getCategory()
+        self.definition = definition_of(entry or node)
         self.types = input_types(entry or node)
         self.prefix = entry.getName() + "_" if entry else ""
         try:
