@@ -35,27 +35,28 @@ def plain(values):
     return {name: tuple(value.tolist()) if value.size > 1 else float(value[0]) for name, value in flat.items()}
 
 
-def versions(direction, values, translations, stage, source, with_floor=False):
-    """Returns shader and values of each version of a material in the target model."""
+def versions(direction, values, translations):
+    """Returns shader and values of the translation in use of a material, and of ours where there is one."""
     found = {IN_USE: in_use.shader_and_values(direction, values)}
-    target = shaders.model_shader(direction[1])
     if direction in translations:
-        found[OURS] = target, plain(translations[direction](values))
-    if with_floor:
-        start = found[OURS][1] if OURS in found else {}
-        found[FLOOR] = target, search.floor(stage, source, target, [start])
+        found[OURS] = shaders.model_shader(direction[1]), plain(translations[direction](values))
     return found
 
 
+def floor(direction, values, ours):
+    """Returns shader and values of the closest pictures that a search finds from ours, and from the starts of the model."""
+    stage, target = pictures.stage(direction[0], search.RESOLUTION), shaders.model_shader(direction[1])
+    source = stage.under_singles(pictures.shader_of(direction[0]), values)
+    return target, search.closest(stage, source, target, ours + search.STARTS[direction[1]])
+
+
 def judge(direction, values, translations, with_floor=False):
-    """Returns the errors of each version of one material, and the values of each in the target model where they are known."""
+    """Returns the errors of each version of one material."""
     stage = pictures.stage(direction[0])
     source = stage.under_both(pictures.shader_of(direction[0]), values)
-    small = None
+    found = versions(direction, values, translations)
     if with_floor:
-        small = pictures.stage(direction[0], search.RESOLUTION)
-        small_source = small.under_singles(pictures.shader_of(direction[0]), values)
-    found = versions(direction, values, translations, small, small_source if small else None, with_floor)
+        found[FLOOR] = floor(direction, values, [found[OURS][1]] if OURS in found else [])
     return {name: pictures.errors(source, stage.under_both(*version)) for name, version in found.items()}
 
 

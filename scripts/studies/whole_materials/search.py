@@ -25,6 +25,19 @@ INPUTS = {
 }
 
 
+# A weight of 0 hides the slopes of its lobe, so a search also starts where every lobe is a little there.
+STARTS = {
+    "open_pbr_surface": [{"base_metalness": 0.4, "coat_weight": 0.3, "coat_roughness": 0.3, "fuzz_weight": 0.2, "fuzz_roughness": 0.7,
+                          "specular_roughness": 0.5, "base_diffuse_roughness": 0.2}],
+    "standard_surface": [{"metalness": 0.4, "coat": 0.3, "coat_roughness": 0.3, "sheen": 0.2, "sheen_roughness": 0.4,
+                          "specular_roughness": 0.5, "diffuse_roughness": 0.2}],
+    "gltf_pbr": [{"base_color": (0.5,) * 3, "metallic": 0.4, "clearcoat": 0.3, "clearcoat_roughness": 0.3, "roughness": 0.5,
+                  "sheen_color": (0.1,) * 3, "sheen_roughness": 0.5}],
+    "UsdPreviewSurface": [{"metallic": 0.4, "clearcoat": 0.3, "clearcoatRoughness": 0.3, "roughness": 0.5},
+                          {"useSpecularWorkflow": 1.0, "specularColor": (0.3,) * 3, "clearcoat": 0.3, "clearcoatRoughness": 0.3}],
+}
+
+
 class Vector:
     """Inputs of a shader as one vector of numbers."""
 
@@ -75,7 +88,7 @@ def minimise(residuals, start, low, high, steps=STEPS):
     return x
 
 
-def floor(stage, source, shader, starts):
+def closest(stage, source, shader, starts):
     """Returns the values with the closest pictures to `source`, the pictures of the stage, from the best of the starts.
 
     Inputs that are not searched, such as the workflow of UsdPreviewSurface, stay as each start has them.

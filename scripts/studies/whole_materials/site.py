@@ -1,0 +1,133 @@
+"""A page to look at: each material as it is, as the translation in use makes it, and as ours does, with the errors below."""
+import html
+import json
+import pathlib
+import struct
+import zlib
+
+import numpy as np
+
+import materialx_shaders as shaders
+from whole_materials import documents, generator, in_use, judge, pictures, principled
+
+SIDE, SAMPLES = 128, 2
+RANDOM = {"open_pbr_surface": 8, "standard_surface": 4, "UsdPreviewSurface": 3, "gltf_pbr": 2, "principled": 3}
+NAMES = {"open_pbr_surface": "OpenPBR", "standard_surface": "standard_surface", "gltf_pbr": "glTF PBR",
+         "UsdPreviewSurface": "UsdPreviewSurface", "principled": "Principled"}
+MOST_BYTES = 15_000_000
+
+
+def studio():
+    """Returns the lights of the pictures: a soft box at the upper left, a strip at the right, and dim light from all around."""
+    box = [((-0.9 + 0.35 * x, 0.5 + 0.35 * y, 1.2), (0.085,) * 3) for x in range(4) for y in range(3)]
+    strip = [((1.6, -0.6 + 0.4 * y, 0.15), (0.09, 0.11, 0.14)) for y in range(5)]
+    around = [((np.sin(a), np.cos(a), 0.6), (0.06, 0.055, 0.05)) for a in np.arange(7) * 2 * np.pi / 7]
+    return [shaders.Light(shaders.DIRECTIONAL, tuple(map(float, v)), tuple(np.pi * np.array(c))) for v, c in box + strip + around]
+
+
+def png(pixels):
+    """Returns the bytes of a PNG file of 8 bits with alpha."""
+    height, width, _ = pixels.shape
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+def portrait(stage, shader, values):
+    """Returns the bytes of a picture of a sphere in the studio, on a transparent ground."""
+    lights = studio() if stage.camera.half_angle == 0 else principled.far_points(studio())
+    linear = shader.render(values, lights, SIDE * SAMPLES, stage.camera)
+    covered = pictures.inside(SIDE * SAMPLES).astype(float)[..., None]
+    small = [part.reshape(SIDE, SAMPLES, SIDE, SAMPLES, -1).mean(axis=(1, 3)) for part in (linear, covered)]
+    shown = pictures.display(small[0] / np.maximum(small[1], 1e-6))
+    return png(np.round(255 * np.concatenate([shown, small[1]], axis=-1)).astype(np.uint8))
+
+
+def subjects(folder, seed):
+    """Returns kind, name, direction and values of everything on the page, and what is skipped."""
+    found, skipped = [], []
+    if pathlib.Path(folder).is_dir():
+        examples, skipped = documents.examples(folder)
+        found += [("document", name, model, values) for name, model, values in examples]
+    for model, count in RANDOM.items():
+        for number, values in enumerate(generator.materials(model, seed, count)):
+            found.append(("random", f"{NAMES[model]} {number + 1}", model, values))
+    return [(kind, name, direction, values) for kind, name, model, values in found
+            for direction in judge.DIRECTIONS if direction[0] == model], skipped
+
+
+def row_of(number, subject, translations, folder):
+    """Renders one row of the page into the folder, and returns what it shows."""
+    kind, name, direction, values = subject
+    stage, source = pictures.stage(direction[0]), pictures.shader_of(direction[0])
+    reference = stage.under_both(source, values)
+    row = {"kind": kind, "name": name, "from": NAMES[direction[0]], "to": NAMES[direction[1]], "in_use": in_use.name_of(direction),
+           "values": described(values), "source": f"{number:03}-source.png"}
+    (folder / row["source"]).write_bytes(portrait(stage, source, values))
+    for who, version in judge.versions(direction, values, translations).items():
+        file = f"{number:03}-{who.replace(' ', '-')}.png"
+        (folder / file).write_bytes(portrait(stage, *version))
+        row[who] = {"file": file, **pictures.errors(reference, stage.under_both(*version))}
+    return row
+
+
+def described(values):
+    """Returns the inputs as a line of text."""
+    words = []
+    for name, value in values.items():
+        numbers = " ".join(f"{part:.3g}" for part in (value if isinstance(value, tuple) else (value,)))
+        words.append(f"{name} {numbers}")
+    return ", ".join(words)
+
+
+def cell(row, who):
+    if who not in row:
+        return '<td class="none">-</td>'
+    one = row[who]
+    words = f"{row['name']}, {who if who == judge.OURS else row['in_use']}"
+    return (f'<td data-value="{one["linear"]:.6f}"><img loading="lazy" width="{SIDE}" height="{SIDE}" src="pictures/{one["file"]}" '
+            f'alt="{html.escape(words)}"><br><b>{one["linear"]:.3f}</b> <span>({one["display"]:.3f})</span></td>')
+
+
+def line(row):
+    name = html.escape(row["name"].replace("_", " "))
+    gain = row[judge.IN_USE]["linear"] - row[judge.OURS]["linear"] if judge.OURS in row else 0
+    return (f'<tr data-direction="{row["from"]} to {row["to"]}" data-kind="{row["kind"]}"><th scope="row" data-value="{name}">{name}'
+            f'<details><summary>inputs</summary>{html.escape(row["values"])}</details></th>'
+            f'<td data-value="{row["from"]} to {row["to"]}">{row["from"]}<br>to {row["to"]}<br><span>in use: {row["in_use"]}</span></td>'
+            f'<td data-value="{name}"><img loading="lazy" width="{SIDE}" height="{SIDE}" src="pictures/{row["source"]}" '
+            f'alt="{name}, source"><br>source</td>{cell(row, judge.IN_USE)}{cell(row, judge.OURS)}'
+            f'<td data-value="{gain:.6f}">{gain:+.3f}</td></tr>')
+
+
+def write(folder, options_documents, seed, translations, say):
+    """Writes index.html, pictures and scoreboard.json into a folder."""
+    folder = pathlib.Path(folder)
+    (folder / "pictures").mkdir(parents=True, exist_ok=True)
+    wanted, skipped = subjects(options_documents, seed)
+    rows, without = [], set()
+    for number, subject in enumerate(wanted):
+        try:
+            rows.append(row_of(number, subject, translations, folder / "pictures"))
+        except principled.Missing as missing:
+            without.add(f"principled is skipped: {missing}")
+    for words in without:
+        say(words)
+    template = pathlib.Path(__file__).with_name("site.html").read_text()
+    directions = sorted({f"{row['from']} to {row['to']}" for row in rows})
+    page = template
+    for mark, text in {"ROWS": "\n".join(map(line, rows)), "SEED": str(seed), "VERSION": shaders.mx.getVersionString(),
+                       "COUNT": str(len(rows)), "SKIPPED": str(len(skipped)),
+                       "DIRECTIONS": "".join(f"<option>{one}</option>" for one in directions)}.items():
+        page = page.replace("{{" + mark + "}}", text)
+    (folder / "index.html").write_text(page)
+    (folder / "scoreboard.json").write_text(json.dumps({"seed": seed, "materialx": shaders.mx.getVersionString(), "rows": rows,
+                                                        "skipped": skipped}, indent=1))
+    size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+    if size > MOST_BYTES:
+        say(f"{folder}: {size / 1e6:.1f} MB are more than {MOST_BYTES / 1e6:.0f} MB")
+    return rows, size
