@@ -36,7 +36,7 @@ class Stage:
     """Camera and lights. Both models of a direction are rendered on the same one."""
 
     def __init__(self, camera, move, resolution=RESOLUTION):
-        self.camera, self.resolution = camera, resolution
+        self.camera, self.move, self.resolution = camera, move, resolution
         self.singles = [move(lights) for lights in single_lights()]
         self.environments = [move(lights) for lights in environments()]
 

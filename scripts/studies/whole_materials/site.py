@@ -18,11 +18,16 @@ MOST_BYTES = 15_000_000
 
 
 def studio():
-    """Returns the lights of the pictures: a soft box at the upper left, a strip at the right, and dim light from all around."""
-    box = [((-0.9 + 0.35 * x, 0.5 + 0.35 * y, 1.2), (0.085,) * 3) for x in range(4) for y in range(3)]
-    strip = [((1.6, -0.6 + 0.4 * y, 0.15), (0.09, 0.11, 0.14)) for y in range(5)]
-    around = [((np.sin(a), np.cos(a), 0.6), (0.06, 0.055, 0.05)) for a in np.arange(7) * 2 * np.pi / 7]
-    return [shaders.Light(shaders.DIRECTIONAL, tuple(map(float, v)), tuple(np.pi * np.array(c))) for v, c in box + strip + around]
+    """Returns the lights of the pictures, in sets for one pass each: a soft box, a strip at the right, and dim light from all around.
+
+    Many lights stand for a large one: they are closer to each other than the highlights of documents are wide.
+    """
+    box = [((-0.95 + 0.13 * x, 0.3 + 0.13 * y, 1.1), (0.021,) * 3) for x in range(8) for y in range(6)]
+    strip = [((1.6, -0.8 + 0.16 * y, 0.3), (0.034, 0.04, 0.05)) for y in range(11)]
+    around = [((np.sin(a), np.cos(a), 0.45), (0.025, 0.023, 0.02)) for a in np.arange(13) * 2 * np.pi / 13]
+    lights = [shaders.Light(shaders.DIRECTIONAL, tuple(map(float, vector)), tuple(np.pi * np.array(color)))
+              for vector, color in box + strip + around]
+    return [lights[first:first + shaders.MOST_LIGHTS] for first in range(0, len(lights), shaders.MOST_LIGHTS)]
 
 
 def png(pixels):
@@ -39,8 +44,7 @@ def png(pixels):
 
 def portrait(stage, shader, values):
     """Returns the bytes of a picture of a sphere in the studio, on a transparent ground."""
-    lights = studio() if stage.camera.half_angle == 0 else principled.far_points(studio())
-    linear = shader.render(values, lights, SIDE * SAMPLES, stage.camera)
+    linear = sum(shader.render(values, stage.move(lights), SIDE * SAMPLES, stage.camera) for lights in studio())
     covered = pictures.inside(SIDE * SAMPLES).astype(float)[..., None]
     small = [part.reshape(SIDE, SAMPLES, SIDE, SAMPLES, -1).mean(axis=(1, 3)) for part in (linear, covered)]
     shown = pictures.display(small[0] / np.maximum(small[1], 1e-6))
