@@ -108,6 +108,8 @@ def libraries():
 def read_document(path):
     """Returns the document of a file, with the standard libraries behind it. A file that is missing or not valid is Unusable."""
     document = mx.createDocument()
+    if not os.path.isfile(path):
+        raise Unusable(f"{path}: no such file")
     try:
         mx.readFromXmlFile(document, mx.FilePath(str(path)))
     except Exception as failure:

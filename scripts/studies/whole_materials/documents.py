@@ -40,6 +40,8 @@ def materials(path):
     """Returns name, model and values of each material of a document, and what had to be skipped, with the reason."""
     found, skipped = [], []
     document = shaders.read_document(path)  # nodes do not keep it alive
+    if not shaders.surface_nodes(document):
+        raise shaders.Unusable(f"{path}: has no material with a surface shader")
     for name, node in shaders.surface_nodes(document):
         try:
             if node.getCategory() not in shaders.MODELS:
@@ -51,11 +53,15 @@ def materials(path):
     return found, skipped
 
 
-def examples(folder):
-    """Returns all materials of the documents of a folder as name, model, values; and the list of what is skipped."""
+def examples(place):
+    """Returns all materials of a document, or of a folder of documents, as name, model, values; and the list of what is skipped."""
+    place = pathlib.Path(place)
+    paths = sorted(place.glob("*.mtlx")) if place.is_dir() else [place]
+    if not paths:
+        raise shaders.Unusable(f"{place}: has no files *.mtlx")
     found, skipped = [], []
-    for path in sorted(pathlib.Path(folder).glob("*.mtlx")):
+    for path in paths:
         some, without = materials(path)
-        found += [(f"{path.stem}" if len(some) == 1 else f"{path.stem}: {name}", model, values) for name, model, values in some]
+        found += [(path.stem if len(some) == 1 else f"{path.stem}: {name}", model, values) for name, model, values in some]
         skipped += without
     return found, skipped

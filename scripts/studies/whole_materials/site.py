@@ -8,7 +8,7 @@ import zlib
 import numpy as np
 
 import materialx_shaders as shaders
-from whole_materials import documents, generator, in_use, judge, pictures, principled
+from whole_materials import generator, in_use, judge, pictures, principled
 
 SIDE, SAMPLES = 128, 2
 RANDOM = {"open_pbr_surface": 8, "standard_surface": 4, "UsdPreviewSurface": 3, "gltf_pbr": 2, "principled": 3}
@@ -51,12 +51,10 @@ def portrait(stage, shader, values):
     return png(np.round(255 * np.concatenate([shown, small[1]], axis=-1)).astype(np.uint8))
 
 
-def subjects(folder, seed):
+def subjects(examples, seed):
     """Returns kind, name, direction and values of everything on the page, and what is skipped."""
-    found, skipped = [], []
-    if pathlib.Path(folder).is_dir():
-        examples, skipped = documents.examples(folder)
-        found += [("document", name, model, values) for name, model, values in examples]
+    found, skipped = examples
+    found = [("document", name, model, values) for name, model, values in found]
     for model, count in RANDOM.items():
         for number, values in enumerate(generator.materials(model, seed, count)):
             found.append(("random", f"{NAMES[model]} {number + 1}", model, values))
@@ -108,27 +106,30 @@ def line(row):
             f'<td data-value="{gain:.6f}">{gain:+.3f}</td></tr>')
 
 
-def write(folder, options_documents, seed, translations, say):
-    """Writes index.html, pictures and scoreboard.json into a folder."""
+def page(rows, seed, skipped):
+    """Returns the text of index.html."""
+    text = pathlib.Path(__file__).with_name("site.html").read_text()
+    directions = sorted({f"{row['from']} to {row['to']}" for row in rows})
+    for mark, words in {"ROWS": "\n".join(map(line, rows)), "SEED": seed, "VERSION": shaders.mx.getVersionString(), "COUNT": len(rows),
+                        "SKIPPED": len(skipped), "DIRECTIONS": "".join(f"<option>{one}</option>" for one in directions)}.items():
+        text = text.replace("{{" + mark + "}}", str(words))
+    return text
+
+
+def write(folder, examples, seed, translations, say):
+    """Writes index.html, pictures and scoreboard.json into a folder. Returns the rows and the size in bytes."""
     folder = pathlib.Path(folder)
     (folder / "pictures").mkdir(parents=True, exist_ok=True)
-    wanted, skipped = subjects(options_documents, seed)
-    rows, without = [], set()
+    wanted, skipped = subjects(examples, seed)
+    rows, missing = [], None
     for number, subject in enumerate(wanted):
         try:
             rows.append(row_of(number, subject, translations, folder / "pictures"))
-        except principled.Missing as missing:
-            without.add(f"principled is skipped: {missing}")
-    for words in without:
-        say(words)
-    template = pathlib.Path(__file__).with_name("site.html").read_text()
-    directions = sorted({f"{row['from']} to {row['to']}" for row in rows})
-    page = template
-    for mark, text in {"ROWS": "\n".join(map(line, rows)), "SEED": str(seed), "VERSION": shaders.mx.getVersionString(),
-                       "COUNT": str(len(rows)), "SKIPPED": str(len(skipped)),
-                       "DIRECTIONS": "".join(f"<option>{one}</option>" for one in directions)}.items():
-        page = page.replace("{{" + mark + "}}", text)
-    (folder / "index.html").write_text(page)
+        except principled.Missing as reason:
+            missing = reason
+    if missing:
+        say(f"principled is skipped: {missing}")
+    (folder / "index.html").write_text(page(rows, seed, skipped))
     (folder / "scoreboard.json").write_text(json.dumps({"seed": seed, "materialx": shaders.mx.getVersionString(), "rows": rows,
                                                         "skipped": skipped}, indent=1))
     size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
