@@ -44,7 +44,7 @@ def other(name, least, most, default, **more):
 # The whole Principled BSDF with its default distribution. Inputs are named as the sockets. Subsurface has noise, and transmission
 # and alpha show what is behind the sphere, so they are not here.
 if MODERN:
-    MODELS.append({"name": f"{PREFIX}/principled", "parameters": [
+    MODELS.append({"name": f"{PREFIX}/principled-whole", "parameters": [
         ROUGHNESS, parameter("specular_ior_level", "specular", 0, 1, grey=True), parameter("base_color", "diffuse", 0, 1),
         other("metallic", 0, 1, 0, grey=True), other("ior", 1, 4, 1.5, grey=True), other("specular_tint", 0, 1, 1),
         other("diffuse_roughness", 0, 1, 0, grey=True), other("anisotropic", 0, 1, 0, grey=True),
@@ -164,7 +164,7 @@ def shader(model):
         shader_of.update(lobe=lobe, paint=paint)
     else:
         lobe = tree.nodes.new("ShaderNodeBsdfPrincipled")
-        lobe.distribution = "MULTI_GGX" if kind == "principled" else "GGX"
+        lobe.distribution = "MULTI_GGX" if kind == "principled-whole" else "GGX"
         lobe.inputs["Metallic"].default_value = 1 if kind == "principled-metal" else 0
         tree.links.new(lobe.outputs[0], output.inputs["Surface"])
         shader_of.update(lobe=lobe)
@@ -178,7 +178,7 @@ def rgba(values):
 def set_material(model, values):
     nodes = shader(model)
     inputs = nodes["lobe"].inputs
-    if model.endswith("/principled"):
+    if model.endswith("/principled-whole"):
         sockets = {socket.name.lower().replace(" ", "_"): socket for socket in inputs}
         for name, value in values.items():
             sockets[name].default_value = rgba(value) if sockets[name].type == "RGBA" else value[0]

@@ -11,12 +11,15 @@ from worker_loop import Refused, grey_or_rgb, parameter, serve
 
 PREFIX = f"materialx-{shaders.mx.getVersionString()}"
 
-# The inputs of the three roles, and values that differ from those of the definition: each model starts as a plastic.
-ROLES = {"open_pbr_surface": ("specular_roughness", "specular_weight", "base_color"),
+# The inputs of the roles roughness, specular and diffuse. The diffuse lobes of OpenPBR and UsdPreviewSurface lose light at grazing
+# angles even if nothing is reflected, so light cannot be matched by them.
+ROLES = {"open_pbr_surface": ("specular_roughness", "specular_weight"),
          "standard_surface": ("specular_roughness", "specular", "base_color"),
          "gltf_pbr": ("roughness", "specular", "base_color"),
-         "UsdPreviewSurface": ("roughness", "specularColor", "diffuseColor")}
-STARTS = {"gltf_pbr": {"metallic": 0}, "UsdPreviewSurface": {"useSpecularWorkflow": 1}}
+         "UsdPreviewSurface": ("roughness", "specularColor")}
+# Values that differ from those of the definition: each model starts as a highlight of a dielectric, without diffuse.
+STARTS = {"open_pbr_surface": {"base_color": 0}, "gltf_pbr": {"metallic": 0},
+          "UsdPreviewSurface": {"useSpecularWorkflow": 1, "diffuseColor": 0}}
 SHORT = {"open_pbr_surface": "open_pbr", "UsdPreviewSurface": "usd_preview_surface"}
 
 LEAST_ROUGHNESS = 0.02  # the highlight of a smoother lobe is smaller than a pixel of most pictures

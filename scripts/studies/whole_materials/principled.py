@@ -11,7 +11,7 @@ import numpy as np
 import materialx_shaders as shaders
 
 ADAPTERS = pathlib.Path(shaders.__file__).resolve().parent
-MODEL = "cycles-5/principled"
+MODEL = "cycles-5/principled-whole"
 
 
 class Missing(Exception):
