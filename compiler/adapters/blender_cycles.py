@@ -168,7 +168,18 @@ def shader(model):
         lobe.inputs["Metallic"].default_value = 1 if kind == "principled-metal" else 0
         tree.links.new(lobe.outputs[0], output.inputs["Surface"])
         shader_of.update(lobe=lobe)
+        if kind == "principled-whole":
+            link_tangent(tree, lobe)
     return shader_of
+
+
+def link_tangent(tree, lobe):
+    """Makes tangents that run from left to right. A point cloud has none, and anisotropic highlights would be black."""
+    normal, cross = tree.nodes.new("ShaderNodeNewGeometry"), tree.nodes.new("ShaderNodeVectorMath")
+    cross.operation = "CROSS_PRODUCT"
+    cross.inputs[0].default_value = (0, 1, 0)
+    tree.links.new(normal.outputs["Normal"], cross.inputs[1])
+    tree.links.new(cross.outputs[0], lobe.inputs["Tangent"])
 
 
 def rgba(values):

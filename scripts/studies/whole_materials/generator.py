@@ -99,7 +99,8 @@ def usd_preview_surface(d):
 def principled(d):
     values = {"base_color": d.color(0.1, 0.95), "metallic": d.metalness(), "roughness": d.roughness(),
               "diffuse_roughness": d.mostly(0, 0.4, 0.1, 1), "ior": d.between(1.3, 1.8),
-              "specular_ior_level": d.mostly(0.5, 0.3, 0.1, 0.9), "specular_tint": d.tint(0.3)}
+              "specular_ior_level": d.mostly(0.5, 0.3, 0.1, 0.9), "specular_tint": d.tint(0.3),
+              "anisotropic": d.mostly(0, 0.25, 0.1, 0.8)}
     coat, sheen = d.weight(0.5), d.weight(0.3)
     if coat:
         values.update(coat_weight=coat, coat_tint=d.tint(0.5), coat_roughness=d.roughness(0.6), coat_ior=d.between(1.3, 1.8))
