@@ -98,15 +98,16 @@ def search_path():
 
 
 @functools.cache
-def libraries():
-    """Returns the document with the standard libraries of MaterialX."""
-    document = mx.createDocument()
-    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), search_path(), document)
-    return document
+def libraries(own=None):
+    """Returns the document with the standard libraries of MaterialX. The file `own` comes first: the first of a name is kept."""
+    document = read_xml(own) if own else mx.createDocument()
+    standard = mx.createDocument()
+    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), search_path(), standard)
+    document.importLibrary(standard)
+    return validated(document, own)
 
 
-def read_document(path):
-    """Returns the document of a file, with the standard libraries behind it. A file that is missing or not valid is Unusable."""
+def read_xml(path):
     document = mx.createDocument()
     if not os.path.isfile(path):
         raise Unusable(f"{path}: no such file")
@@ -114,11 +115,21 @@ def read_document(path):
         mx.readFromXmlFile(document, mx.FilePath(str(path)))
     except Exception as failure:
         raise Unusable(f"{path}: cannot be read ({str(failure).strip()})") from None
-    document.setDataLibrary(libraries())
+    return document
+
+
+def validated(document, path):
     valid, problem = document.validate()
     if not valid:
         raise Unusable(f"{path}: is not valid ({problem.strip().splitlines()[0]})")
     return document
+
+
+def read_document(path):
+    """Returns the document of a file, with the standard libraries behind it. A file that is missing or not valid is Unusable."""
+    document = read_xml(path)
+    document.setDataLibrary(libraries())
+    return validated(document, path)
 
 
 def surface_nodes(document):
@@ -271,20 +282,28 @@ def model_shader(model):
 
 
 @functools.cache
-def chain_shader(models):
-    """Returns a shader that takes values of the first of `models`, and shows the last one, by MaterialX' own translations."""
+def chain_shader(models, own=None):
+    """Returns a shader that takes values of the first of `models`, and shows the last one, by translations of MaterialX.
+
+    A file `own` has translations that come before those of the standard libraries.
+    """
     document = mx.createDocument()
-    document.setDataLibrary(libraries())
+    document.setDataLibrary(libraries(own))
     nodes = []
-    for source, target_model in zip(models, models[1:]):
-        node = document.addNode(f"{source}_to_{target_model}", f"to_{target_model}", "multioutput")
+    for source, model in zip(models, models[1:]):
+        node = document.addNode(f"{source}_to_{model}", f"to_{model}", "multioutput")
         if node.getNodeDef() is None:
-            raise Unusable(f"MaterialX has no translation from {source} to {target_model}")
+            raise Unusable(f"{own or 'MaterialX'} has no translation from {source} to {model}")
         connect(nodes[-1:], node)
         nodes.append(node)
-    shader = document.addNode(models[-1], "model", "surfaceshader")
+    shader = document.addNode(model_of(models[-1]), "model", "surfaceshader")
     connect(nodes[-1:], shader)
     return Shader(shader, nodes[0])
+
+
+def model_of(name):
+    """Returns the model of a target: a translation may have a second form, such as UsdPreviewSurface_specular."""
+    return name.removesuffix("_specular")
 
 
 def connect(sources, node):

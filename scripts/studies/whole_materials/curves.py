@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 import materialx_shaders as shaders
-from whole_materials import in_use, judge, pictures, search
+from whole_materials import in_use, pictures, search
 
 RECORD = pathlib.Path(__file__).with_name("curves.json")
 RESOLUTION = 64
@@ -110,8 +110,8 @@ def measure(curve, translations):
         found = closest(curve, stage, source, target, fixed)
         row = {"point": list(point), "closest": shown(curve, found), "error": error(target, found),
                "error_in_use": error(*in_use.shader_and_values(curve.direction, values))}
-        if curve.direction in translations:
-            ours = judge.plain(translations[curve.direction](values))
+        ours = translations.values(curve.direction, values)
+        if ours:
             row.update(ours=shown(curve, ours), error_ours=error(target, ours))
         rows.append(row)
     return rows

@@ -47,6 +47,7 @@ OFFICIAL = {("open_pbr_surface", "standard_surface"): ("open_pbr_surface", "stan
             ("standard_surface", "open_pbr_surface"): ("standard_surface", "open_pbr_surface"),
             ("open_pbr_surface", "gltf_pbr"): ("open_pbr_surface", "standard_surface", "gltf_pbr"),
             ("open_pbr_surface", "UsdPreviewSurface"): ("open_pbr_surface", "standard_surface", "UsdPreviewSurface")}
+OFFICIAL["open_pbr_surface", "UsdPreviewSurface_specular"] = OFFICIAL["open_pbr_surface", "UsdPreviewSurface"]
 COPIED = {("UsdPreviewSurface", "open_pbr_surface"): usd_to_open_pbr, ("gltf_pbr", "open_pbr_surface"): gltf_to_open_pbr,
           ("principled", "open_pbr_surface"): principled_to_open_pbr}
 
