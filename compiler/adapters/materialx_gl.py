@@ -1,7 +1,7 @@
 """MaterialX: OpenPBR, standard_surface, glTF PBR and UsdPreviewSurface, as the shaders that it generates for OpenGL show them.
 
-The prefix of the models holds the version of MaterialX, and each model that of its definition: both change pictures. Lights are the
-only light, so what is seen through a transparent surface is black. The tangent of anisotropy runs from left to right.
+Prefix and name of a model hold the versions of MaterialX and of the definition, because both change pictures. Lights are the only
+light, so what is seen through a transparent surface is black. The tangent of anisotropy runs from left to right.
 This file must not be named materialx.py, because on some systems it would be imported instead of the library.
 """
 import os

@@ -104,7 +104,7 @@ def libraries(own=None):
     standard = mx.createDocument()
     mx.loadLibraries(mx.getDefaultDataLibraryFolders(), search_path(), standard)
     document.importLibrary(standard)
-    return validated(document, own)
+    return validated(document, own) if own else document
 
 
 def read_xml(path):
@@ -285,7 +285,7 @@ def model_shader(model):
 def chain_shader(models, own=None):
     """Returns a shader that takes values of the first of `models`, and shows the last one, by translations of MaterialX.
 
-    A file `own` has translations that come before those of the standard libraries.
+    Translations of the file `own` come before the official ones.
     """
     document = mx.createDocument()
     document.setDataLibrary(libraries(own))

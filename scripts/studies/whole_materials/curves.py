@@ -1,4 +1,4 @@
-"""The five lobes without a closed form: the parameters of one lobe that look most like another, found by search over the lobe alone."""
+"""The five lobes without a closed form: the parameters of one lobe that look most like another, found by search over this lobe only."""
 import dataclasses
 import json
 import pathlib

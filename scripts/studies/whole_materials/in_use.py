@@ -1,7 +1,7 @@
 """What people use today for each direction: MaterialX' own graphs or chains of them, names that are copied, Blender's exporter."""
 import materialx_shaders as shaders
 
-# Inputs of the same meaning, by their names: those of OpenPBR, then those of the source.
+# Inputs of the same meaning: the name in OpenPBR, then the name in the source.
 OPEN_PBR_OF_USD = {"base_color": "diffuseColor", "base_metalness": "metallic", "specular_roughness": "roughness",
                    "specular_ior": "ior", "coat_weight": "clearcoat", "coat_roughness": "clearcoatRoughness",
                    "emission_color": "emissiveColor", "geometry_opacity": "opacity"}

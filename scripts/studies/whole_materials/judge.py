@@ -1,4 +1,4 @@
-"""The judgement: materials of one direction, rendered as they are, as the translation in use makes them, as ours does, and as a search can."""
+"""The judgement of one direction: materials as they are, as the translation in use makes them, as ours does, as a search can."""
 import importlib.util
 import pathlib
 
