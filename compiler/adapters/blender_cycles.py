@@ -37,6 +37,24 @@ MODELS += [
 ]
 
 
+def other(name, least, most, default, **more):
+    return parameter(name, "other", least, most, default=default, **more)
+
+
+# The whole Principled BSDF with its default distribution. Inputs are named as the sockets. Subsurface has noise, and transmission
+# and alpha show what is behind the sphere, so they are not here.
+if MODERN:
+    MODELS.append({"name": f"{PREFIX}/principled-whole", "parameters": [
+        ROUGHNESS, parameter("specular_ior_level", "specular", 0, 1, grey=True), parameter("base_color", "diffuse", 0, 1),
+        other("metallic", 0, 1, 0, grey=True), other("ior", 1, 4, 1.5, grey=True), other("specular_tint", 0, 1, 1),
+        other("diffuse_roughness", 0, 1, 0, grey=True), other("anisotropic", 0, 1, 0, grey=True),
+        other("anisotropic_rotation", 0, 1, 0, grey=True), other("coat_weight", 0, 1, 0, grey=True),
+        other("coat_roughness", 0, 1, 0.03, grey=True), other("coat_ior", 1, 4, 1.5, grey=True), other("coat_tint", 0, 1, 1),
+        other("sheen_weight", 0, 1, 0, grey=True), other("sheen_roughness", 0, 1, 0.5, grey=True), other("sheen_tint", 0, 1, 1),
+        other("emission_color", 0, 1, 1), other("emission_strength", 0, 1000, 0, grey=True),
+        other("thin_film_thickness", 0, 100000, 0, grey=True), other("thin_film_ior", 1, 4, 1.33, grey=True)]})
+
+
 def describe(threads):
     make_scene(threads)
     return {"renderer": f"Cycles of Blender {bpy.app.version_string}", "models": MODELS, "meshes": True}
@@ -146,11 +164,22 @@ def shader(model):
         shader_of.update(lobe=lobe, paint=paint)
     else:
         lobe = tree.nodes.new("ShaderNodeBsdfPrincipled")
-        lobe.distribution = "GGX"
+        lobe.distribution = "MULTI_GGX" if kind == "principled-whole" else "GGX"
         lobe.inputs["Metallic"].default_value = 1 if kind == "principled-metal" else 0
         tree.links.new(lobe.outputs[0], output.inputs["Surface"])
         shader_of.update(lobe=lobe)
+        if kind == "principled-whole":
+            link_tangent(tree, lobe)
     return shader_of
+
+
+def link_tangent(tree, lobe):
+    """Makes tangents that run from left to right. A point cloud has none, and anisotropic highlights would be black."""
+    normal, cross = tree.nodes.new("ShaderNodeNewGeometry"), tree.nodes.new("ShaderNodeVectorMath")
+    cross.operation = "CROSS_PRODUCT"
+    cross.inputs[0].default_value = (0, 1, 0)
+    tree.links.new(normal.outputs["Normal"], cross.inputs[1])
+    tree.links.new(cross.outputs[0], lobe.inputs["Tangent"])
 
 
 def rgba(values):
@@ -160,6 +189,11 @@ def rgba(values):
 def set_material(model, values):
     nodes = shader(model)
     inputs = nodes["lobe"].inputs
+    if model.endswith("/principled-whole"):
+        sockets = {socket.name.lower().replace(" ", "_"): socket for socket in inputs}
+        for name, value in values.items():
+            sockets[name].default_value = rgba(value) if sockets[name].type == "RGBA" else value[0]
+        return
     inputs["Roughness"].default_value = values["roughness"][0]
     if nodes["paint"] is not None:
         inputs["Color"].default_value = rgba(values["color"])
