@@ -58,25 +58,6 @@ std::vector<Statement> used(std::vector<Statement> statements) {
   return statements;
 }
 
-<<<<<<< HEAD:compiler/emit/converter_formula.cpp
-=======
-// Returns how strongly an operation binds.
-int rank_of(const Expression& expression) {
-  switch (expression.op) {
-    case Op::kAdd:
-    case Op::kSubtract:
-      return 1;
-    case Op::kMultiply:
-    case Op::kDivide:
-      return 2;
-    case Op::kNumber:
-      return std::signbit(expression.number) ? 2 : 3;
-    default:
-      return 3;
-  }
-}
-
->>>>>>> 84c1bb0be9d34f059dd8a7fed2a49f7f75afdd4e:compiler/emit/formula.cpp
 }  // namespace
 
 Expression alpha_of(RoughnessEncoding convention, const std::string& parameter) {

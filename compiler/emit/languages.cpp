@@ -47,17 +47,7 @@ Parts parts_of(const Fit& fit) {
   return parts;
 }
 
-<<<<<<< HEAD
 // A line for each statement: `start`, name and value. An output begins with `last` instead.
-=======
-std::vector<std::string> color_names(const Parts& parts) {
-  std::vector<std::string> names = {"specular"};
-  for (const Statement& statement : parts.colors) names.push_back(statement.name);
-  return names;
-}
-
-// Returns a line for each statement: `start`, name and value. An output begins with `last` instead.
->>>>>>> 84c1bb0be9d34f059dd8a7fed2a49f7f75afdd4e
 std::string lines_of(const std::vector<Statement>& statements, const Notation& notation,
                      const std::string& start, const std::string& last, const std::string& end) {
   const std::vector<std::string> colors =
@@ -112,83 +102,6 @@ std::string shader_function(const Parts& parts, const std::string& color_type) {
          lines_of(parts.colors, notation, "  " + color_type + " ", "  specular = ", ";") + "}\n";
 }
 
-<<<<<<< HEAD
-=======
-// A NodeWriter writes statements as nodes of a graph.
-class NodeWriter {
- public:
-  NodeWriter(const std::vector<std::string>& colors, std::string& nodes) : colors_(colors), nodes_(nodes) {}
-
-  void write(const Statement& statement) { write(statement.value, node_of(statement.name)); }
-
-  // Returns the node of a statement. An output has the name itself.
-  static std::string node_of(const std::string& name) {
-    return name.ends_with("_out") ? name.substr(0, name.size() - 4) + "_value" : name;
-  }
-
- private:
-  // A Term is an input of a node: `nodename="..."`.
-  struct Term {
-    bool is_color;
-    std::string attribute;
-  };
-
-  Term write(const Expression& expression, const std::string& name) {
-    switch (expression.op) {
-      case Op::kNumber:
-        return {false, "value=\"" + plain_number(expression.number) + "\""};
-      case Op::kName: {
-        const bool is_input = expression.name == "width" || expression.name == "specular";
-        return {std::ranges::find(colors_, expression.name) != colors_.end(),
-                (is_input ? "interfacename=\"" : "nodename=\"") + expression.name + "\""};
-      }
-      case Op::kLargest:
-        return largest(expression.name, name);
-      case Op::kRoot:
-        return node("sqrt", {write(expression.terms[0], next())}, name);
-      default:
-        break;
-    }
-    static const std::map<Op, const char*> kNodes = {{Op::kAdd, "add"},           {Op::kSubtract, "subtract"},
-                                                     {Op::kMultiply, "multiply"}, {Op::kDivide, "divide"},
-                                                     {Op::kMin, "min"},           {Op::kMax, "max"}};
-    Term a = write(expression.terms[0], next()), b = write(expression.terms[1], next());
-    // MaterialX allows a color and a float as inputs of a node only if the color is the first input.
-    if (!a.is_color && b.is_color) std::swap(a, b);
-    return node(kNodes.at(expression.op), {a, b}, name);
-  }
-
-  Term largest(const std::string& color, const std::string& name) {
-    std::vector<Term> channels;
-    for (const char* index : {"0", "1", "2"}) {
-      const std::string id = next();
-      nodes_ += "    <extract name=\"" + id +
-                "\" type=\"float\">\n      <input name=\"in\" type=\"color3\" interfacename=\"" + color +
-                "\" />\n      <input name=\"index\" type=\"integer\" value=\"" + index +
-                "\" />\n    </extract>\n";
-      channels.push_back({false, "nodename=\"" + id + "\""});
-    }
-    return node("max", {node("max", {channels[0], channels[1]}, next()), channels[2]}, name);
-  }
-
-  Term node(const std::string& kind, const std::vector<Term>& terms, const std::string& name) {
-    const auto type = [](bool is_color) { return std::string(is_color ? "color3" : "float"); };
-    nodes_ += "    <" + kind + " name=\"" + name + "\" type=\"" + type(terms[0].is_color) + "\">\n";
-    for (std::size_t i = 0; i < terms.size(); ++i)
-      nodes_ += "      <input name=\"in" + (terms.size() == 1 ? "" : std::to_string(i + 1)) + "\" type=\"" +
-                type(terms[i].is_color) + "\" " + terms[i].attribute + " />\n";
-    nodes_ += "    </" + kind + ">\n";
-    return {terms[0].is_color, "nodename=\"" + name + "\""};
-  }
-
-  std::string next() { return "n" + std::to_string(++count_); }
-
-  const std::vector<std::string>& colors_;
-  std::string& nodes_;
-  int count_ = 0;
-};
-
->>>>>>> 84c1bb0be9d34f059dd8a7fed2a49f7f75afdd4e
 std::string material_function(const Parts& parts) {
   GraphWriter writer({{"width", ValueType::kNumber}, {"specular", ValueType::kColor}});
   for (const std::vector<Statement>* statements : {&parts.numbers, &parts.colors})

@@ -448,6 +448,18 @@ auto anisotropy_factor(T0 a) {
   return stretch(1.0f - least(a, 0.98f));
 }
 
+// The roughness of a round highlight that differs least from a stretched one, divided by OpenPBR's roughness. From Gaussian lobes of the
+// same energy: the square of the round width is this polynomial of the ratio b of the stretched widths; error .01.
+template <class T0>
+auto round_by(T0 b) {
+  return root(root(2.0f * (0.22f + b * (0.45f + 0.33f * b)) / (1.0f + square(b))));
+}
+
+template <class T0>
+auto round_factor(T0 a) {
+  return round_by(1.0f - least(a, 0.98f));
+}
+
 // The reflectance of a conductor with the artistic index of refraction (Gulbrandsen 2014) at the cosine 1/7, where F82 is
 // defined, divided by Schlick's: `low` without edge colour, `low + range` with a white one, and a hyperbola between them. Polynomials
 // of the reflectance r at normal incidence, from .02 to .95, by least squares; error below .04.
@@ -600,7 +612,7 @@ inline UsdPreviewSurface open_pbr_surface_to_UsdPreviewSurface(const OpenPbrSurf
   const float s = source.specular_weight;
   const float coat_f0 = f0(source.coat_ior);
   const float f = least(s * f0(below_coat(source.specular_ior, source.coat_ior, w)), 0.98f);
-  const float base_roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) / anisotropy_factor(source.specular_roughness_anisotropy);
+  const float base_roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) * round_factor(source.specular_roughness_anisotropy);
   target.roughness = base_roughness;
   const float k = 1.0f - (1.0f - coat_f0) / square(source.coat_ior);
   const Color dielectric_albedo = mix(source.base_color, source.subsurface_color, source.subsurface_weight);
@@ -620,7 +632,7 @@ inline UsdPreviewSurface open_pbr_surface_to_UsdPreviewSurface(const OpenPbrSurf
   const float shown = most(1e-04f, (base_f > lobe_f ? base_f : mean_f));
   target.ior = ior_of(shown);
   target.clearcoat = least(1.0f, lobe_f / shown);
-  target.clearcoatRoughness = source.coat_roughness / anisotropy_factor(source.coat_roughness_anisotropy);
+  target.clearcoatRoughness = source.coat_roughness * round_factor(source.coat_roughness_anisotropy);
   target.emissiveColor = source.emission_color * source.emission_luminance * mix(1.0f, source.coat_color * (1.0f - coat_f0), w);
   target.opacity = source.geometry_opacity;
   return target;
@@ -636,7 +648,7 @@ inline UsdPreviewSurface open_pbr_surface_to_UsdPreviewSurface_specular(const Op
   const float coat_f0 = f0(source.coat_ior);
   const float f = least(s * f0(below_coat(source.specular_ior, source.coat_ior, w)), 0.98f);
   target.useSpecularWorkflow = 1.0f;
-  target.roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) / anisotropy_factor(source.specular_roughness_anisotropy);
+  target.roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) * round_factor(source.specular_roughness_anisotropy);
   const float k = 1.0f - (1.0f - coat_f0) / square(source.coat_ior);
   const Color dielectric_albedo = mix(source.base_color, source.subsurface_color, source.subsurface_weight);
   const Color albedo = mix(dielectric_albedo, s * source.base_color, m);
@@ -647,7 +659,7 @@ inline UsdPreviewSurface open_pbr_surface_to_UsdPreviewSurface_specular(const Op
   // The IOR is free for the coat.
   target.ior = source.coat_ior;
   target.clearcoat = w;
-  target.clearcoatRoughness = source.coat_roughness / anisotropy_factor(source.coat_roughness_anisotropy);
+  target.clearcoatRoughness = source.coat_roughness * round_factor(source.coat_roughness_anisotropy);
   target.emissiveColor = source.emission_color * source.emission_luminance * mix(1.0f, source.coat_color * (1.0f - coat_f0), w);
   target.opacity = source.geometry_opacity;
   return target;
@@ -685,7 +697,7 @@ inline GltfPbr open_pbr_surface_to_gltf_pbr(const OpenPbrSurface& source) {
   target.specular_color = below * source.specular_color;
   // The coat of glTF has an IOR of 1.5; another F0 changes its weight.
   target.clearcoat = least(1.0f, w * coat_f0 / 0.04f);
-  target.clearcoat_roughness = source.coat_roughness / anisotropy_factor(source.coat_roughness_anisotropy);
+  target.clearcoat_roughness = source.coat_roughness * round_factor(source.coat_roughness_anisotropy);
   const float sheen_weight = source.fuzz_weight * most(1.95f * source.fuzz_roughness - 0.385f, 1.1f * source.fuzz_roughness);
   target.sheen_color = least(1.0f, source.fuzz_color * sheen_weight / (1.0f - 1.6f * w * coat_f0));
   target.sheen_roughness = least(1.0f, root(std::exp(8.3f * (source.fuzz_roughness - 0.8f))));

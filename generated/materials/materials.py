@@ -259,6 +259,16 @@ def anisotropy_factor(a):
     return stretch(1 - np.minimum(a, 0.98))
 
 
+def round_by(b):
+    # The roughness of a round highlight that differs least from a stretched one, divided by OpenPBR's roughness. From Gaussian lobes of the
+    # same energy: the square of the round width is this polynomial of the ratio b of the stretched widths; error .01.
+    return np.sqrt(np.sqrt(2 * (0.22 + b * (0.45 + 0.33 * b)) / (1 + np.square(b))))
+
+
+def round_factor(a):
+    return round_by(1 - np.minimum(a, 0.98))
+
+
 def edge_low_by(x):
     # The reflectance of a conductor with the artistic index of refraction (Gulbrandsen 2014) at the cosine 1/7, where F82 is
     # defined, divided by Schlick's: `low` without edge colour, `low + range` with a white one, and a hyperbola between them. Polynomials
@@ -405,7 +415,7 @@ def open_pbr_surface_to_UsdPreviewSurface(material):
         s = source.specular_weight
         coat_f0 = f0(source.coat_ior)
         f = np.minimum(s * f0(below_coat(source.specular_ior, source.coat_ior, w)), 0.98)
-        base_roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) / anisotropy_factor(source.specular_roughness_anisotropy)
+        base_roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) * round_factor(source.specular_roughness_anisotropy)
         target.roughness = base_roughness
         k = 1 - (1 - coat_f0) / np.square(source.coat_ior)
         dielectric_albedo = _mix(source.base_color, source.subsurface_color, source.subsurface_weight)
@@ -425,7 +435,7 @@ def open_pbr_surface_to_UsdPreviewSurface(material):
         shown = np.maximum(1e-04, np.where(base_f > lobe_f, base_f, mean_f))
         target.ior = ior_of(shown)
         target.clearcoat = np.minimum(1, lobe_f / shown)
-        target.clearcoatRoughness = source.coat_roughness / anisotropy_factor(source.coat_roughness_anisotropy)
+        target.clearcoatRoughness = source.coat_roughness * round_factor(source.coat_roughness_anisotropy)
         target.emissiveColor = _color(source.emission_color * source.emission_luminance * _mix(1, source.coat_color * (1 - coat_f0), w))
         target.opacity = source.geometry_opacity
     return _result("UsdPreviewSurface", target)
@@ -442,7 +452,7 @@ def open_pbr_surface_to_UsdPreviewSurface_specular(material):
         coat_f0 = f0(source.coat_ior)
         f = np.minimum(s * f0(below_coat(source.specular_ior, source.coat_ior, w)), 0.98)
         target.useSpecularWorkflow = 1
-        target.roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) / anisotropy_factor(source.specular_roughness_anisotropy)
+        target.roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) * round_factor(source.specular_roughness_anisotropy)
         k = 1 - (1 - coat_f0) / np.square(source.coat_ior)
         dielectric_albedo = _mix(source.base_color, source.subsurface_color, source.subsurface_weight)
         albedo = _mix(dielectric_albedo, s * source.base_color, m)
@@ -453,7 +463,7 @@ def open_pbr_surface_to_UsdPreviewSurface_specular(material):
         # The IOR is free for the coat.
         target.ior = source.coat_ior
         target.clearcoat = w
-        target.clearcoatRoughness = source.coat_roughness / anisotropy_factor(source.coat_roughness_anisotropy)
+        target.clearcoatRoughness = source.coat_roughness * round_factor(source.coat_roughness_anisotropy)
         target.emissiveColor = _color(source.emission_color * source.emission_luminance * _mix(1, source.coat_color * (1 - coat_f0), w))
         target.opacity = source.geometry_opacity
     return _result("UsdPreviewSurface", target)
@@ -492,7 +502,7 @@ def open_pbr_surface_to_gltf_pbr(material):
         target.specular_color = _color(below * source.specular_color)
         # The coat of glTF has an IOR of 1.5; another F0 changes its weight.
         target.clearcoat = np.minimum(1, w * coat_f0 / 0.04)
-        target.clearcoat_roughness = source.coat_roughness / anisotropy_factor(source.coat_roughness_anisotropy)
+        target.clearcoat_roughness = source.coat_roughness * round_factor(source.coat_roughness_anisotropy)
         sheen_weight = source.fuzz_weight * np.maximum(1.95 * source.fuzz_roughness - 0.385, 1.1 * source.fuzz_roughness)
         target.sheen_color = _color(np.minimum(1, source.fuzz_color * sheen_weight / (1 - 1.6 * w * coat_f0)))
         target.sheen_roughness = np.minimum(1, np.sqrt(np.exp(8.3 * (source.fuzz_roughness - 0.8))))
