@@ -34,7 +34,7 @@ expect "texremap convert --threads 4 --qui" "--quiet"
 expect "texremap us" ""
 . packages/python/completions/bash/texremap
 expect "texremap us" "usd"
-expect "texremap usd --to " "metallic specular"
+expect "texremap usd --to " "openpbr preview metallic specular"
 expect "texremap usd -o " ""                   # files
 expect "texremap usd --dr" "--dry-run"
 expect "texremap convert --qui" "--quiet"
