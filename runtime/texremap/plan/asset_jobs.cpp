@@ -53,7 +53,8 @@ void add_named(const ConvertOptions& options, JobList& list) {
     const fs::path root = options.asset_root.empty() ? folder_of_asset(input) : options.asset_root;
     const fs::path below = input.lexically_normal().lexically_relative(root.lexically_normal());
     if (below.empty() || *below.begin() == "..")
-      throw usage_error("--root " + root.string() + ": " + display_path(input) + " does not lie below it");
+      throw usage_error("--root " + root.string() + ": " + display_path(input) +
+                        " is not inside this folder");
     add({input, options.output / result_name(below, options), root, options.output}, list);
   }
 }
@@ -74,8 +75,8 @@ void add_tree(const ConvertOptions& options, JobList& list) {
   for (const WalkProblem& problem : walk.problems) list.skipped.push_back({problem.message, true});
   list.is_of_folder = list.has_several = true;
   if (list.jobs.empty())
-    throw usage_error(display_path(options.folder) + ": no " + asset_words(options.format) + " in it" +
-                      (options.recursive ? "" : " (--recursive looks into its subfolders)"));
+    throw usage_error(display_path(options.folder) + ": contains no " + asset_words(options.format) +
+                      (options.recursive ? "" : " (--recursive also searches its subfolders)"));
 }
 
 void add_listed(const ConvertOptions& options, const Listing& listing, JobList& list) {

@@ -70,8 +70,8 @@ void require_outside(const std::filesystem::path& output, const std::filesystem:
       std::filesystem::weakly_canonical(output, failure)
           .lexically_relative(std::filesystem::weakly_canonical(tree, failure));
   if (!output.empty() && !below.empty() && *below.begin() != "..")
-    throw usage_error("--output " + output.string() + ": lies in " + tree.string() +
-                      ", the tree of the manifest (choose a folder outside of it)");
+    throw usage_error("--output " + output.string() + ": is inside " + tree.string() +
+                      ", the folder of the manifest (choose a folder outside " + tree.string() + ")");
 }
 
 // Returns a warning if roughness maps of a folder are read in an encoding that few tools write, or "".
@@ -84,7 +84,7 @@ std::string encoding_warning(const ConvertOptions& options, const JobList& list,
   if (!matters) return "";
   return "warning: roughness maps are read as " + std::string(encoding_name(source.roughness)) +
          ", the parameter of " + source.model +
-         " (use --roughness-encoding roughness if they hold its square root)";
+         " (if the maps hold the square root of alpha, use --roughness-encoding roughness)";
 }
 
 // Reads the entries of this run from the manifest, if there is one. DIR becomes the root of the tree.
