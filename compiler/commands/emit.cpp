@@ -42,7 +42,8 @@ FitFolder chosen_fits(const EmitCommand& options) {
 // Returns a file for each named fit.
 std::vector<GeneratedFile> generate_functions(const EmitCommand& options, const FitFolder& chosen) {
   if (!chosen.workflows.empty() || !chosen.warps.empty())
-    throw usage_error("--language: converters of whole materials are C++ headers only");
+    throw usage_error(
+        "--language: converters of whole materials can only become C++ headers (remove this option)");
   std::vector<GeneratedFile> files;
   for (const Fit& fit : chosen.fits)
     files.push_back({options.output / (fit.id + extension_of(*options.language)),

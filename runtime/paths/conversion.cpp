@@ -101,9 +101,9 @@ void choose_diffuse(const ConversionRequest& request, const WorkflowModel& sourc
   }
   const bool is_plain = diffuse_of(known) == DiffuseConvention::kPlain;
   choice.assumptions.push_back(
-      "the diffuse color of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
-      (open.size() == 1 ? ", as in " + model_of(known) : "") + " (" + request.words.diffuse_convention + " " +
-      (is_plain ? "scaled" : "plain") + " changes that)");
+      "the diffuse convention of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
+      (open.size() == 1 ? ", as in " + model_of(known) : "") + " (if not, use " +
+      request.words.diffuse_convention + " " + (is_plain ? "scaled" : "plain") + ")");
 }
 
 void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {

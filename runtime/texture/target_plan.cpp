@@ -291,9 +291,9 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   }
   for (const CarriedParameter& carried : set.carried) {
     if (!carried.parameter.is_map())
-      throw Error(ErrorKind::kUsage, "--" + carried.name +
-                                         ": a number has no place in --layout as-inputs (give a map, or use "
-                                         "another layout)");
+      throw Error(ErrorKind::kUsage,
+                  "--" + carried.name +
+                      ": --layout as-inputs cannot store a number (give a map, or use another layout)");
     const fs::path& source = set.maps[carried.parameter.channels.front().map].path();
     const auto is_written = [&](const PlannedMap& map) {
       return same_file(set.maps[map.parts.front().model].path(), source);

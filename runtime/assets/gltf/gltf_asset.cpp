@@ -9,6 +9,7 @@
 #include "assets/gltf/gltf_conversion.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
+#include "core/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -106,7 +107,7 @@ class ViewCheck {
                         std::to_string(lengths_.size()));
     if (const std::size_t size = lengths_[*buffer]; *offset + *length > size)
       throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
-                        std::to_string(*buffer) + ", which has " + std::to_string(size));
+                        std::to_string(*buffer) + ", but the buffer has only " + counted(size, "byte"));
   }
 
   SpanValue root_;

@@ -54,10 +54,12 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
     texels += report.statistics.texel_count;
     materials += report.count(MaterialState::kConverted);
   }
-  std::string text = counted(done, noun_of(list.kind)) +
-                     (plan.dry_run ? " would be converted" : " converted") +
-                     (plan.sets() == nullptr ? "" : " by " + converter_text(plan.sets()->chosen)) + ", " +
-                     std::to_string(outcome.failed_count()) + " failed";
+  std::string text =
+      counted(done, noun_of(list.kind)) + (plan.dry_run ? " would be converted" : " converted") +
+      (plan.sets() == nullptr ? ""
+                              : (plan.sets()->chosen.workflow.is_material() ? " from " : " by ") +
+                                    converter_text(plan.sets()->chosen)) +
+      ", " + std::to_string(outcome.failed_count()) + " failed";
   if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
   if (!plan.dry_run)
     text += "; " + (plan.sets() == nullptr ? counted(materials, "material") : counted(texels, "texel")) +
