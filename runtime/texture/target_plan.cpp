@@ -139,7 +139,7 @@ ColorStorage color_storage(const TextureSet& set, Parameter parameter, const Tar
   return storage;
 }
 
-// Returns a new map, for a parameter that is a constant in the set or is in another file there.
+// Returns a new map for a parameter. In the set, the parameter is a constant or part of another file.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
   TargetPart part{set.first_map(), changes_of(choice), std::move(channels)};

@@ -68,7 +68,7 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
   say(text);
 }
 
-// Throws if an entry failed, or a material of a single asset.
+// Throws if an entry failed. For a single asset, also throws if one of its materials failed.
 void require_success(const Outcome& outcome) {
   const JobList& list = outcome.plan.list;
   const std::size_t all = outcome.reports.size() + list.skipped.size();

@@ -21,7 +21,7 @@ namespace {
 
 using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
 
-// Returns each file once, because a file of several parts is several maps.
+// Returns each file once, although each part of a file is a map of its own.
 OpenFiles files_of(const TextureSet& set) {
   OpenFiles files;
   for (const ImageReader& map : set.maps)
